@@ -1,0 +1,127 @@
+//! Row-major images of anything, and the hash of their pixels.
+
+/// An image: `width x height` values, rows from the top.
+///
+/// # Guarantees
+/// `values().len() == width * height`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Buffer<T> {
+    width: usize,
+    height: usize,
+    values: Vec<T>,
+}
+
+impl<T: Clone> Buffer<T> {
+    /// An image of one value.
+    pub fn filled(width: usize, height: usize, value: T) -> Self {
+        Self {
+            width,
+            height,
+            values: vec![value; width * height],
+        }
+    }
+}
+
+impl<T> Buffer<T> {
+    /// An image of these values, rows from the top.
+    ///
+    /// # Panics
+    /// When there are not `width * height` values.
+    pub fn from_values(width: usize, height: usize, values: Vec<T>) -> Self {
+        assert_eq!(values.len(), width * height, "a buffer's values must fill it");
+        Self {
+            width,
+            height,
+            values,
+        }
+    }
+
+    /// Pixels a row.
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Rows.
+    pub fn height(&self) -> usize {
+        self.height
+    }
+
+    /// All values, rows from the top.
+    pub fn values(&self) -> &[T] {
+        &self.values
+    }
+
+    /// All values, rows from the top.
+    pub fn values_mut(&mut self) -> &mut [T] {
+        &mut self.values
+    }
+
+    /// The value of pixel (x, y).
+    ///
+    /// # Panics
+    /// Outside the image.
+    #[inline]
+    pub fn at(&self, x: usize, y: usize) -> &T {
+        assert!(x < self.width, "pixel column outside the buffer");
+        &self.values[y * self.width + x]
+    }
+
+    /// One row.
+    ///
+    /// # Panics
+    /// Outside the image.
+    #[inline]
+    pub fn row(&self, y: usize) -> &[T] {
+        &self.values[y * self.width..(y + 1) * self.width]
+    }
+
+    /// The image of `f` of each value.
+    pub fn map<U>(&self, f: impl FnMut(&T) -> U) -> Buffer<U> {
+        Buffer {
+            width: self.width,
+            height: self.height,
+            values: self.values.iter().map(f).collect(),
+        }
+    }
+}
+
+/// A pixel's bytes in a fixed (little-endian) order, for hashing and writing.
+pub trait PixelBytes {
+    /// Appends the bytes of one pixel.
+    fn push_bytes(&self, out: &mut Vec<u8>);
+}
+
+macro_rules! number_bytes {
+    ($($t:ty),*) => {$(
+        impl PixelBytes for $t {
+            fn push_bytes(&self, out: &mut Vec<u8>) {
+                out.extend_from_slice(&self.to_le_bytes());
+            }
+        }
+    )*};
+}
+number_bytes!(u8, u16, u32, u64, f32, f64);
+
+impl<T: PixelBytes, const N: usize> PixelBytes for [T; N] {
+    fn push_bytes(&self, out: &mut Vec<u8>) {
+        for v in self {
+            v.push_bytes(out);
+        }
+    }
+}
+
+impl<T: PixelBytes> Buffer<T> {
+    /// BLAKE3 over the pixel values in row order (little-endian), in hexadecimal: it survives re-encoding.
+    pub fn hash(&self) -> String {
+        let mut hasher = blake3::Hasher::new();
+        let mut bytes = Vec::new();
+        for row in self.values.chunks(self.width.max(1)) {
+            bytes.clear();
+            for v in row {
+                v.push_bytes(&mut bytes);
+            }
+            hasher.update(&bytes);
+        }
+        hasher.finalize().to_hex().to_string()
+    }
+}

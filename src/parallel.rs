@@ -1,0 +1,44 @@
+//! Ordered parallel maps: the sole user of rayon.
+//!
+//! Work is cut by the caller into items whose results depend on the items alone; results come back in the items'
+//! order, so that no number depends on the number of threads.
+
+use crate::error::{Error, Result};
+use rayon::prelude::*;
+
+/// `f` of every item, in the order of the items.
+pub fn map<T: Sync, U: Send>(items: &[T], f: impl Fn(&T) -> U + Send + Sync) -> Vec<U> {
+    items.par_iter().map(f).collect()
+}
+
+/// `f` of every index below `n`, in order.
+pub fn map_indices<U: Send>(n: usize, f: impl Fn(usize) -> U + Send + Sync) -> Vec<U> {
+    (0..n).into_par_iter().map(f).collect()
+}
+
+/// Runs `f` over consecutive chunks of `chunk` values, each with its index.
+pub fn for_each_chunk<T: Send>(values: &mut [T], chunk: usize, f: impl Fn(usize, &mut [T]) + Send + Sync) {
+    values
+        .par_chunks_mut(chunk)
+        .enumerate()
+        .for_each(|(i, c)| f(i, c));
+}
+
+/// Sorts by a key; equal keys keep their order.
+pub fn sort_by_key<T: Send, K: Ord>(values: &mut [T], key: impl Fn(&T) -> K + Sync) {
+    values.par_sort_by_key(key);
+}
+
+/// Runs `f` with `threads` threads (0: as many as the machine has).
+///
+/// # Errors
+/// When the machine refuses the threads.
+pub fn with_threads<U: Send>(threads: usize, f: impl FnOnce() -> U + Send) -> Result<U> {
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .map_err(|e| {
+            Error::new(format!("cannot start {threads} threads: {e}")).help("use a smaller --threads")
+        })?;
+    Ok(pool.install(f))
+}

@@ -1,0 +1,1 @@
+//! The scene file: what a person wrote, checked.

@@ -1,0 +1,136 @@
+//! Vector layers and their styles.
+
+use super::Color;
+use crate::space::Plan;
+
+/// Features of one style, drawn in file order.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Layer {
+    /// The layer's name.
+    pub name: String,
+    /// How its features look.
+    pub style: Style,
+    /// Its features in draw order.
+    pub features: Vec<Feature>,
+}
+
+/// One feature: a road, a lake.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Feature {
+    /// Its number in the file, from 0.
+    pub index: usize,
+    /// Its geometry.
+    pub shape: Shape,
+}
+
+/// A feature's geometry (scene-local plan coordinates in a [`super::Scene`], the file's own when a source returns it).
+///
+/// # Guarantees (kept by the sources)
+/// Every coordinate is finite. Rings are stored without the closing vertex. Anything may be degenerate: rings of one
+/// point, segments of no length, overlaps.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Shape {
+    /// The rings of a polygon or of all parts of a multi-polygon; the layer's rule says what is inside.
+    Polygon(Vec<Vec<Plan>>),
+    /// The polylines of a (multi-)line.
+    Line(Vec<Vec<Plan>>),
+}
+
+/// How a layer's features look. Polygons take `fill` and `outline`, lines take `line`.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Style {
+    /// The inside of polygons.
+    pub fill: Option<Fill>,
+    /// The border of polygons, drawn over the fill.
+    pub outline: Option<Outline>,
+    /// Lines.
+    pub line: Option<Line>,
+}
+
+/// The inside of polygons.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fill {
+    /// The colour; its alpha has already been multiplied by the opacity.
+    pub color: Color,
+    /// What is inside.
+    pub rule: Rule,
+}
+
+/// Which points rings enclose.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Rule {
+    /// Points enclosed an odd number of times.
+    #[default]
+    EvenOdd,
+    /// Points with a winding number other than zero.
+    NonZero,
+}
+
+/// The border of polygons.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Outline {
+    /// The stroke along the rings.
+    pub line: Line,
+    /// Which side of the border is drawn.
+    pub mode: OutlineMode,
+}
+
+/// Which part of an outline's stroke is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum OutlineMode {
+    /// Its intersection with the inside.
+    Inset,
+    /// All of it.
+    #[default]
+    Normal,
+    /// Its intersection with the outside.
+    Offset,
+}
+
+/// A stroke along a polyline.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Line {
+    /// The colour; its alpha has already been multiplied by the opacity.
+    pub color: Color,
+    /// How wide.
+    pub width: Width,
+    /// How segments meet.
+    pub join: Join,
+    /// How the line ends.
+    pub cap: Cap,
+}
+
+/// A line's width: whole, not half.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Width {
+    /// Metres in the plan (static).
+    Metres(f64),
+    /// Pixels on the screen (dynamic).
+    Pixels(f64),
+}
+
+/// How segments meet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Join {
+    /// A disc of the width's diameter.
+    Round,
+    /// The strokes' edges run on until they meet, unless farther than `limit` half-widths: then as bevel.
+    Miter {
+        /// The largest ratio of miter length to width (at least 1).
+        limit: f64,
+    },
+    /// The triangle between the strokes' corners.
+    Bevel,
+}
+
+/// How a line ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Cap {
+    /// At the end point.
+    #[default]
+    Butt,
+    /// Half a width on.
+    Square,
+    /// A half disc.
+    Round,
+}

@@ -1,0 +1,204 @@
+//! What is drawn: terrain data, vector layers, camera, styles and the machine to imitate.
+//!
+//! Input: nothing (plain data). Output: [`Scene`], which every later room reads and none changes. It refuses nothing
+//! itself; [`file`] checks what a person wrote and `source` checks what the files hold.
+
+mod camera;
+pub mod file;
+mod layer;
+mod settings;
+
+pub use camera::{Camera, Projection};
+pub use layer::{Cap, Feature, Fill, Join, Layer, Line, Outline, OutlineMode, Rule, Shape, Style, Width};
+pub use settings::{
+    BlendMode, BlendSpace, Color, Compositing, Corners, DepthFormat, Device, ImageSettings,
+    InverseProjection, PointInPolygon, Precision, Silhouette, TechniqueSettings,
+};
+
+use crate::space::{Plan, World};
+use glam::DVec2;
+
+/// Everything a picture depends on, in memory, in scene-local coordinates.
+#[derive(Debug, Clone)]
+pub struct Scene {
+    /// The scene's name.
+    pub name: String,
+    /// Absolute plan coordinates (metres in the scene's CRS) of the local zero point.
+    pub origin: DVec2,
+    /// What the plan space is, in words (`EPSG:32733`, or the local plane and its centre).
+    pub plan_space: String,
+    /// Size and background.
+    pub image: ImageSettings,
+    /// From where it is seen.
+    pub camera: Camera,
+    /// The terrain's heights.
+    pub surface: Surface,
+    /// How cells of a grid are split.
+    pub diagonal: Diagonal,
+    /// The terrain's own colour.
+    pub ground: Ground,
+    /// Vector layers, drawn in this order.
+    pub layers: Vec<Layer>,
+    /// How colours are composed.
+    pub compositing: Compositing,
+    /// The machine to imitate.
+    pub device: Device,
+    /// Parameters of the techniques.
+    pub technique: TechniqueSettings,
+    /// What the user should know about the input (a layer in another CRS, points left out, ...).
+    pub notes: Vec<String>,
+}
+
+/// The terrain's heights, before triangulation.
+#[derive(Debug, Clone)]
+pub enum Surface {
+    /// Heights at the posts of a regular grid.
+    Grid(Posts),
+    /// Scattered points, to be triangulated (Delaunay).
+    Points(Vec<World>),
+}
+
+/// Heights at the posts of a regular, possibly sheared or rotated grid.
+///
+/// Post (i, j) stands at `first + i * east + j * north`; `heights[j * columns + i]` is its height in metres, NaN where
+/// there is no data. `first` is relative to whatever origin the owner says: absolute file coordinates as a source
+/// returns them, scene-local ones in a [`Scene`].
+///
+/// # Guarantees (kept by the sources, checked by [`Posts::new`])
+/// At least 2 x 2 posts, finite steps with `east x north > 0`, and no infinite height.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Posts {
+    columns: usize,
+    rows: usize,
+    /// Where post (0, 0) stands.
+    pub first: Plan,
+    east: DVec2,
+    north: DVec2,
+    heights: Vec<f64>,
+}
+
+impl Posts {
+    /// A grid of posts.
+    ///
+    /// # Errors
+    /// When a guarantee does not hold; the message names it.
+    pub fn new(
+        (columns, rows): (usize, usize),
+        first: Plan,
+        (east, north): (DVec2, DVec2),
+        heights: Vec<f64>,
+    ) -> crate::Result<Self> {
+        let refuse = |what: String| Err(crate::Error::new(what));
+        if columns < 2 || rows < 2 {
+            return refuse(format!(
+                "a terrain needs at least 2 x 2 posts, this one has {columns} x {rows}"
+            ));
+        }
+        if heights.len() != columns * rows {
+            return refuse(format!(
+                "{columns} x {rows} posts need as many heights, not {}",
+                heights.len()
+            ));
+        }
+        if !(first.is_finite() && east.is_finite() && north.is_finite()) {
+            return refuse("the grid's position or spacing is not finite".into());
+        }
+        if east.perp_dot(north) <= 0.0 {
+            return refuse("the grid's rows and columns do not span the plan (spacing 0 or mirrored)".into());
+        }
+        if let Some(at) = heights.iter().position(|h| h.is_infinite()) {
+            return refuse(format!(
+                "post ({}, {}) is infinitely high",
+                at % columns,
+                at / columns
+            ));
+        }
+        Ok(Self {
+            columns,
+            rows,
+            first,
+            east,
+            north,
+            heights,
+        })
+    }
+
+    /// Posts from west to east.
+    pub fn columns(&self) -> usize {
+        self.columns
+    }
+
+    /// Posts from south to north.
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// The step from a post to its eastern neighbour.
+    pub fn east(&self) -> DVec2 {
+        self.east
+    }
+
+    /// The step from a post to its northern neighbour.
+    pub fn north(&self) -> DVec2 {
+        self.north
+    }
+
+    /// The heights, row by row from the first (southern) row; NaN is no data.
+    pub fn heights(&self) -> &[f64] {
+        &self.heights
+    }
+
+    /// The heights to change; the caller keeps them finite or NaN.
+    pub fn heights_mut(&mut self) -> &mut [f64] {
+        &mut self.heights
+    }
+
+    /// Where post (i, j) stands.
+    #[inline(always)]
+    pub fn plan(&self, i: usize, j: usize) -> Plan {
+        let (i, j) = (i as f64, j as f64);
+        Plan::new(
+            self.first.x + (i * self.east.x + j * self.north.x),
+            self.first.y + (i * self.east.y + j * self.north.y),
+        )
+    }
+
+    /// Post (i, j) in space.
+    #[inline(always)]
+    pub fn world(&self, i: usize, j: usize) -> World {
+        let p = self.plan(i, j);
+        World::new(p.x, p.y, self.heights[j * self.columns + i])
+    }
+}
+
+/// How a cell of the grid is split into two triangles.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Diagonal {
+    /// From its south-west to its north-east corner.
+    #[default]
+    SwNe,
+    /// From its north-west to its south-east corner.
+    NwSe,
+    /// `SwNe` where column + row is even, else `NwSe`.
+    Alternating,
+}
+
+/// The terrain's own colour: constant on a triangle or on a texel, so that the right picture stays computable.
+#[derive(Debug, Clone)]
+pub enum Ground {
+    /// One colour.
+    Color(Color),
+    /// Lambert's law times the colour, light from the north-west at 45 degrees, flat on each triangle.
+    Hillshade(Color),
+    /// The nearest texel of an image stretched over the terrain's rectangle.
+    Imagery(Imagery),
+}
+
+/// An image over the plan.
+#[derive(Debug, Clone)]
+pub struct Imagery {
+    /// The texels, from the north-west.
+    pub texels: crate::buffer::Buffer<Color>,
+    /// The rectangle they cover, scene-local.
+    pub extent: crate::space::PlanBox,
+}

@@ -1,0 +1,1 @@
+//! Terrain and vectors made from numbers, the same bits on every machine.

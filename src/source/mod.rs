@@ -1,0 +1,5 @@
+//! Files and generators -> the data of a scene.
+
+pub mod dem;
+pub mod generate;
+pub mod vector;
