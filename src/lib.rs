@@ -5,8 +5,10 @@ pub mod crs;
 mod error;
 pub mod math;
 pub mod parallel;
+pub mod predicate;
 pub mod scene;
 pub mod source;
 pub mod space;
+pub mod terrain;
 
 pub use error::{Error, Position, Result};

@@ -36,7 +36,7 @@ mod tests {
     #[test]
     fn transcendental_functions_keep_their_bits() {
         assert_eq!(sin(1.0).to_bits(), 0x3fea_ed54_8f09_0cee);
-        assert_eq!(cos(1e6).to_bits(), 0x3fed_fbd5_e6b6_54ac);
-        assert_eq!(exp(-3.5).to_bits(), 0x3f9e_ec49_5a7c_52fd);
+        assert_eq!(cos(1e6).to_bits(), 0x3fed_f9df_9906_d32c);
+        assert_eq!(exp(-3.5).to_bits(), 0x3f9e_ec10_18e4_ff66);
     }
 }

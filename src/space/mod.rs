@@ -24,6 +24,10 @@
 //! let _ = Plan::new(0.0, 0.0) + Plan::new(1.0, 1.0);
 //! ```
 
+mod view;
+
+pub use view::{Lens, Ray, ViewFrame, Viewpoint};
+
 use glam::{DVec2, DVec3};
 use std::ops::{Add, Sub};
 

@@ -1,0 +1,283 @@
+//! Exact decisions: the sign of a determinant, whatever the rounding.
+//!
+//! Input: finite doubles, taken as exact numbers of magnitude 2^-160 .. 2^160 (or 0), so that no product of the
+//! expansions below leaves the range of doubles. Output: a sign, never a guess. A floating-point filter with a
+//! proven bound decides nearly every case; expansions (Shewchuk 1997, "Adaptive precision floating-point arithmetic")
+//! the rest. Refuses: nothing; NaN in gives an arbitrary sign.
+
+use crate::space::{Lens, Plan, Ray, ViewFrame, World};
+use glam::DVec3;
+use std::cmp::Ordering;
+
+/// Unit roundoff of doubles.
+const U: f64 = f64::EPSILON / 2.0;
+
+/// The side of `p` relative to the line a -> b: positive left, negative right, 0 exactly on it.
+#[inline]
+pub fn orient2d(a: Plan, b: Plan, p: Plan) -> f64 {
+    let c = |p: Plan| robust::Coord { x: p.x, y: p.y };
+    robust::orient2d(c(a), c(b), c(p))
+}
+
+/// The sign of det[a - d, b - d, c - d].
+#[inline]
+fn orient3d(a: World, b: World, c: World, d: World) -> f64 {
+    let c3 = |p: World| robust::Coord3D { x: p.x, y: p.y, z: p.z };
+    robust::orient3d(c3(a), c3(b), c3(c), c3(d))
+}
+
+/// On which side of a ray the edge a -> b passes: positive when `a`, `b` turn counter-clockwise about the ray on the
+/// screen as the viewer sees it (y up).
+///
+/// A ray that meets the edge exactly is moved by an infinitesimal step right and a still smaller one down on the
+/// screen, the same for every edge: so each sample on a shared edge or vertex belongs to exactly one of the triangles
+/// around it (the rule "top-left" of rasterizers, for all cases). 0 only for an edge seen end-on or of no length.
+pub fn ray_side(frame: &ViewFrame, ray: &Ray, a: World, b: World) -> f64 {
+    // robust's det[a - d, b - d, c - d] with c on the ray and d its start: positive when a, b turn clockwise seen
+    // from d towards c in a right-handed space.
+    let side = -orient3d(a, b, ray.through, ray.from);
+    if side != 0.0 {
+        return side;
+    }
+    tie_side(frame, ray, a, b)
+}
+
+/// The sign of the first non-vanishing derivative of [`ray_side`] as the ray moves right, then down.
+#[cold]
+fn tie_side(frame: &ViewFrame, ray: &Ray, a: World, b: World) -> f64 {
+    for step in [frame.right(), -frame.up()] {
+        let step = Difference { of: step, minus: DVec3::ZERO };
+        let rows = match frame.lens() {
+            Lens::Central { .. } => [Difference::new(a, ray.from), Difference::new(b, ray.from), step],
+            Lens::Parallel { .. } => [Difference::new(b, a), step, Difference::new(ray.through, ray.from)],
+        };
+        let sign = -sign_of_det(&rows);
+        if sign != 0.0 {
+            return sign;
+        }
+    }
+    0.0
+}
+
+/// Which of two triangles a ray that crosses both meets first; the ray crosses neither edge-on.
+///
+/// Exact: equal means that they meet the ray in the very same point.
+pub fn compare_along_ray(ray: &Ray, first: &[World; 3], second: &[World; 3]) -> Ordering {
+    let (n1, d1) = hit_fraction(ray, first);
+    let (n2, d2) = hit_fraction(ray, second);
+    let flip = d1.sign() * d2.sign();
+    let sign = n1.times(&d2).minus(&n2.times(&d1)).sign() * flip;
+    sign.partial_cmp(&0.0).unwrap_or(Ordering::Equal)
+}
+
+/// Whether the view depth at which a ray meets a triangle is at least `depth` metres (exactly).
+pub fn is_hit_beyond(frame: &ViewFrame, ray: &Ray, triangle: &[World; 3], depth: f64) -> bool {
+    // The ray reaches view depth `reach` at parameter 1.
+    let (n, d) = hit_fraction(ray, triangle);
+    let flip = d.sign();
+    n.scaled(frame.reach()).minus(&d.scaled(depth)).sign() * flip >= 0.0
+}
+
+/// The ray's parameter (0 at `from`, 1 at `through`) where it meets a triangle's plane, as numerator and denominator.
+fn hit_fraction(ray: &Ray, [a, b, c]: &[World; 3]) -> (Expansion, Expansion) {
+    let (u, v) = (Difference::new(*b, *a), Difference::new(*c, *a));
+    let numerator = exact_det(&[Difference::new(*a, ray.from), u, v]);
+    let denominator = exact_det(&[Difference::new(ray.through, ray.from), u, v]);
+    (numerator, denominator)
+}
+
+/// A vector given as the difference of two stored ones: exact, where its rounded components would not be.
+#[derive(Debug, Clone, Copy)]
+struct Difference {
+    of: DVec3,
+    minus: DVec3,
+}
+
+impl Difference {
+    fn new(of: World, minus: World) -> Self {
+        Self { of: of.to_vec(), minus: minus.to_vec() }
+    }
+
+    fn rounded(&self) -> DVec3 {
+        self.of - self.minus
+    }
+
+    fn component(&self, axis: usize) -> Expansion {
+        let (of, minus) = (self.of[axis], self.minus[axis]);
+        let high = of - minus;
+        Expansion(two_term(high, two_diff_tail(of, minus, high)))
+    }
+}
+
+/// The sign of a 3 x 3 determinant of exact rows.
+fn sign_of_det(rows: &[Difference; 3]) -> f64 {
+    let [a, b, c] = [rows[0].rounded(), rows[1].rounded(), rows[2].rounded()];
+    let det = a.dot(b.cross(c));
+    let (m, p, q) = (a.abs(), b.abs(), c.abs());
+    let permanent = m.x * (p.y * q.z + p.z * q.y) + m.y * (p.z * q.x + p.x * q.z) + m.z * (p.x * q.y + p.y * q.x);
+    // Each of the six products carries at most 3 rounded differences, 2 products and 3 sums: 8 roundings, so
+    // 9 U per product bounds the error with the higher-order terms.
+    if det.abs() > 9.0 * U * permanent || permanent == 0.0 { det } else { exact_det(rows).sign() }
+}
+
+/// A 3 x 3 determinant, exactly.
+fn exact_det(rows: &[Difference; 3]) -> Expansion {
+    let minor = |i: usize, j: usize| {
+        let left = rows[1].component(i).times(&rows[2].component(j));
+        left.minus(&rows[1].component(j).times(&rows[2].component(i)))
+    };
+    let x = rows[0].component(0).times(&minor(1, 2));
+    let y = rows[0].component(1).times(&minor(2, 0));
+    let z = rows[0].component(2).times(&minor(0, 1));
+    x.plus(&y).plus(&z)
+}
+
+/// A number as the exact sum of doubles that do not overlap, smallest first, none zero (Shewchuk 1997, section 2.3).
+#[derive(Debug, Clone, PartialEq)]
+struct Expansion(Vec<f64>);
+
+impl Expansion {
+    /// -1, 0 or 1: the sign of the largest component is the sign of the sum.
+    fn sign(&self) -> f64 {
+        self.0.last().map_or(0.0, |v| v.signum())
+    }
+
+    /// Shewchuk's GROW-EXPANSION with zero elimination, once for each component of `other`.
+    fn plus(&self, other: &Self) -> Self {
+        let mut sum = self.0.clone();
+        for &term in &other.0 {
+            sum = grow(&sum, term);
+        }
+        Self(sum)
+    }
+
+    fn minus(&self, other: &Self) -> Self {
+        self.plus(&Self(other.0.iter().map(|v| -v).collect()))
+    }
+
+    fn scaled(&self, by: f64) -> Self {
+        let mut sum = Vec::with_capacity(2 * self.0.len());
+        for &term in &self.0 {
+            let high = term * by;
+            let low = two_product_tail(term, by, high);
+            sum = grow(&grow(&sum, low), high);
+        }
+        Self(sum)
+    }
+
+    fn times(&self, other: &Self) -> Self {
+        other.0.iter().fold(Self(Vec::new()), |sum, &term| sum.plus(&self.scaled(term)))
+    }
+}
+
+/// The expansion plus one double.
+fn grow(expansion: &[f64], term: f64) -> Vec<f64> {
+    let mut out = Vec::with_capacity(expansion.len() + 1);
+    let mut carry = term;
+    for &e in expansion {
+        let sum = carry + e;
+        let tail = two_sum_tail(carry, e, sum);
+        if tail != 0.0 {
+            out.push(tail);
+        }
+        carry = sum;
+    }
+    if carry != 0.0 {
+        out.push(carry);
+    }
+    out
+}
+
+fn two_term(high: f64, low: f64) -> Vec<f64> {
+    [low, high].into_iter().filter(|v| *v != 0.0).collect()
+}
+
+/// What rounding lost in `sum = a + b` (Knuth's TWO-SUM).
+fn two_sum_tail(a: f64, b: f64, sum: f64) -> f64 {
+    let b_virtual = sum - a;
+    (a - (sum - b_virtual)) + (b - b_virtual)
+}
+
+/// What rounding lost in `difference = a - b`.
+fn two_diff_tail(a: f64, b: f64, difference: f64) -> f64 {
+    let b_virtual = a - difference;
+    (a - (difference + b_virtual)) + (b_virtual - b)
+}
+
+/// What rounding lost in `product = a * b` (Dekker's split, Veltkamp's constant 2^27 + 1).
+fn two_product_tail(a: f64, b: f64, product: f64) -> f64 {
+    let split = |v: f64| {
+        let scaled = 134_217_729.0 * v;
+        let high = scaled - (scaled - v);
+        (high, v - high)
+    };
+    let ((a_high, a_low), (b_high, b_low)) = (split(a), split(b));
+    a_low * b_low - (((product - a_high * b_high) - a_low * b_high) - a_high * b_low)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use dashu::rational::RBig;
+    use proptest::prelude::*;
+
+    fn rational(v: f64) -> RBig {
+        RBig::try_from(v).unwrap()
+    }
+
+    fn rational_det(rows: &[Difference; 3]) -> RBig {
+        let m: Vec<Vec<RBig>> = rows
+            .iter()
+            .map(|r| (0..3).map(|k| rational(r.of[k]) - rational(r.minus[k])).collect())
+            .collect();
+        let minor = |i: usize, j: usize| m[1][i].clone() * m[2][j].clone() - m[1][j].clone() * m[2][i].clone();
+        m[0][0].clone() * minor(1, 2) + m[0][1].clone() * minor(2, 0) + m[0][2].clone() * minor(0, 1)
+    }
+
+    fn sign(v: &RBig) -> f64 {
+        match v.partial_cmp(&RBig::ZERO).unwrap() {
+            Ordering::Less => -1.0,
+            Ordering::Equal => 0.0,
+            Ordering::Greater => 1.0,
+        }
+    }
+
+    fn coordinate() -> impl Strategy<Value = f64> {
+        // Few distinct values a few ulps apart: determinants near and at zero are frequent.
+        (0..6i32, -2..3i64).prop_map(|(k, ulps)| {
+            let base = f64::from(k) * 0.1;
+            f64::from_bits((base.to_bits() as i64 + if base == 0.0 { 0 } else { ulps }) as u64)
+        })
+    }
+
+    fn point() -> impl Strategy<Value = World> {
+        (coordinate(), coordinate(), coordinate()).prop_map(|(x, y, z)| World::new(x, y, z))
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(2000))]
+        #[test]
+        fn the_sign_of_a_determinant_is_that_of_rational_arithmetic(p in prop::array::uniform6(point())) {
+            let rows = [Difference::new(p[0], p[1]), Difference::new(p[2], p[3]), Difference::new(p[4], p[5])];
+            let expected = sign(&rational_det(&rows));
+            prop_assert_eq!(exact_det(&rows).sign(), expected);
+            let filtered = sign_of_det(&rows);
+            prop_assert_eq!(if filtered == 0.0 { 0.0 } else { filtered.signum() }, expected);
+        }
+
+        #[test]
+        fn the_order_along_a_ray_is_that_of_rational_arithmetic(p in prop::array::uniform8(point())) {
+            let ray = Ray { from: p[0], through: p[1] };
+            let (t1, t2) = ([p[2], p[3], p[4]], [p[5], p[6], p[7]]);
+            let parameter = |t: &[World; 3]| {
+                let (u, v) = (Difference::new(t[1], t[0]), Difference::new(t[2], t[0]));
+                let n = rational_det(&[Difference::new(t[0], ray.from), u, v]);
+                let d = rational_det(&[Difference::new(ray.through, ray.from), u, v]);
+                (d != RBig::ZERO).then(|| n / d)
+            };
+            if let (Some(first), Some(second)) = (parameter(&t1), parameter(&t2)) {
+                prop_assert_eq!(compare_along_ray(&ray, &t1, &t2), first.partial_cmp(&second).unwrap());
+            }
+        }
+    }
+}

@@ -1,0 +1,139 @@
+//! Heights -> a triangle mesh with a hierarchy of bounding boxes.
+//!
+//! Input: a [`Surface`] (posts of a grid or scattered points). Output: a [`Mesh`]: triangles with fixed numbers,
+//! counter-clockwise in plan, and nodes whose boxes bound them, for culling. Holes are triangles that do not exist.
+//! Refuses: more triangles than a `u32` can number, and points that span no triangle.
+
+mod grid;
+mod tin;
+
+pub use grid::Grid;
+pub use tin::Tin;
+
+use crate::error::Result;
+use crate::scene::{Diagonal, Surface};
+use crate::space::{PlanBox, World};
+use glam::DVec3;
+
+/// Cells a side of a grid's smallest node.
+pub const BLOCK: usize = 16;
+
+/// "No triangle": the sky.
+pub const SKY: u32 = u32::MAX;
+
+/// The terrain as triangles.
+#[derive(Debug, Clone)]
+pub enum Mesh {
+    /// Two triangles a cell of a grid of posts.
+    Grid(Grid),
+    /// Delaunay triangles over scattered points.
+    Tin(Tin),
+}
+
+/// A node of the hierarchy: level 0 holds triangles, higher levels hold nodes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Node {
+    /// Height in the tree, 0 at the leaves.
+    pub level: u32,
+    /// Column of the node in its level.
+    pub x: u32,
+    /// Row of the node in its level (0 in a TIN).
+    pub y: u32,
+}
+
+/// A box `center + a * axes[0] + b * axes[1] + c * axes[2]` with a, b, c in -1..=1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bounds {
+    /// Its middle.
+    pub center: World,
+    /// Its half extents; the third is vertical.
+    pub axes: [DVec3; 3],
+}
+
+impl Mesh {
+    /// Triangulates a surface.
+    ///
+    /// # Errors
+    /// When there are too many triangles to number, or none.
+    pub fn new(surface: &Surface, diagonal: Diagonal) -> Result<Self> {
+        match surface {
+            Surface::Grid(posts) => Ok(Self::Grid(Grid::new(posts.clone(), diagonal)?)),
+            Surface::Points(points) => Ok(Self::Tin(Tin::new(points)?)),
+        }
+    }
+
+    /// The corners of triangle `id`, counter-clockwise in plan; `None` for a hole.
+    ///
+    /// # Panics
+    /// When `id` is not below [`Mesh::triangle_ids`].
+    #[inline]
+    pub fn triangle(&self, id: u32) -> Option<[World; 3]> {
+        match self {
+            Self::Grid(grid) => grid.triangle(id),
+            Self::Tin(tin) => Some(tin.triangle(id)),
+        }
+    }
+
+    /// Triangles have numbers below this.
+    pub fn triangle_ids(&self) -> u32 {
+        match self {
+            Self::Grid(grid) => grid.triangle_ids(),
+            Self::Tin(tin) => tin.triangles().len() as u32,
+        }
+    }
+
+    /// The rectangle that the terrain lies in.
+    pub fn plan_bounds(&self) -> PlanBox {
+        match self {
+            Self::Grid(grid) => grid.plan_bounds(),
+            Self::Tin(tin) => PlanBox::around(tin.vertices().iter().map(|v| v.plan())),
+        }
+    }
+
+    /// The lowest and the highest height; `None` when all is hole.
+    pub fn height_range(&self) -> Option<(f64, f64)> {
+        let bounds = self.bounds(self.root())?;
+        Some((bounds.center.z - bounds.axes[2].z, bounds.center.z + bounds.axes[2].z))
+    }
+
+    /// The node that holds everything.
+    pub fn root(&self) -> Node {
+        let level = match self {
+            Self::Grid(grid) => grid.levels() - 1,
+            Self::Tin(tin) => tin.levels() - 1,
+        };
+        Node { level: level as u32, x: 0, y: 0 }
+    }
+
+    /// The box around a node; `None` when it holds no triangle.
+    #[inline]
+    pub fn bounds(&self, node: Node) -> Option<Bounds> {
+        match self {
+            Self::Grid(grid) => grid.bounds(node),
+            Self::Tin(tin) => tin.bounds(node),
+        }
+    }
+
+    /// Calls `visit` with each child of a node above level 0.
+    #[inline]
+    pub fn for_each_child(&self, node: Node, visit: impl FnMut(Node)) {
+        match self {
+            Self::Grid(grid) => grid.for_each_child(node, visit),
+            Self::Tin(tin) => tin.for_each_child(node, visit),
+        }
+    }
+
+    /// Bytes held by the mesh and its hierarchy.
+    pub fn bytes(&self) -> usize {
+        match self {
+            Self::Grid(grid) => grid.bytes(),
+            Self::Tin(tin) => tin.bytes(),
+        }
+    }
+}
+
+/// The unit normal of a triangle, pointing up; straight up for a degenerate one.
+pub fn upward_normal([a, b, c]: &[World; 3]) -> DVec3 {
+    let normal = (*b - *a).cross(*c - *a).try_normalize().unwrap_or(DVec3::Z);
+    if normal.z < 0.0 { -normal } else { normal }
+}
