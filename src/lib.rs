@@ -6,9 +6,11 @@ mod error;
 pub mod math;
 pub mod parallel;
 pub mod predicate;
+pub mod raster;
 pub mod scene;
 pub mod source;
 pub mod space;
 pub mod terrain;
+pub mod visibility;
 
 pub use error::{Error, Position, Result};

@@ -22,7 +22,11 @@ pub fn orient2d(a: Plan, b: Plan, p: Plan) -> f64 {
 /// The sign of det[a - d, b - d, c - d].
 #[inline]
 fn orient3d(a: World, b: World, c: World, d: World) -> f64 {
-    let c3 = |p: World| robust::Coord3D { x: p.x, y: p.y, z: p.z };
+    let c3 = |p: World| robust::Coord3D {
+        x: p.x,
+        y: p.y,
+        z: p.z,
+    };
     robust::orient3d(c3(a), c3(b), c3(c), c3(d))
 }
 
@@ -46,10 +50,17 @@ pub fn ray_side(frame: &ViewFrame, ray: &Ray, a: World, b: World) -> f64 {
 #[cold]
 fn tie_side(frame: &ViewFrame, ray: &Ray, a: World, b: World) -> f64 {
     for step in [frame.right(), -frame.up()] {
-        let step = Difference { of: step, minus: DVec3::ZERO };
+        let step = Difference {
+            of: step,
+            minus: DVec3::ZERO,
+        };
         let rows = match frame.lens() {
             Lens::Central { .. } => [Difference::new(a, ray.from), Difference::new(b, ray.from), step],
-            Lens::Parallel { .. } => [Difference::new(b, a), step, Difference::new(ray.through, ray.from)],
+            Lens::Parallel { .. } => [
+                Difference::new(b, a),
+                step,
+                Difference::new(ray.through, ray.from),
+            ],
         };
         let sign = -sign_of_det(&rows);
         if sign != 0.0 {
@@ -63,6 +74,14 @@ fn tie_side(frame: &ViewFrame, ray: &Ray, a: World, b: World) -> f64 {
 ///
 /// Exact: equal means that they meet the ray in the very same point.
 pub fn compare_along_ray(ray: &Ray, first: &[World; 3], second: &[World; 3]) -> Ordering {
+    let (t1, t2) = (Parameter::new(ray, first), Parameter::new(ray, second));
+    if (t1.value - t2.value).abs() > t1.error + t2.error {
+        return if t1.value < t2.value {
+            Ordering::Less
+        } else {
+            Ordering::Greater
+        };
+    }
     let (n1, d1) = hit_fraction(ray, first);
     let (n2, d2) = hit_fraction(ray, second);
     let flip = d1.sign() * d2.sign();
@@ -72,13 +91,71 @@ pub fn compare_along_ray(ray: &Ray, first: &[World; 3], second: &[World; 3]) -> 
 
 /// Whether the view depth at which a ray meets a triangle is at least `depth` metres (exactly).
 pub fn is_hit_beyond(frame: &ViewFrame, ray: &Ray, triangle: &[World; 3], depth: f64) -> bool {
-    // The ray reaches view depth `reach` at parameter 1.
+    // The ray reaches view depth `reach` (a power of two) at parameter 1.
+    let (t, limit) = (Parameter::new(ray, triangle), depth / frame.reach());
+    if (t.value - limit).abs() > t.error {
+        return t.value > limit;
+    }
     let (n, d) = hit_fraction(ray, triangle);
     let flip = d.sign();
     n.scaled(frame.reach()).minus(&d.scaled(depth)).sign() * flip >= 0.0
 }
 
-/// The ray's parameter (0 at `from`, 1 at `through`) where it meets a triangle's plane, as numerator and denominator.
+/// The ray's parameter (0 at `from`, 1 at `through`) where it meets a triangle's plane, to a relative 2^-30 however
+/// grazing the ray; 0 for a plane that holds the ray's direction.
+pub fn hit_parameter(ray: &Ray, triangle: &[World; 3]) -> f64 {
+    let fast = Parameter::new(ray, triangle);
+    if fast.error < fast.value.abs() / f64::from(1 << 30) {
+        return fast.value;
+    }
+    let (n, d) = hit_fraction(ray, triangle);
+    if d.0.is_empty() {
+        0.0
+    } else {
+        n.rounded() / d.rounded()
+    }
+}
+
+/// A ray's parameter at a triangle's plane in plain doubles, with a bound of its error (infinite or NaN when the plane
+/// nearly holds the ray).
+struct Parameter {
+    value: f64,
+    error: f64,
+}
+
+impl Parameter {
+    #[inline]
+    fn new(ray: &Ray, [a, b, c]: &[World; 3]) -> Self {
+        let (u, v) = (*b - *a, *c - *a);
+        let (start, along) = (*a - ray.from, ray.through - ray.from);
+        let normal = u.cross(v);
+        let (n, d) = (start.dot(normal), along.dot(normal));
+        let (m, p) = (u.abs(), v.abs());
+        let spread = DVec3::new(
+            m.y * p.z + m.z * p.y,
+            m.z * p.x + m.x * p.z,
+            m.x * p.y + m.y * p.x,
+        );
+        // Nine roundings bound each product's path (see `sign_of_det`), one more the quotient.
+        let (n_error, d_error) = (
+            10.0 * U * start.abs().dot(spread),
+            10.0 * U * along.abs().dot(spread),
+        );
+        let value = n / d;
+        let certain = d.abs() - d_error;
+        let error = if certain > 0.0 {
+            (n_error + value.abs() * d_error) / certain + 2.0 * U * value.abs()
+        } else {
+            f64::INFINITY
+        };
+        Self {
+            value: if certain > 0.0 { value } else { 0.0 },
+            error,
+        }
+    }
+}
+
+/// The ray's parameter where it meets a triangle's plane, as numerator and denominator.
 fn hit_fraction(ray: &Ray, [a, b, c]: &[World; 3]) -> (Expansion, Expansion) {
     let (u, v) = (Difference::new(*b, *a), Difference::new(*c, *a));
     let numerator = exact_det(&[Difference::new(*a, ray.from), u, v]);
@@ -95,7 +172,10 @@ struct Difference {
 
 impl Difference {
     fn new(of: World, minus: World) -> Self {
-        Self { of: of.to_vec(), minus: minus.to_vec() }
+        Self {
+            of: of.to_vec(),
+            minus: minus.to_vec(),
+        }
     }
 
     fn rounded(&self) -> DVec3 {
@@ -114,10 +194,15 @@ fn sign_of_det(rows: &[Difference; 3]) -> f64 {
     let [a, b, c] = [rows[0].rounded(), rows[1].rounded(), rows[2].rounded()];
     let det = a.dot(b.cross(c));
     let (m, p, q) = (a.abs(), b.abs(), c.abs());
-    let permanent = m.x * (p.y * q.z + p.z * q.y) + m.y * (p.z * q.x + p.x * q.z) + m.z * (p.x * q.y + p.y * q.x);
+    let permanent =
+        m.x * (p.y * q.z + p.z * q.y) + m.y * (p.z * q.x + p.x * q.z) + m.z * (p.x * q.y + p.y * q.x);
     // Each of the six products carries at most 3 rounded differences, 2 products and 3 sums: 8 roundings, so
     // 9 U per product bounds the error with the higher-order terms.
-    if det.abs() > 9.0 * U * permanent || permanent == 0.0 { det } else { exact_det(rows).sign() }
+    if det.abs() > 9.0 * U * permanent || permanent == 0.0 {
+        det
+    } else {
+        exact_det(rows).sign()
+    }
 }
 
 /// A 3 x 3 determinant, exactly.
@@ -137,9 +222,14 @@ fn exact_det(rows: &[Difference; 3]) -> Expansion {
 struct Expansion(Vec<f64>);
 
 impl Expansion {
-    /// -1, 0 or 1: the sign of the largest component is the sign of the sum.
+    /// -1, 0 or 1: the largest component's sign is that of the sum.
     fn sign(&self) -> f64 {
         self.0.last().map_or(0.0, |v| v.signum())
+    }
+
+    /// The nearest double, or its neighbour.
+    fn rounded(&self) -> f64 {
+        self.0.iter().fold(0.0, |sum, v| sum + v)
     }
 
     /// Shewchuk's GROW-EXPANSION with zero elimination, once for each component of `other`.
@@ -166,7 +256,10 @@ impl Expansion {
     }
 
     fn times(&self, other: &Self) -> Self {
-        other.0.iter().fold(Self(Vec::new()), |sum, &term| sum.plus(&self.scaled(term)))
+        other
+            .0
+            .iter()
+            .fold(Self(Vec::new()), |sum, &term| sum.plus(&self.scaled(term)))
     }
 }
 
@@ -230,7 +323,8 @@ mod tests {
             .iter()
             .map(|r| (0..3).map(|k| rational(r.of[k]) - rational(r.minus[k])).collect())
             .collect();
-        let minor = |i: usize, j: usize| m[1][i].clone() * m[2][j].clone() - m[1][j].clone() * m[2][i].clone();
+        let minor =
+            |i: usize, j: usize| m[1][i].clone() * m[2][j].clone() - m[1][j].clone() * m[2][i].clone();
         m[0][0].clone() * minor(1, 2) + m[0][1].clone() * minor(2, 0) + m[0][2].clone() * minor(0, 1)
     }
 

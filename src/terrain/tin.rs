@@ -43,9 +43,15 @@ impl Tin {
     /// When a coordinate is out of range, or the points span no triangle.
     pub fn new(points: &[World]) -> Result<Self> {
         if points.len() >= u32::MAX as usize / 2 {
-            return Err(Error::new("more points than this program can number").help("give the terrain a `window`"));
+            return Err(
+                Error::new("more points than this program can number").help("give the terrain a `window`")
+            );
         }
-        let samples = points.iter().enumerate().map(|(i, &at)| Sample { at, index: i as u32 }).collect();
+        let samples = points
+            .iter()
+            .enumerate()
+            .map(|(i, &at)| Sample { at, index: i as u32 })
+            .collect();
         let delaunay = DelaunayTriangulation::<Sample>::bulk_load_stable(samples)
             .map_err(|e| Error::new(format!("the points cannot be triangulated: {e}")))?;
         let mut triangles: Vec<[u32; 3]> = delaunay
@@ -54,11 +60,16 @@ impl Tin {
             .map(from_lowest)
             .collect();
         if triangles.is_empty() {
-            return Err(Error::new("the points span no triangle").help("at least three points off one line are needed"));
+            return Err(Error::new("the points span no triangle")
+                .help("at least three points off one line are needed"));
         }
         order_by_place(points, &mut triangles);
         let levels = hierarchy(points, &triangles);
-        Ok(Self { vertices: points.to_vec(), triangles, levels })
+        Ok(Self {
+            vertices: points.to_vec(),
+            triangles,
+            levels,
+        })
     }
 
     /// The points.
@@ -103,7 +114,11 @@ impl Tin {
         let level = node.level - 1;
         let end = (node.x as usize + 1) * FAN;
         for x in node.x as usize * FAN..end.min(self.levels[level as usize].len()) {
-            visit(Node { level, x: x as u32, y: 0 });
+            visit(Node {
+                level,
+                x: x as u32,
+                y: 0,
+            });
         }
     }
 
@@ -131,7 +146,10 @@ fn order_by_place(points: &[World], triangles: &mut [[u32; 3]]) {
     let size = bounds.max - bounds.min;
     let scale = 65_535.0 / math::max(math::max(size.x, size.y), f64::MIN_POSITIVE);
     parallel::sort_by_key(triangles, |t| {
-        let sum = t.map(|v| points[v as usize].plan() - bounds.min).into_iter().sum::<glam::DVec2>();
+        let sum = t
+            .map(|v| points[v as usize].plan() - bounds.min)
+            .into_iter()
+            .sum::<glam::DVec2>();
         let cell = sum / 3.0 * scale;
         (morton(cell.x as u32, cell.y as u32), *t)
     });

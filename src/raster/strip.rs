@@ -1,0 +1,413 @@
+//! Many small triangles at once, in single precision: the path that nearly all triangles of a large terrain take.
+//!
+//! Corners are projected in double precision and rounded to single precision in tile coordinates. Sixteen triangles at a
+//! time are then sorted into: no sample near (most), exactly one sample near (decided in place), several
+//! (handed to [`super::Facet::fill`]). The error of a rounded corner bounds every doubt.
+
+use super::facet::Facet;
+use super::tile::Tile;
+use super::{KEY_ERROR, TileView};
+use crate::math::{max_f32, min_f32};
+use glam::DVec3;
+
+/// Triangles handled together.
+pub const LANES: usize = 16;
+
+/// Unit roundoff of single precision.
+const U32: f64 = f32::EPSILON as f64 / 2.0;
+
+/// What is known of a triangle after sorting.
+const NOTHING: u8 = 0;
+const COVERS_ONE: u8 = 1;
+const DOUBTFUL_ONE: u8 = 2;
+const SEVERAL: u8 = 3;
+
+/// Sixteen projected points: tile coordinates and depth keys. NaN where there is no point.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Points {
+    x: [f32; LANES],
+    y: [f32; LANES],
+    key: [f32; LANES],
+}
+
+impl Points {
+    /// No points.
+    const NONE: Self = Self {
+        x: [f32::NAN; LANES],
+        y: [f32::NAN; LANES],
+        key: [f32::NAN; LANES],
+    };
+
+    /// The points `origin + k * step + heights[k] * up` in homogeneous tile coordinates.
+    #[inline(always)]
+    fn project(line: &PostLine, heights: &[f64; LANES]) -> Self {
+        let mut out = Self::NONE;
+        for k in 0..LANES {
+            let (i, h) = (k as f64, heights[k]);
+            let x = line.origin.x + i * line.step.x + h * line.up.x;
+            let y = line.origin.y + i * line.step.y + h * line.up.y;
+            let w = line.origin.z + i * line.step.z + h * line.up.z;
+            let depth = line.depth.x + i * line.depth.y + h * line.depth.z;
+            let inverse = 1.0 / w;
+            out.x[k] = (x * inverse) as f32;
+            out.y[k] = (y * inverse) as f32;
+            out.key[k] = (if line.is_parallel { -depth } else { inverse }) as f32;
+        }
+        out
+    }
+
+    /// The same points one place on: point k + 1 at k.
+    #[inline(always)]
+    fn shifted(&self) -> Self {
+        let mut out = Self::NONE;
+        for k in 0..LANES - 1 {
+            out.x[k] = self.x[k + 1];
+            out.y[k] = self.y[k + 1];
+            out.key[k] = self.key[k + 1];
+        }
+        out
+    }
+
+    /// Sets one point.
+    #[inline(always)]
+    fn set(&mut self, lane: usize, (x, y, key): (f32, f32, f32)) {
+        (self.x[lane], self.y[lane], self.key[lane]) = (x, y, key);
+    }
+}
+
+/// A line of posts in homogeneous tile coordinates.
+struct PostLine {
+    origin: DVec3,
+    step: DVec3,
+    up: DVec3,
+    /// View depth of the first post at height 0, per post, per metre of height.
+    depth: DVec3,
+    is_parallel: bool,
+}
+
+/// The outcome of sorting sixteen triangles.
+struct Sorted {
+    state: [u8; LANES],
+    column: [f32; LANES],
+    row: [f32; LANES],
+    key: [f32; LANES],
+}
+
+/// A patch of terrain whose pictures of points lie near the tile and surely beyond the near plane.
+#[derive(Debug, Clone, Copy)]
+pub struct Patch {
+    /// A bound of the error of a point's tile coordinates after rounding to single precision.
+    point_error: f32,
+}
+
+/// How far from a tile's middle a patch may reach, in samples.
+const GUARD: f64 = 256.0;
+/// What projecting in double precision may add to a point's error, in samples.
+const PROJECTION_ERROR: f64 = 1e-7;
+
+impl Patch {
+    /// Whether a box qualifies: all of it beyond the near plane and before the far one, its picture within [`GUARD`]
+    /// samples of the tile's middle, and doubles precise enough at its size.
+    #[inline]
+    pub fn new(view: &TileView, depth: (f64, f64), size: f64, rectangle: &[f64; 4]) -> Option<Self> {
+        let w = if view.is_parallel() { 1.0 } else { depth.0 };
+        let projection_error = 128.0 * f64::EPSILON * view.gain() * size / w;
+        let reach = rectangle
+            .iter()
+            .fold(1.0, |m, v| if v.abs() > m { v.abs() } else { m });
+        let fits = depth.0 > view.frame.near() * (1.0 + 4.0 * KEY_ERROR)
+            && depth.1 < view.frame.far() * (1.0 - 4.0 * KEY_ERROR)
+            && reach < GUARD
+            && projection_error < PROJECTION_ERROR;
+        // Half a unit in the last place of the largest coordinate, doubled for the box's own rounding.
+        fits.then_some(Self {
+            point_error: (2.0 * U32 * reach + PROJECTION_ERROR) as f32,
+        })
+    }
+
+    /// Draws rows of cells of a grid: the posts of column `i` on of rows `j..=j + rows`; `heights(row)` gives the
+    /// sixteen heights of a row of posts, NaN where there is none.
+    pub fn draw_grid(&self, tile: &mut Tile, grid: &crate::terrain::Grid, node: crate::terrain::Node) {
+        let arch = pulp::Arch::new();
+        let (columns, rows) = grid.cells(node);
+        let lines = GridLines::new(&tile.view, grid, columns.start);
+        let mut south = Points::NONE;
+        for j in rows.start..=rows.end {
+            let heights = lines.heights(grid, columns.start..columns.end + 1, j);
+            let line = lines.line(j);
+            let has_south = j > rows.start;
+            let (north, sorted) = arch.dispatch(
+                #[inline(always)]
+                || {
+                    let north = Points::project(&line, &heights);
+                    (
+                        north,
+                        has_south
+                            .then(|| self.sort_cells(tile, grid, (columns.start, j - 1), &south, &north)),
+                    )
+                },
+            );
+            if let Some(halves) = sorted {
+                let first = grid.first_triangle(columns.start, j - 1);
+                for (half, (sorted, corners)) in halves.iter().enumerate() {
+                    self.settle(tile, sorted, corners, |lane| {
+                        first + 2 * lane as u32 + half as u32
+                    });
+                }
+            }
+            south = north;
+        }
+    }
+
+    /// Draws triangles of a TIN, sixteen at a time.
+    pub fn draw_tin(&self, tile: &mut Tile, tin: &crate::terrain::Tin, ids: std::ops::Range<u32>) {
+        let arch = pulp::Arch::new();
+        for start in ids.clone().step_by(LANES) {
+            let mut corners = [Points::NONE; 3];
+            for id in start..ids.end.min(start + LANES as u32) {
+                for (points, corner) in corners.iter_mut().zip(tin.triangle(id)) {
+                    let h = tile.view.map_point(corner);
+                    let key = tile.key_of_depth(tile.view.frame.depth(corner));
+                    points.set(
+                        (id - start) as usize,
+                        ((h.x / h.z) as f32, (h.y / h.z) as f32, key as f32),
+                    );
+                }
+            }
+            let sorted = arch.dispatch(
+                #[inline(always)]
+                || self.sort(&tile.view, &corners),
+            );
+            self.settle(tile, &sorted, &corners, |lane| start + lane as u32);
+        }
+    }
+
+    /// Sorts the two halves of a row of cells.
+    #[inline(always)]
+    fn sort_cells(
+        &self,
+        tile: &Tile,
+        grid: &crate::terrain::Grid,
+        (i, j): (usize, usize),
+        south: &Points,
+        north: &Points,
+    ) -> [(Sorted, [Points; 3]); 2] {
+        let (south_east, north_east) = (south.shifted(), north.shifted());
+        let mut first = [*south, south_east, north_east];
+        let mut second = [*south, north_east, *north];
+        match grid.diagonal() {
+            crate::scene::Diagonal::SwNe => {}
+            crate::scene::Diagonal::NwSe => {
+                first = [*south, south_east, *north];
+                second = [south_east, north_east, *north];
+            }
+            crate::scene::Diagonal::Alternating => {
+                for lane in (0..LANES).filter(|lane| !grid.splits_sw_ne(i + lane, j)) {
+                    first[2].set(lane, (north.x[lane], north.y[lane], north.key[lane]));
+                    second[0].set(
+                        lane,
+                        (south_east.x[lane], south_east.y[lane], south_east.key[lane]),
+                    );
+                }
+            }
+        }
+        [
+            (self.sort(&tile.view, &first), first),
+            (self.sort(&tile.view, &second), second),
+        ]
+    }
+
+    /// Sorts sixteen triangles by the samples near them, and decides those with one sample.
+    #[inline(always)]
+    fn sort(&self, view: &TileView, [a, b, c]: &[Points; 3]) -> Sorted {
+        let (first, last) = (view.first, view.last());
+        let (first_x, first_y) = (first.0 as f32, first.1 as f32);
+        let (last_x, last_y) = (last.0 as f32, last.1 as f32);
+        let hair = 2.0 * self.point_error;
+        let mut out = Sorted {
+            state: [0; LANES],
+            column: [0.0; LANES],
+            row: [0.0; LANES],
+            key: [0.0; LANES],
+        };
+        for k in 0..LANES {
+            let (ax, ay, bx, by, cx, cy) = (a.x[k], a.y[k], b.x[k], b.y[k], c.x[k], c.y[k]);
+            let (low_x, high_x) = (min_f32(min_f32(ax, bx), cx), max_f32(max_f32(ax, bx), cx));
+            let (low_y, high_y) = (min_f32(min_f32(ay, by), cy), max_f32(max_f32(ay, by), cy));
+            // The samples of the tile in the box.
+            let (x0, x1) = ((low_x - hair).ceil(), (high_x + hair).floor());
+            let (y0, y1) = ((low_y - hair).ceil(), (high_y + hair).floor());
+            let (x0, x1) = (max_f32(x0, first_x), min_f32(x1, last_x));
+            let (y0, y1) = (max_f32(y0, first_y), min_f32(y1, last_y));
+            let sum = (ax + bx + cx) + (ay + by + cy);
+            let exists = sum - sum == 0.0;
+            let near = exists & (x0 <= x1) & (y0 <= y1);
+            let one = (x0 == x1) & (y0 == y1);
+            // Edge functions at the first sample, on the screen (y down); of one sign inside.
+            let ab = (bx - ax) * (y0 - ay) - (by - ay) * (x0 - ax);
+            let bc = (cx - bx) * (y0 - by) - (cy - by) * (x0 - bx);
+            let ca = (ax - cx) * (y0 - cy) - (ay - cy) * (x0 - cx);
+            let doubt = edge_doubt(max_f32(high_x - low_x, high_y - low_y), self.point_error);
+            let (least, most) = (min_f32(min_f32(ab, bc), ca), max_f32(max_f32(ab, bc), ca));
+            let outside = (least < -doubt) & (most > doubt);
+            let inside = (least > doubt) | (most < -doubt);
+            let (ka, kb, kc) = (a.key[k], b.key[k], c.key[k]);
+            let area = ab + bc + ca;
+            let key = ka + (ca * (kb - ka) + ab * (kc - ka)) / area;
+            let spread = max_f32(max_f32(ka, kb), kc) - min_f32(min_f32(ka, kb), kc);
+            let is_key_sure = 8.0 * doubt * spread <= (KEY_ERROR as f32 / 4.0) * key.abs() * area.abs();
+            let state_of_one = if outside {
+                NOTHING
+            } else if inside & is_key_sure {
+                COVERS_ONE
+            } else {
+                DOUBTFUL_ONE
+            };
+            out.state[k] = if !near {
+                NOTHING
+            } else if one {
+                state_of_one
+            } else {
+                SEVERAL
+            };
+            out.column[k] = x0 - first_x;
+            out.row[k] = y0 - first_y;
+            out.key[k] = key;
+        }
+        out
+    }
+
+    /// Draws what sorting left to do.
+    #[inline]
+    fn settle(&self, tile: &mut Tile, sorted: &Sorted, corners: &[Points; 3], id: impl Fn(usize) -> u32) {
+        let (low, high) = sorted.state.split_at(8);
+        for (half, bytes) in [low, high].into_iter().enumerate() {
+            let mut word = bytes.iter().rev().fold(0u64, |word, &b| word << 8 | u64::from(b));
+            while word != 0 {
+                let byte = word.trailing_zeros() / 8;
+                let lane = half * 8 + byte as usize;
+                self.settle_one(tile, sorted, corners, lane, id(lane));
+                word &= !(0xff << (8 * byte));
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn settle_one(&self, tile: &mut Tile, sorted: &Sorted, corners: &[Points; 3], lane: usize, id: u32) {
+        let (c, r) = (sorted.column[lane] as usize, sorted.row[lane] as usize);
+        tile.counts.triangles += 1;
+        match sorted.state[lane] {
+            COVERS_ONE => tile.offer(c, r, sorted.key[lane], id),
+            DOUBTFUL_ONE => tile.decide(c, r, id),
+            _ => self.draw_several(tile, corners.map(|p| [p.x[lane], p.y[lane], p.key[lane]]), id),
+        }
+    }
+
+    /// Draws a triangle that has several samples near it.
+    fn draw_several(&self, tile: &mut Tile, corners: [[f32; 3]; 3], id: u32) {
+        let [a, b, c] = corners.map(|p| p.map(f64::from));
+        let range = |k: usize| {
+            let v = [a[k], b[k], c[k]];
+            v.iter().fold((v[0], v[0]), |(l, h), &v| {
+                (if v < l { v } else { l }, if v > h { v } else { h })
+            })
+        };
+        let ((x0, x1), (y0, y1), (k0, k1)) = (range(0), range(1), range(2));
+        let Some((from, to)) = tile.samples_in([x0, y0, x1, y1]) else {
+            return;
+        };
+        let edge = |p: [f64; 3], q: [f64; 3]| {
+            let (dx, dy) = (q[0] - p[0], q[1] - p[1]);
+            DVec3::new(-dy, dx, dy * p[0] - dx * p[1])
+        };
+        let edges = [edge(a, b), edge(b, c), edge(c, a)];
+        let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+        let longest = if x1 - x0 > y1 - y0 { x1 - x0 } else { y1 - y0 };
+        let doubt = f64::from(edge_doubt(longest as f32, self.point_error));
+        let key = (DVec3::Z * (a[2] * area) + edges[2] * (b[2] - a[2]) + edges[0] * (c[2] - a[2])) / area;
+        let least = if k0.abs() < k1.abs() { k0.abs() } else { k1.abs() };
+        let is_key_sure = 8.0 * doubt * (k1 - k0) <= KEY_ERROR / 4.0 * least * area.abs();
+        if !is_key_sure {
+            if let Some(corners) = tile.mesh.triangle(id) {
+                Facet::draw(tile, id, &corners);
+            }
+            return;
+        }
+        let sign = area.signum();
+        let facet = Facet {
+            id,
+            edges: edges.map(|e| e * sign),
+            edge_error: doubt,
+            key,
+            sure_keys: (f64::NEG_INFINITY, f64::INFINITY),
+            is_key_sure,
+        };
+        facet.fill(tile, from, to);
+    }
+}
+
+/// A bound of the error of an edge function at a sample in the box (of side `longest`) of a triangle whose corners are off
+/// by at most `point_error` in each coordinate: each of the two products is off by 3 point errors times the side, and
+/// the single-precision arithmetic adds 8 roundings of the side squared.
+#[inline(always)]
+fn edge_doubt(longest: f32, point_error: f32) -> f32 {
+    let side = longest + 2e-3;
+    side * (8.0 * point_error + 10.0 * (f32::EPSILON / 2.0) * side)
+}
+
+/// The lines of posts of a grid in one column of nodes.
+struct GridLines {
+    /// Post (i, 0) at height 0, then the step to the next row, as lines.
+    origin: DVec3,
+    step: DVec3,
+    next_row: DVec3,
+    up: DVec3,
+    depth: DVec3,
+    depth_next_row: f64,
+    is_parallel: bool,
+}
+
+impl GridLines {
+    fn new(view: &TileView, grid: &crate::terrain::Grid, i: usize) -> Self {
+        let posts = grid.posts();
+        let first = posts.plan(i, 0);
+        let start = crate::space::World::new(first.x, first.y, 0.0);
+        let (east, north) = (posts.east().extend(0.0), posts.north().extend(0.0));
+        let from_eye = start - view.frame.eye();
+        Self {
+            origin: view.map_point(start),
+            step: view.map(east),
+            next_row: view.map(north),
+            up: view.map(DVec3::Z),
+            depth: DVec3::new(view.depth(from_eye), view.depth(east), view.depth(DVec3::Z)),
+            depth_next_row: view.depth(north),
+            is_parallel: view.is_parallel(),
+        }
+    }
+
+    #[inline(always)]
+    fn line(&self, j: usize) -> PostLine {
+        let j = j as f64;
+        PostLine {
+            origin: self.origin + self.next_row * j,
+            step: self.step,
+            up: self.up,
+            depth: self.depth + DVec3::X * (self.depth_next_row * j),
+            is_parallel: self.is_parallel,
+        }
+    }
+
+    #[inline(always)]
+    fn heights(
+        &self,
+        grid: &crate::terrain::Grid,
+        columns: std::ops::Range<usize>,
+        j: usize,
+    ) -> [f64; LANES] {
+        let start = j * grid.posts().columns();
+        let row = &grid.posts().heights()[start + columns.start..start + columns.end];
+        let mut heights = [f64::NAN; LANES];
+        heights[..row.len()].copy_from_slice(row);
+        heights
+    }
+}

@@ -1,0 +1,194 @@
+//! Each sample sees the triangle that exact rational ray casting finds, whatever the tiles, the camera and the terrain.
+
+use dashu::rational::RBig;
+use drapery::raster::Lattice;
+use drapery::scene::{Diagonal, Posts, Surface};
+use drapery::space::{Plan, Ray, ViewFrame, Viewpoint, World};
+use drapery::terrain::{Mesh, SKY};
+use drapery::visibility;
+use glam::{DVec2, DVec3};
+use proptest::prelude::*;
+
+type V = [RBig; 3];
+
+fn exact(p: World) -> V {
+    [p.x, p.y, p.z].map(|v| RBig::try_from(v).unwrap())
+}
+
+fn minus(a: &V, b: &V) -> V {
+    [0, 1, 2].map(|k| a[k].clone() - b[k].clone())
+}
+
+fn det(a: &V, b: &V, c: &V) -> RBig {
+    let m = |i: usize, j: usize| b[i].clone() * c[j].clone() - b[j].clone() * c[i].clone();
+    a[0].clone() * m(1, 2) + a[1].clone() * m(2, 0) + a[2].clone() * m(0, 1)
+}
+
+/// The parameter at which the ray meets the closed triangle, in rational arithmetic (Cramer's rule).
+fn meets(ray: &Ray, [a, b, c]: &[World; 3]) -> Option<RBig> {
+    let (from, a, b, c) = (exact(ray.from), exact(*a), exact(*b), exact(*c));
+    let (along, u, v, s) = (
+        minus(&exact(ray.through), &from),
+        minus(&b, &a),
+        minus(&c, &a),
+        minus(&from, &a),
+    );
+    // s + t along = p u + q v
+    let d = det(&along, &u, &v);
+    if d == RBig::ZERO {
+        return None;
+    }
+    let t = -det(&s, &u, &v) / d.clone();
+    let p = det(&along, &s, &v) / d.clone();
+    let q = det(&along, &u, &s) / d;
+    (p >= RBig::ZERO && q >= RBig::ZERO && p + q <= RBig::ONE).then_some(t)
+}
+
+/// Every triangle that an exact brute-force ray caster accepts as the first.
+fn firsts(frame: &ViewFrame, mesh: &Mesh, ray: &Ray) -> Vec<u32> {
+    let unit = RBig::try_from(frame.reach()).unwrap();
+    let (near, far) = (
+        RBig::try_from(frame.near()).unwrap(),
+        RBig::try_from(frame.far()).ok(),
+    );
+    let mut best: Option<RBig> = None;
+    let mut ids = Vec::new();
+    for id in 0..mesh.triangle_ids() {
+        let Some(t) = mesh.triangle(id).and_then(|t| meets(ray, &t)) else {
+            continue;
+        };
+        let depth = t.clone() * unit.clone();
+        if depth < near || far.as_ref().is_some_and(|f| depth > *f) {
+            continue;
+        }
+        match &best {
+            Some(b) if t > *b => {}
+            Some(b) if t == *b => ids.push(id),
+            _ => {
+                best = Some(t);
+                ids = vec![id];
+            }
+        }
+    }
+    ids
+}
+
+/// Whether the ray meets the triangle's border, so that the half-open rule may give the sample to a neighbour or to none.
+fn is_on_border(ray: &Ray, [a, b, c]: [World; 3]) -> bool {
+    let (from, through) = (exact(ray.from), exact(ray.through));
+    [(a, b), (b, c), (c, a)].iter().any(|&(p, q)| {
+        det(
+            &minus(&exact(p), &from),
+            &minus(&exact(q), &from),
+            &minus(&through, &from),
+        ) == RBig::ZERO
+    })
+}
+
+fn check(frame: &ViewFrame, mesh: &Mesh, tile: usize) -> Result<(), TestCaseError> {
+    let lattice = Lattice::centres(frame, 0);
+    let (ids, keys, _) = visibility::see(frame, mesh, &lattice, tile);
+    for r in 0..lattice.rows {
+        for c in 0..lattice.columns {
+            let ray = frame.ray(lattice.at(c, r));
+            let expected = firsts(frame, mesh, &ray);
+            let seen = ids[r * lattice.columns + c];
+            let agrees = expected.contains(&seen) || expected.is_empty() && seen == SKY;
+            let fine = agrees
+                || expected
+                    .iter()
+                    .any(|&id| is_on_border(&ray, mesh.triangle(id).unwrap()));
+            prop_assert!(
+                fine,
+                "sample ({}, {}) sees {}, exact ray casting {:?}",
+                c,
+                r,
+                seen,
+                expected
+            );
+            prop_assert_eq!(seen == SKY, keys[r * lattice.columns + c] == f32::NEG_INFINITY);
+        }
+    }
+    Ok(())
+}
+
+fn grid(n: usize, diagonal: Diagonal, heights: &[f64]) -> Mesh {
+    let heights: Vec<f64> = heights.iter().copied().cycle().take(n * n).collect();
+    let first = Plan::new(-((n - 1) as f64) / 2.0, -((n - 1) as f64) / 2.0);
+    Mesh::new(
+        &Surface::Grid(Posts::new((n, n), first, (DVec2::X, DVec2::Y), heights).unwrap()),
+        diagonal,
+    )
+    .unwrap()
+}
+
+fn camera(eye: [f64; 3], target: [f64; 3], near: f64, far: f64) -> Viewpoint {
+    let point = |p: [f64; 3]| World::new(p[0], p[1], p[2]);
+    Viewpoint {
+        eye: point(eye),
+        target: point(target),
+        up: DVec3::new(0.01, 0.02, 1.0),
+        near,
+        far,
+    }
+}
+
+fn height() -> impl Strategy<Value = f64> {
+    prop_oneof![8 => (-8..8i32).prop_map(|h| f64::from(h) / 4.0), 8 => -2.0..2.0f64, 1 => Just(f64::NAN)]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(30))]
+
+    #[test]
+    fn a_perspective_sample_sees_the_triangle_of_exact_ray_casting(
+        heights in prop::collection::vec(height(), 49),
+        eye in prop::array::uniform3(-6.0..6.0f64),
+        target in prop::array::uniform3(-1.0..1.0f64),
+        near in prop_oneof![Just(1e-3), 0.1..4.0f64],
+        far in prop_oneof![Just(f64::INFINITY), 4.0..9.0f64],
+        diagonal in prop_oneof![Just(Diagonal::SwNe), Just(Diagonal::NwSe), Just(Diagonal::Alternating)],
+        tile in prop_oneof![Just(5usize), Just(8), Just(64)],
+    ) {
+        let mesh = grid(7, diagonal, &heights);
+        if let Ok(frame) = ViewFrame::perspective(&camera(eye, target, near, far), 60.0, (17, 13)) {
+            check(&frame, &mesh, tile)?;
+        }
+    }
+
+    #[test]
+    fn an_orthographic_sample_on_posts_and_edges_sees_one_of_their_triangles(
+        heights in prop::collection::vec((-8..8i32).prop_map(|h| f64::from(h) / 4.0), 49),
+        shift in (-4..4i32).prop_map(|s| f64::from(s) / 4.0),
+        tilt in prop_oneof![Just(0.0), Just(1.0), 0.0..3.0f64],
+    ) {
+        let mesh = grid(7, Diagonal::SwNe, &heights);
+        let view = Viewpoint {
+            eye: World::new(shift, shift - tilt * 10.0, 10.0),
+            target: World::new(shift, shift, 0.0),
+            up: DVec3::Y,
+            near: 0.5,
+            far: f64::INFINITY,
+        };
+        // A pixel is half a cell: seen from straight above, samples fall on posts, edges and diagonals.
+        let frame = ViewFrame::orthographic(&view, 8.0, (16, 16)).unwrap();
+        check(&frame, &mesh, 8)?;
+    }
+}
+
+#[test]
+fn every_sample_over_a_closed_surface_is_covered_once_from_straight_above() {
+    let mesh = grid(33, Diagonal::Alternating, &[0.0]);
+    let view = Viewpoint {
+        eye: World::new(0.0, 0.0, 10.0),
+        target: World::new(0.0, 0.0, 0.0),
+        up: DVec3::Y,
+        near: 0.5,
+        far: f64::INFINITY,
+    };
+    // 65 samples at a distance of half a metre, the first exactly on the rim, the last exactly on the opposite one.
+    let frame = ViewFrame::orthographic(&view, 32.5, (65, 65)).unwrap();
+    let (ids, _, _) = visibility::see(&frame, &mesh, &Lattice::centres(&frame, 0), 32);
+    let seen = ids.iter().filter(|id| **id != SKY).count();
+    assert_eq!(seen, 64 * 64, "the half-open rule keeps one rim of two");
+}
