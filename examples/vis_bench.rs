@@ -33,13 +33,15 @@ fn main() {
         let lattice = Lattice::centres(&frame, 0);
         drapery::parallel::with_threads(threads, || {
             let mut times = vec![];
+            let mut visible = visibility::Visible::new(&lattice, tile);
             let mut counts = None;
             let mut covered = 0;
             let mut mean = 0.0;
             for _ in 0..9 {
                 let t = std::time::Instant::now();
-                let (ids, keys, c) = visibility::see(&frame, &mesh, &lattice, tile);
+                visible.see(&frame, &mesh);
                 times.push(t.elapsed().as_secs_f64() * 1e3);
+                let (ids, keys, c) = (visible.triangles(), visible.keys(), visible.counts());
                 covered = ids.iter().filter(|i| **i != u32::MAX).count();
                 mean = keys
                     .iter()

@@ -24,6 +24,11 @@ pub fn for_each_chunk<T: Send>(values: &mut [T], chunk: usize, f: impl Fn(usize,
         .for_each(|(i, c)| f(i, c));
 }
 
+/// Runs `f` over every item.
+pub fn for_each<T: Send>(items: &mut [T], f: impl Fn(&mut T) + Send + Sync) {
+    items.par_iter_mut().for_each(f);
+}
+
 /// Sorts by a key; equal keys keep their order.
 pub fn sort_by_key<T: Send, K: Ord>(values: &mut [T], key: impl Fn(&T) -> K + Sync) {
     values.par_sort_by_key(key);

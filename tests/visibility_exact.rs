@@ -5,7 +5,7 @@ use drapery::raster::Lattice;
 use drapery::scene::{Diagonal, Posts, Surface};
 use drapery::space::{Plan, Ray, ViewFrame, Viewpoint, World};
 use drapery::terrain::{Mesh, SKY};
-use drapery::visibility;
+use drapery::visibility::Visible;
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
 
@@ -87,7 +87,9 @@ fn is_on_border(ray: &Ray, [a, b, c]: [World; 3]) -> bool {
 
 fn check(frame: &ViewFrame, mesh: &Mesh, tile: usize) -> Result<(), TestCaseError> {
     let lattice = Lattice::centres(frame, 0);
-    let (ids, keys, _) = visibility::see(frame, mesh, &lattice, tile);
+    let mut visible = Visible::new(&lattice, tile);
+    visible.see(frame, mesh);
+    let (ids, keys) = (visible.triangles(), visible.keys());
     for r in 0..lattice.rows {
         for c in 0..lattice.columns {
             let ray = frame.ray(lattice.at(c, r));
@@ -188,7 +190,8 @@ fn every_sample_over_a_closed_surface_is_covered_once_from_straight_above() {
     };
     // 65 samples at a distance of half a metre, the first exactly on the rim, the last exactly on the opposite one.
     let frame = ViewFrame::orthographic(&view, 32.5, (65, 65)).unwrap();
-    let (ids, _, _) = visibility::see(&frame, &mesh, &Lattice::centres(&frame, 0), 32);
-    let seen = ids.iter().filter(|id| **id != SKY).count();
+    let mut visible = Visible::new(&Lattice::centres(&frame, 0), 32);
+    visible.see(&frame, &mesh);
+    let seen = visible.triangles().iter().filter(|id| **id != SKY).count();
     assert_eq!(seen, 64 * 64, "the half-open rule keeps one rim of two");
 }

@@ -3,33 +3,38 @@
 //! Edge functions of homogeneous coordinates (Olano & Greer 1997, "Triangle scan conversion using 2D homogeneous
 //! coordinates") hold for corners behind the eye too; the near plane is a test of each sample's depth.
 
-use super::tile::Tile;
+use super::tile::{PAD, Tile};
 use super::{KEY_ERROR, TileView};
-use crate::math;
+use crate::math::{self, max_f32, min_f32};
 use crate::space::World;
+use crate::terrain::SKY;
 use glam::DVec3;
 
 /// Unit roundoff of doubles.
 const U: f64 = f64::EPSILON / 2.0;
-/// Samples handled together.
-const LANES: usize = 16;
+/// Unit roundoff of single precision.
+const SINGLE: f64 = f32::EPSILON as f64 / 2.0;
 
-/// Linear functions of a sample (x, y, 1) in tile coordinates that decide a triangle's coverage and depth.
+/// Linear functions of a sample (x, y) in tile coordinates that decide a triangle's coverage and depth.
+///
+/// Edge functions are scaled to the distance from the edge in samples and evaluated in single precision; what lies nearer to
+/// an edge than `doubt` is decided exactly.
 #[derive(Debug, Clone, Copy)]
 pub struct Facet {
-    /// The triangle's number.
-    pub id: u32,
-    /// Edge functions, positive inside.
-    pub edges: [DVec3; 3],
-    /// A bound of the error of each edge function at any sample of the tile.
-    pub edge_error: f64,
-    /// The depth key.
-    pub key: DVec3,
-    /// Keys below this are surely in front of the far plane and surely beyond the near one: (least, greatest).
-    pub sure_keys: (f64, f64),
+    id: u32,
+    /// Edge functions, positive inside: f.x * x + f.y * y + f.z.
+    edges: [DVec3; 3],
+    doubt: f32,
+    key: DVec3,
+    /// Keys between these surely lie between the near and the far plane.
+    sure_keys: (f32, f32),
     /// Whether keys are within [`KEY_ERROR`]; if not, each covered sample is decided exactly.
-    pub is_key_sure: bool,
+    is_key_sure: bool,
 }
+
+/// What single-precision evaluation of a scaled edge function may be off, in samples: in a tile of at most 512
+/// samples a side its terms are below 1024 and are rounded three times (3 * 1024 * 2^-24 < 2e-4).
+const EVALUATION_DOUBT: f64 = 2e-4;
 
 /// A triangle's corner and two sides in homogeneous tile coordinates, with the sizes that bound their errors.
 struct Corner {
@@ -111,87 +116,135 @@ impl Facet {
                 det_error <= KEY_ERROR / 8.0 * det.abs() && error * farthest <= KEY_ERROR / 8.0,
             )
         };
-        Some(Self {
-            id,
+        let least_key = if view.is_parallel() {
+            nearest
+        } else {
+            1.0 / farthest
+        };
+        let shape = Shape {
             edges: [ab * sign, bc * sign, ca * sign],
             edge_error: 3.0 * edge_error,
             key,
-            sure_keys: sure_keys(view, nearest, farthest),
+        };
+        Some(Self::of_shape(
+            id,
+            &shape,
+            (is_key_sure, least_key),
+            sure_keys(view, nearest, farthest),
+        ))
+    }
+
+    /// Scales edge functions to distances and says how far they can be trusted; `least_key` is the least magnitude of
+    /// the key on the triangle.
+    pub(super) fn of_shape(
+        id: u32,
+        shape: &Shape,
+        (is_key_sure, least_key): (bool, f64),
+        (least, most): (f64, f64),
+    ) -> Self {
+        let mut doubt = EVALUATION_DOUBT;
+        let edges = shape.edges.map(|e| {
+            let slope = e.x.abs() + e.y.abs();
+            doubt = math::max(shape.edge_error / slope + EVALUATION_DOUBT, doubt);
+            e / slope
+        });
+        // A key is evaluated from the first of 16 samples on: two roundings of what it changes by over them.
+        let is_key_sure = is_key_sure && shape.key.x.abs() * 64.0 * SINGLE <= KEY_ERROR / 8.0 * least_key;
+        let sure_keys = (least as f32, most as f32);
+        Self {
+            id,
+            edges,
+            doubt: doubt as f32,
+            key: shape.key,
+            sure_keys,
             is_key_sure,
-        })
+        }
     }
 
     /// Draws the samples of columns and rows `from..=to`.
     pub fn fill(&self, tile: &mut Tile, from: (usize, usize), to: (usize, usize)) {
-        let arch = pulp::Arch::new();
-        let mut states = [0u8; LANES];
+        pulp::Arch::new().dispatch(Fill {
+            facet: self,
+            tile,
+            from,
+            to,
+        });
+    }
+
+    #[inline(always)]
+    fn fill_rows(&self, tile: &mut Tile, from: (usize, usize), to: (usize, usize)) {
+        let mut open = [0u32; PAD];
+        let last = tile.samples.stride() - PAD;
         for r in from.1..=to.1 {
-            let mut c = from.0;
-            while c <= to.0 {
-                let count = (to.0 + 1 - c).min(LANES);
-                let open = arch.dispatch(
-                    #[inline(always)]
-                    || self.fill_lanes(tile, c, r, count, &mut states),
-                );
-                if open {
-                    self.settle(tile, c, r, &states[..count]);
+            let mut first = from.0;
+            while first <= to.0 {
+                // A whole vector must fit the padded row.
+                let c = if first < last { first } else { last };
+                let lanes = (first - c, to.0 - c);
+                if self.fill_lanes(tile, (c, r), lanes, &mut open) {
+                    self.settle(tile, c, r, &open);
                 }
-                c += count;
+                first = c + PAD;
             }
         }
     }
 
-    /// Draws up to [`LANES`] samples of a row as far as the filter decides; tells whether any is left open in `states`.
+    /// Draws the samples `lanes.0..=lanes.1` of the vector at (c, r) as far as the filter decides; tells whether any is left
+    /// open, and in `open` which: 1 for coverage, 2 for depth alone.
     #[inline(always)]
     fn fill_lanes(
         &self,
         tile: &mut Tile,
-        c: usize,
-        r: usize,
-        count: usize,
-        states: &mut [u8; LANES],
+        (c, r): (usize, usize),
+        lanes: (usize, usize),
+        open: &mut [u32; PAD],
     ) -> bool {
-        let start = tile.row_start(r) + c;
-        let (x0, y) = (tile.view.first.0 + c as f64, tile.view.first.1 + r as f64);
-        let at_row = |f: DVec3| f.y * y + f.z;
-        let [e0, e1, e2] = self.edges.map(at_row);
-        let [d0, d1, d2] = self.edges.map(|f| f.x);
-        let (k0, dk) = (at_row(self.key), self.key.x);
-        let error = self.edge_error;
-        let mut open = 0u8;
-        let keys = &mut tile.keys[start..start + count];
-        let ids = &mut tile.ids[start..start + count];
-        for lane in 0..count {
-            let x = x0 + lane as f64;
-            let (a, b, d) = (e0 + d0 * x, e1 + d1 * x, e2 + d2 * x);
-            let least = math::min(math::min(a, b), d);
-            let key = (k0 + dk * x) as f32;
-            let old = keys[lane];
-            let tolerance = (2.0 * KEY_ERROR as f32) * math::max_f32(key.abs(), old.abs());
-            let is_empty = ids[lane] == crate::terrain::SKY;
-            let inside = least > error;
-            let outside = least < -error;
-            let is_sure =
-                self.is_key_sure & (f64::from(key) > self.sure_keys.0) & (f64::from(key) < self.sure_keys.1);
-            let nearer = is_empty | (key - old > tolerance);
-            let farther = !is_empty & (old - key > tolerance);
-            let wins = inside & is_sure & nearer;
-            let is_open = !outside & !wins & !(inside & is_sure & farther);
+        let start = r * tile.samples.stride() + c;
+        let (x, y) = (tile.view.first.0 + c as f64, tile.view.first.1 + r as f64);
+        let [f0, f1, f2] = &self.edges;
+        let (e0, d0) = ((f0.x * x + f0.y * y + f0.z) as f32, f0.x as f32);
+        let (e1, d1) = ((f1.x * x + f1.y * y + f1.z) as f32, f1.x as f32);
+        let (e2, d2) = ((f2.x * x + f2.y * y + f2.z) as f32, f2.x as f32);
+        let (k0, dk) = (
+            (self.key.x * x + self.key.y * y + self.key.z) as f32,
+            self.key.x as f32,
+        );
+        let (from, to) = (lanes.0 as f32, lanes.1 as f32);
+        let (Some(keys), Some(ids)) = (
+            tile.samples.keys[start..].first_chunk_mut::<PAD>(),
+            tile.samples.ids[start..].first_chunk_mut::<PAD>(),
+        ) else {
+            return false;
+        };
+        let mut any = 0;
+        for lane in 0..PAD {
+            let x = lane as f32;
+            let least = min_f32(min_f32(e0 + d0 * x, e1 + d1 * x), e2 + d2 * x);
+            let key = k0 + dk * x;
+            let (old, old_id) = (keys[lane], ids[lane]);
+            let tolerance = (2.0 * KEY_ERROR as f32) * max_f32(key.abs(), old.abs());
+            let is_empty = old_id == SKY;
+            let inside = least > self.doubt;
+            let possible = (least >= -self.doubt) & (x >= from) & (x <= to);
+            let is_sure = inside & self.is_key_sure & (key > self.sure_keys.0) & (key < self.sure_keys.1);
+            let wins = possible & is_sure & (is_empty | (key - old > tolerance));
+            let loses = is_sure & !is_empty & (old - key > tolerance);
+            let is_open = possible & !wins & !loses;
             keys[lane] = if wins { key } else { old };
-            ids[lane] = if wins { self.id } else { ids[lane] };
-            states[lane] = u8::from(is_open) | (u8::from(inside & is_sure) << 1);
-            open |= u8::from(is_open);
+            ids[lane] = if wins { self.id } else { old_id };
+            open[lane] = if is_open { 1 + u32::from(is_sure) } else { 0 };
+            any |= open[lane];
         }
-        open != 0
+        any != 0
     }
 
     /// Decides the samples that the filter left open.
     #[cold]
-    fn settle(&self, tile: &mut Tile, c: usize, r: usize, states: &[u8]) {
-        for (lane, state) in states.iter().enumerate() {
-            match state {
+    fn settle(&self, tile: &mut Tile, c: usize, r: usize, open: &[u32; PAD]) {
+        for (lane, how) in open.iter().enumerate() {
+            match how {
                 1 => tile.decide(c + lane, r, self.id),
-                3 => {
+                2 => {
                     let (x, y) = (
                         tile.view.first.0 + (c + lane) as f64,
                         tile.view.first.1 + r as f64,
@@ -203,6 +256,30 @@ impl Facet {
             }
         }
     }
+}
+
+/// [`Facet::fill_rows`] compiled for the widest vectors of the machine at hand.
+struct Fill<'f, 'a, 't> {
+    facet: &'f Facet,
+    tile: &'t mut Tile<'a>,
+    from: (usize, usize),
+    to: (usize, usize),
+}
+
+impl pulp::WithSimd for Fill<'_, '_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) {
+        self.facet.fill_rows(self.tile, self.from, self.to);
+    }
+}
+
+/// A triangle's edge functions (positive inside, of any scale), a bound of their error in the tile, and its key.
+pub(super) struct Shape {
+    pub(super) edges: [DVec3; 3],
+    pub(super) edge_error: f64,
+    pub(super) key: DVec3,
 }
 
 /// The keys that surely lie between the near and the far plane; all of them when the triangle's corners do.

@@ -14,7 +14,7 @@ mod tile;
 pub use facet::Facet;
 pub use lattice::{Lattice, TileView};
 pub use strip::{LANES, Patch};
-pub use tile::{Counts, Tile};
+pub use tile::{Counts, Samples, Tile};
 
 /// The relative error that a stored depth key may have: keys nearer to each other than twice this are compared exactly.
 ///

@@ -4,10 +4,12 @@
 //! time are then sorted into: no sample near (most), exactly one sample near (decided in place), several
 //! (handed to [`super::Facet::fill`]). The error of a rounded corner bounds every doubt.
 
-use super::facet::Facet;
+use super::facet::{Facet, Shape};
 use super::tile::Tile;
 use super::{KEY_ERROR, TileView};
 use crate::math::{max_f32, min_f32};
+use crate::scene::Diagonal;
+use crate::terrain::{Grid, Node, Tin};
 use glam::DVec3;
 
 /// Triangles handled together.
@@ -17,55 +19,65 @@ pub const LANES: usize = 16;
 const U32: f64 = f32::EPSILON as f64 / 2.0;
 
 /// What is known of a triangle after sorting.
-const NOTHING: u8 = 0;
-const COVERS_ONE: u8 = 1;
-const DOUBTFUL_ONE: u8 = 2;
-const SEVERAL: u8 = 3;
+const NOTHING: u32 = 0;
+const COVERS_ONE: u32 = 1;
+const DOUBTFUL_ONE: u32 = 2;
+const SEVERAL: u32 = 3;
 
-/// Sixteen projected points: tile coordinates and depth keys. NaN where there is no point.
+/// Up to sixteen projected points: tile coordinates and depth keys. NaN where there is no point, as in the last place.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Points {
-    x: [f32; LANES],
-    y: [f32; LANES],
-    key: [f32; LANES],
+struct Points {
+    x: [f32; LANES + 1],
+    y: [f32; LANES + 1],
+    key: [f32; LANES + 1],
+}
+
+/// Sixteen of some points in their order.
+#[derive(Clone, Copy)]
+struct Sixteen<'a> {
+    x: &'a [f32; LANES],
+    y: &'a [f32; LANES],
+    key: &'a [f32; LANES],
 }
 
 impl Points {
     /// No points.
     const NONE: Self = Self {
-        x: [f32::NAN; LANES],
-        y: [f32::NAN; LANES],
-        key: [f32::NAN; LANES],
+        x: [f32::NAN; LANES + 1],
+        y: [f32::NAN; LANES + 1],
+        key: [f32::NAN; LANES + 1],
     };
 
-    /// The points `origin + k * step + heights[k] * up` in homogeneous tile coordinates.
+    /// The points of a line of posts.
     #[inline(always)]
-    fn project(line: &PostLine, heights: &[f64; LANES]) -> Self {
-        let mut out = Self::NONE;
-        for k in 0..LANES {
-            let (i, h) = (k as f64, heights[k]);
+    fn project(&mut self, line: &PostLine, heights: &[f64; LANES]) {
+        for (k, h) in heights.iter().enumerate() {
+            let i = k as f64;
             let x = line.origin.x + i * line.step.x + h * line.up.x;
             let y = line.origin.y + i * line.step.y + h * line.up.y;
             let w = line.origin.z + i * line.step.z + h * line.up.z;
             let depth = line.depth.x + i * line.depth.y + h * line.depth.z;
             let inverse = 1.0 / w;
-            out.x[k] = (x * inverse) as f32;
-            out.y[k] = (y * inverse) as f32;
-            out.key[k] = (if line.is_parallel { -depth } else { inverse }) as f32;
+            self.x[k] = (x * inverse) as f32;
+            self.y[k] = (y * inverse) as f32;
+            self.key[k] = (if line.is_parallel { -depth } else { inverse }) as f32;
         }
-        out
     }
 
-    /// The same points one place on: point k + 1 at k.
+    /// The sixteen points from place `SHIFT` (0 or 1) on.
     #[inline(always)]
-    fn shifted(&self) -> Self {
-        let mut out = Self::NONE;
-        for k in 0..LANES - 1 {
-            out.x[k] = self.x[k + 1];
-            out.y[k] = self.y[k + 1];
-            out.key[k] = self.key[k + 1];
+    fn from<const SHIFT: usize>(&self) -> Sixteen<'_> {
+        Sixteen {
+            x: shifted::<SHIFT>(&self.x),
+            y: shifted::<SHIFT>(&self.y),
+            key: shifted::<SHIFT>(&self.key),
         }
-        out
+    }
+
+    /// One point.
+    #[inline(always)]
+    fn get(&self, lane: usize) -> (f32, f32, f32) {
+        (self.x[lane], self.y[lane], self.key[lane])
     }
 
     /// Sets one point.
@@ -73,6 +85,12 @@ impl Points {
     fn set(&mut self, lane: usize, (x, y, key): (f32, f32, f32)) {
         (self.x[lane], self.y[lane], self.key[lane]) = (x, y, key);
     }
+}
+
+#[inline(always)]
+fn shifted<const SHIFT: usize>(values: &[f32; LANES + 1]) -> &[f32; LANES] {
+    const NONE: [f32; LANES] = [f32::NAN; LANES];
+    values[SHIFT..].first_chunk().unwrap_or(&NONE)
 }
 
 /// A line of posts in homogeneous tile coordinates.
@@ -87,10 +105,19 @@ struct PostLine {
 
 /// The outcome of sorting sixteen triangles.
 struct Sorted {
-    state: [u8; LANES],
+    state: [u32; LANES],
     column: [f32; LANES],
     row: [f32; LANES],
     key: [f32; LANES],
+}
+
+impl Sorted {
+    const NOTHING: Self = Self {
+        state: [NOTHING; LANES],
+        column: [0.0; LANES],
+        row: [0.0; LANES],
+        key: [0.0; LANES],
+    };
 }
 
 /// A patch of terrain whose pictures of points lie near the tile and surely beyond the near plane.
@@ -127,30 +154,45 @@ impl Patch {
 
     /// Draws rows of cells of a grid: the posts of column `i` on of rows `j..=j + rows`; `heights(row)` gives the
     /// sixteen heights of a row of posts, NaN where there is none.
-    pub fn draw_grid(&self, tile: &mut Tile, grid: &crate::terrain::Grid, node: crate::terrain::Node) {
+    pub fn draw_grid(&self, tile: &mut Tile, grid: &Grid, node: Node) {
         let arch = pulp::Arch::new();
         let (columns, rows) = grid.cells(node);
         let lines = GridLines::new(&tile.view, grid, columns.start);
-        let mut south = Points::NONE;
+        let (mut south, mut sorted) = (Points::NONE, Sorted::NOTHING);
         for j in rows.start..=rows.end {
             let heights = lines.heights(grid, columns.start..columns.end + 1, j);
             let line = lines.line(j);
-            let has_south = j > rows.start;
-            let (north, sorted) = arch.dispatch(
-                #[inline(always)]
-                || {
-                    let north = Points::project(&line, &heights);
-                    (
-                        north,
-                        has_south
-                            .then(|| self.sort_cells(tile, grid, (columns.start, j - 1), &south, &north)),
-                    )
-                },
-            );
-            if let Some(halves) = sorted {
+            let mut north = Points::NONE;
+            arch.dispatch(Project {
+                line: &line,
+                heights: &heights,
+                to: &mut north,
+            });
+            if j > rows.start {
                 let first = grid.first_triangle(columns.start, j - 1);
-                for (half, (sorted, corners)) in halves.iter().enumerate() {
-                    self.settle(tile, sorted, corners, |lane| {
+                let (sw, se, nw, ne) = (
+                    south.from::<0>(),
+                    south.from::<1>(),
+                    north.from::<0>(),
+                    north.from::<1>(),
+                );
+                let own;
+                let halves = match grid.diagonal() {
+                    Diagonal::SwNe => [[sw, se, ne], [sw, ne, nw]],
+                    Diagonal::NwSe => [[sw, se, nw], [se, ne, nw]],
+                    Diagonal::Alternating => {
+                        own = alternating_corners(grid, (columns.start, j - 1), &south, &north);
+                        [[sw, se, own[0].from::<0>()], [own[1].from::<0>(), ne, nw]]
+                    }
+                };
+                for (half, corners) in halves.iter().enumerate() {
+                    arch.dispatch(Sort {
+                        patch: self,
+                        view: &tile.view,
+                        corners,
+                        sorted: &mut sorted,
+                    });
+                    self.settle(tile, &sorted, corners, |lane| {
                         first + 2 * lane as u32 + half as u32
                     });
                 }
@@ -160,8 +202,8 @@ impl Patch {
     }
 
     /// Draws triangles of a TIN, sixteen at a time.
-    pub fn draw_tin(&self, tile: &mut Tile, tin: &crate::terrain::Tin, ids: std::ops::Range<u32>) {
-        let arch = pulp::Arch::new();
+    pub fn draw_tin(&self, tile: &mut Tile, tin: &Tin, ids: std::ops::Range<u32>) {
+        let (arch, mut sorted) = (pulp::Arch::new(), Sorted::NOTHING);
         for start in ids.clone().step_by(LANES) {
             let mut corners = [Points::NONE; 3];
             for id in start..ids.end.min(start + LANES as u32) {
@@ -174,62 +216,28 @@ impl Patch {
                     );
                 }
             }
-            let sorted = arch.dispatch(
-                #[inline(always)]
-                || self.sort(&tile.view, &corners),
-            );
-            self.settle(tile, &sorted, &corners, |lane| start + lane as u32);
+            let sixteen = [
+                corners[0].from::<0>(),
+                corners[1].from::<0>(),
+                corners[2].from::<0>(),
+            ];
+            arch.dispatch(Sort {
+                patch: self,
+                view: &tile.view,
+                corners: &sixteen,
+                sorted: &mut sorted,
+            });
+            self.settle(tile, &sorted, &sixteen, |lane| start + lane as u32);
         }
-    }
-
-    /// Sorts the two halves of a row of cells.
-    #[inline(always)]
-    fn sort_cells(
-        &self,
-        tile: &Tile,
-        grid: &crate::terrain::Grid,
-        (i, j): (usize, usize),
-        south: &Points,
-        north: &Points,
-    ) -> [(Sorted, [Points; 3]); 2] {
-        let (south_east, north_east) = (south.shifted(), north.shifted());
-        let mut first = [*south, south_east, north_east];
-        let mut second = [*south, north_east, *north];
-        match grid.diagonal() {
-            crate::scene::Diagonal::SwNe => {}
-            crate::scene::Diagonal::NwSe => {
-                first = [*south, south_east, *north];
-                second = [south_east, north_east, *north];
-            }
-            crate::scene::Diagonal::Alternating => {
-                for lane in (0..LANES).filter(|lane| !grid.splits_sw_ne(i + lane, j)) {
-                    first[2].set(lane, (north.x[lane], north.y[lane], north.key[lane]));
-                    second[0].set(
-                        lane,
-                        (south_east.x[lane], south_east.y[lane], south_east.key[lane]),
-                    );
-                }
-            }
-        }
-        [
-            (self.sort(&tile.view, &first), first),
-            (self.sort(&tile.view, &second), second),
-        ]
     }
 
     /// Sorts sixteen triangles by the samples near them, and decides those with one sample.
     #[inline(always)]
-    fn sort(&self, view: &TileView, [a, b, c]: &[Points; 3]) -> Sorted {
+    fn sort(&self, view: &TileView, [a, b, c]: &[Sixteen; 3], out: &mut Sorted) {
         let (first, last) = (view.first, view.last());
         let (first_x, first_y) = (first.0 as f32, first.1 as f32);
         let (last_x, last_y) = (last.0 as f32, last.1 as f32);
         let hair = 2.0 * self.point_error;
-        let mut out = Sorted {
-            state: [0; LANES],
-            column: [0.0; LANES],
-            row: [0.0; LANES],
-            key: [0.0; LANES],
-        };
         for k in 0..LANES {
             let (ax, ay, bx, by, cx, cy) = (a.x[k], a.y[k], b.x[k], b.y[k], c.x[k], c.y[k]);
             let (low_x, high_x) = (min_f32(min_f32(ax, bx), cx), max_f32(max_f32(ax, bx), cx));
@@ -274,26 +282,20 @@ impl Patch {
             out.row[k] = y0 - first_y;
             out.key[k] = key;
         }
-        out
     }
 
     /// Draws what sorting left to do.
     #[inline]
-    fn settle(&self, tile: &mut Tile, sorted: &Sorted, corners: &[Points; 3], id: impl Fn(usize) -> u32) {
-        let (low, high) = sorted.state.split_at(8);
-        for (half, bytes) in [low, high].into_iter().enumerate() {
-            let mut word = bytes.iter().rev().fold(0u64, |word, &b| word << 8 | u64::from(b));
-            while word != 0 {
-                let byte = word.trailing_zeros() / 8;
-                let lane = half * 8 + byte as usize;
+    fn settle(&self, tile: &mut Tile, sorted: &Sorted, corners: &[Sixteen; 3], id: impl Fn(usize) -> u32) {
+        for (lane, state) in sorted.state.iter().enumerate() {
+            if *state != NOTHING {
                 self.settle_one(tile, sorted, corners, lane, id(lane));
-                word &= !(0xff << (8 * byte));
             }
         }
     }
 
     #[inline(always)]
-    fn settle_one(&self, tile: &mut Tile, sorted: &Sorted, corners: &[Points; 3], lane: usize, id: u32) {
+    fn settle_one(&self, tile: &mut Tile, sorted: &Sorted, corners: &[Sixteen; 3], lane: usize, id: u32) {
         let (c, r) = (sorted.column[lane] as usize, sorted.row[lane] as usize);
         tile.counts.triangles += 1;
         match sorted.state[lane] {
@@ -334,15 +336,59 @@ impl Patch {
             return;
         }
         let sign = area.signum();
-        let facet = Facet {
-            id,
+        let shape = Shape {
             edges: edges.map(|e| e * sign),
             edge_error: doubt,
             key,
-            sure_keys: (f64::NEG_INFINITY, f64::INFINITY),
-            is_key_sure,
         };
+        let facet = Facet::of_shape(id, &shape, (true, least), (f64::NEG_INFINITY, f64::INFINITY));
         facet.fill(tile, from, to);
+    }
+}
+
+/// The lines of posts south and north of a row of cells with alternating diagonals, each as the corner that a half needs:
+/// the third corner of half 0 and the first of half 1.
+#[inline]
+fn alternating_corners(grid: &Grid, (i, j): (usize, usize), south: &Points, north: &Points) -> [Points; 2] {
+    let mut corners = [Points::NONE; 2];
+    for lane in 0..LANES {
+        let is_sw_ne = grid.splits_sw_ne(i + lane, j);
+        corners[0].set(lane, north.get(lane + usize::from(is_sw_ne)));
+        corners[1].set(lane, south.get(lane + usize::from(!is_sw_ne)));
+    }
+    corners
+}
+
+/// [`Points::project`] compiled for the widest vectors of the machine at hand.
+struct Project<'a> {
+    line: &'a PostLine,
+    heights: &'a [f64; LANES],
+    to: &'a mut Points,
+}
+
+impl pulp::WithSimd for Project<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) {
+        self.to.project(self.line, self.heights);
+    }
+}
+
+/// [`Patch::sort`] compiled for the widest vectors of the machine at hand.
+struct Sort<'a> {
+    patch: &'a Patch,
+    view: &'a TileView,
+    corners: &'a [Sixteen<'a>; 3],
+    sorted: &'a mut Sorted,
+}
+
+impl pulp::WithSimd for Sort<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) {
+        self.patch.sort(self.view, self.corners, self.sorted);
     }
 }
 
@@ -368,7 +414,7 @@ struct GridLines {
 }
 
 impl GridLines {
-    fn new(view: &TileView, grid: &crate::terrain::Grid, i: usize) -> Self {
+    fn new(view: &TileView, grid: &Grid, i: usize) -> Self {
         let posts = grid.posts();
         let first = posts.plan(i, 0);
         let start = crate::space::World::new(first.x, first.y, 0.0);
@@ -398,12 +444,7 @@ impl GridLines {
     }
 
     #[inline(always)]
-    fn heights(
-        &self,
-        grid: &crate::terrain::Grid,
-        columns: std::ops::Range<usize>,
-        j: usize,
-    ) -> [f64; LANES] {
+    fn heights(&self, grid: &Grid, columns: std::ops::Range<usize>, j: usize) -> [f64; LANES] {
         let start = j * grid.posts().columns();
         let row = &grid.posts().heights()[start + columns.start..start + columns.end];
         let mut heights = [f64::NAN; LANES];

@@ -9,6 +9,9 @@ use std::cmp::Ordering;
 /// Samples a side of a block of the hierarchical depth test.
 const BLOCK: usize = 8;
 
+/// Rows of a tile are padded to a multiple of this, so that a row can be drawn in whole vectors.
+pub(super) const PAD: usize = 16;
+
 /// How often each way of deciding was taken.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Counts {
@@ -45,12 +48,19 @@ pub struct Tile<'a> {
     pub view: TileView,
     /// The terrain.
     pub mesh: &'a Mesh,
-    /// Keys, rows from the top, `stride` apart.
-    pub keys: Vec<f32>,
-    /// Triangles, [`SKY`] where none has been seen.
-    pub ids: Vec<u32>,
+    /// What its samples see so far.
+    pub samples: &'a mut Samples,
     /// What was done.
     pub counts: Counts,
+}
+
+/// The memory of a tile: used again from frame to frame.
+#[derive(Debug, Clone, Default)]
+pub struct Samples {
+    /// Keys, rows from the top, [`Samples::stride`] apart.
+    pub keys: Vec<f32>,
+    /// Triangles, [`SKY`] where none has been seen; laid out as the keys.
+    pub ids: Vec<u32>,
     stride: usize,
     /// The least key of each block.
     farthest: Vec<f32>,
@@ -58,29 +68,48 @@ pub struct Tile<'a> {
     blocks_a_row: usize,
 }
 
-impl<'a> Tile<'a> {
-    /// A tile that has seen nothing.
-    pub fn new(view: TileView, mesh: &'a Mesh) -> Self {
-        let (blocks_a_row, block_rows) = (view.width.div_ceil(BLOCK), view.height.div_ceil(BLOCK));
-        let stride = blocks_a_row * BLOCK;
-        let samples = stride * block_rows * BLOCK;
-        Self {
-            mesh,
-            keys: vec![f32::NEG_INFINITY; samples],
-            ids: vec![SKY; samples],
-            counts: Counts::default(),
-            stride,
-            farthest: vec![f32::NEG_INFINITY; blocks_a_row * block_rows],
-            dirty: vec![false; blocks_a_row * block_rows],
-            blocks_a_row,
-            view,
-        }
+impl Samples {
+    /// Forgets everything and takes the size of a tile.
+    fn reset(&mut self, width: usize, height: usize) {
+        self.stride = width.div_ceil(PAD) * PAD;
+        self.blocks_a_row = width.div_ceil(BLOCK);
+        refill(&mut self.keys, self.stride * height, f32::NEG_INFINITY);
+        refill(&mut self.ids, self.stride * height, SKY);
+        refill(
+            &mut self.farthest,
+            self.blocks_a_row * height.div_ceil(BLOCK),
+            f32::NEG_INFINITY,
+        );
+        refill(&mut self.dirty, self.blocks_a_row * height.div_ceil(BLOCK), false);
     }
 
-    /// Where row `r` starts in `keys` and `ids`.
+    /// How far rows lie apart in `keys` and `ids`: at least the tile's width.
     #[inline(always)]
-    pub fn row_start(&self, r: usize) -> usize {
-        r * self.stride
+    pub fn stride(&self) -> usize {
+        self.stride
+    }
+
+    /// Bytes held.
+    pub fn bytes(&self) -> usize {
+        8 * self.keys.capacity() + 5 * self.farthest.capacity()
+    }
+}
+
+fn refill<T: Clone>(values: &mut Vec<T>, count: usize, value: T) {
+    values.clear();
+    values.resize(count, value);
+}
+
+impl<'a> Tile<'a> {
+    /// A tile that has seen nothing, in memory that is used again.
+    pub fn new(view: TileView, mesh: &'a Mesh, samples: &'a mut Samples) -> Self {
+        samples.reset(view.width, view.height);
+        Self {
+            mesh,
+            samples,
+            counts: Counts::default(),
+            view,
+        }
     }
 
     /// The key of a depth in metres.
@@ -97,8 +126,9 @@ impl<'a> Tile<'a> {
     #[inline]
     pub fn touch(&mut self, from: (usize, usize), to: (usize, usize)) {
         for y in from.1 / BLOCK..=to.1 / BLOCK {
-            self.dirty[y * self.blocks_a_row + from.0 / BLOCK..=y * self.blocks_a_row + to.0 / BLOCK]
-                .fill(true);
+            let samples = &mut *self.samples;
+            let row = y * samples.blocks_a_row;
+            samples.dirty[row + from.0 / BLOCK..=row + to.0 / BLOCK].fill(true);
         }
     }
 
@@ -124,12 +154,20 @@ impl<'a> Tile<'a> {
     pub fn samples_in(&self, [x0, y0, x1, y1]: [f64; 4]) -> Option<((usize, usize), (usize, usize))> {
         const HAIR: f64 = 1e-3;
         let span = |low: f64, high: f64, first: f64, count: usize| {
-            let from = (low - HAIR - first).ceil();
-            let to = (high + HAIR - first).floor();
-            let from = if from > 0.0 { from } else { 0.0 };
-            let end = (count - 1) as f64;
-            let to = if to < end { to } else { end };
-            (from <= to).then_some((from as usize, to as usize))
+            let (from, to) = (low - HAIR - first, high + HAIR - first);
+            let last = (count - 1) as f64;
+            // Casts truncate, faster than `ceil` and `floor` where those are calls; NaN gives an empty span.
+            let from = if from > 0.0 {
+                from as usize + usize::from(from > from as usize as f64)
+            } else {
+                0
+            };
+            if to < 0.0 || to.is_nan() {
+                None
+            } else {
+                Some((from, if to < last { to } else { last } as usize))
+            }
+            .filter(|(from, to)| from <= to)
         };
         let (c0, c1) = span(x0, x1, self.view.first.0, self.view.width)?;
         let (r0, r1) = span(y0, y1, self.view.first.1, self.view.height)?;
@@ -137,27 +175,35 @@ impl<'a> Tile<'a> {
     }
 
     fn farthest_key(&mut self, x: usize, y: usize) -> f32 {
-        let block = y * self.blocks_a_row + x;
-        if std::mem::take(&mut self.dirty[block]) {
+        let Samples {
+            keys,
+            stride,
+            farthest,
+            dirty,
+            blocks_a_row,
+            ..
+        } = &mut *self.samples;
+        let block = y * *blocks_a_row + x;
+        if std::mem::take(&mut dirty[block]) {
             let (columns, rows) = (
                 self.view.width.min((x + 1) * BLOCK),
                 self.view.height.min((y + 1) * BLOCK),
             );
             let mut least = f32::INFINITY;
             for r in y * BLOCK..rows {
-                let row = &self.keys[r * self.stride + x * BLOCK..r * self.stride + columns];
+                let row = &keys[r * *stride + x * BLOCK..r * *stride + columns];
                 least = row.iter().fold(least, |m, &k| if k < m { k } else { m });
             }
-            self.farthest[block] = least;
+            farthest[block] = least;
         }
-        self.farthest[block]
+        farthest[block]
     }
 
     /// Offers triangle `id`, which covers sample (c, r), with a key within [`KEY_ERROR`]: the nearer one stays.
     #[inline]
     pub fn offer(&mut self, c: usize, r: usize, key: f32, id: u32) {
-        let at = self.row_start(r) + c;
-        let (old, old_id) = (self.keys[at], self.ids[at]);
+        let at = r * self.samples.stride + c;
+        let (old, old_id) = (self.samples.keys[at], self.samples.ids[at]);
         let difference = f64::from(key) - f64::from(old);
         let tolerance = 2.0
             * KEY_ERROR
@@ -174,8 +220,8 @@ impl<'a> Tile<'a> {
             self.is_nearer(c, r, id, old_id)
         };
         if wins {
-            self.keys[at] = key;
-            self.ids[at] = id;
+            self.samples.keys[at] = key;
+            self.samples.ids[at] = id;
         }
     }
 

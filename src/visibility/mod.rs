@@ -10,15 +10,26 @@ mod hit;
 pub use hit::{Hit, hit};
 
 use crate::parallel;
-use crate::raster::{Counts, Facet, Lattice, Patch, Tile, TileView};
+use crate::raster::{Counts, Facet, Lattice, Patch, Samples, Tile, TileView};
 use crate::space::ViewFrame;
 use crate::terrain::{Mesh, Node, SKY};
 
 /// The default side of a tile in samples: its keys and triangles fit the second-level cache.
 pub const TILE: usize = 128;
 
+/// What the samples of a lattice see, tile by tile: memory that is used again from frame to frame.
+#[derive(Debug, Clone)]
+pub struct Visible {
+    /// The lattice.
+    pub lattice: Lattice,
+    /// The side of a tile in samples (the last ones of a row or column may be smaller).
+    pub tile: usize,
+    /// What each tile sees, row by row of tiles.
+    pub tiles: Vec<VisibleTile>,
+}
+
 /// What the samples of one tile see.
-#[derive(Debug)]
+#[derive(Debug, Clone, Default)]
 pub struct VisibleTile {
     /// Lattice column of the first sample.
     pub column: usize,
@@ -28,68 +39,83 @@ pub struct VisibleTile {
     pub width: usize,
     /// Rows.
     pub height: usize,
-    /// The triangle of each sample, rows from the top; [`SKY`] where none is seen.
-    pub ids: Vec<u32>,
-    /// The depth key of each sample (see [`Tile`]).
-    pub keys: Vec<f32>,
+    /// Triangles and keys.
+    pub samples: Samples,
     /// What was done.
     pub counts: Counts,
 }
 
-/// The first samples (column, row) of the tiles of a lattice, row by row.
-pub fn tiles_of(lattice: &Lattice, size: usize) -> Vec<(usize, usize)> {
-    let columns = (0..lattice.columns).step_by(size);
-    (0..lattice.rows)
-        .step_by(size)
-        .flat_map(|r| columns.clone().map(move |c| (c, r)))
-        .collect()
-}
-
-/// What one tile sees.
-pub fn see_tile(
-    frame: &ViewFrame,
-    mesh: &Mesh,
-    lattice: &Lattice,
-    first: (usize, usize),
-    size: usize,
-) -> VisibleTile {
-    let mut tile = Tile::new(TileView::new(frame, lattice, first, size), mesh);
-    draw_node(&mut tile, mesh, mesh.root());
-    let (width, height) = (tile.view.width, tile.view.height);
-    let mut ids = Vec::with_capacity(width * height);
-    let mut keys = Vec::with_capacity(width * height);
-    for r in 0..height {
-        let start = tile.row_start(r);
-        ids.extend_from_slice(&tile.ids[start..start + width]);
-        keys.extend_from_slice(&tile.keys[start..start + width]);
-    }
-    VisibleTile {
-        column: first.0,
-        row: first.1,
-        width,
-        height,
-        ids,
-        keys,
-        counts: tile.counts,
-    }
-}
-
-/// What a whole lattice sees: the triangle and the depth key of each sample, rows from the top.
-pub fn see(frame: &ViewFrame, mesh: &Mesh, lattice: &Lattice, size: usize) -> (Vec<u32>, Vec<f32>, Counts) {
-    let tiles = tiles_of(lattice, size);
-    let seen = parallel::map(&tiles, |&first| see_tile(frame, mesh, lattice, first, size));
-    let mut ids = vec![SKY; lattice.columns * lattice.rows];
-    let mut keys = vec![f32::NEG_INFINITY; ids.len()];
-    let mut counts = Counts::default();
-    for tile in seen {
-        counts = counts.plus(tile.counts);
-        for r in 0..tile.height {
-            let at = (tile.row + r) * lattice.columns + tile.column;
-            ids[at..at + tile.width].copy_from_slice(&tile.ids[r * tile.width..(r + 1) * tile.width]);
-            keys[at..at + tile.width].copy_from_slice(&tile.keys[r * tile.width..(r + 1) * tile.width]);
+impl Visible {
+    /// Room for a lattice in tiles of `tile` samples a side (1 to 512).
+    pub fn new(lattice: &Lattice, tile: usize) -> Self {
+        let tile = tile.clamp(1, 512);
+        let mut tiles = Vec::new();
+        for row in (0..lattice.rows).step_by(tile) {
+            for column in (0..lattice.columns).step_by(tile) {
+                let (width, height) = (tile.min(lattice.columns - column), tile.min(lattice.rows - row));
+                tiles.push(VisibleTile {
+                    column,
+                    row,
+                    width,
+                    height,
+                    ..VisibleTile::default()
+                });
+            }
+        }
+        Self {
+            lattice: *lattice,
+            tile,
+            tiles,
         }
     }
-    (ids, keys, counts)
+
+    /// Finds what each sample sees.
+    pub fn see(&mut self, frame: &ViewFrame, mesh: &Mesh) {
+        let (lattice, size) = (self.lattice, self.tile);
+        parallel::for_each(&mut self.tiles, |tile| {
+            let view = TileView::new(frame, &lattice, (tile.column, tile.row), size);
+            let mut drawn = Tile::new(view, mesh, &mut tile.samples);
+            draw_node(&mut drawn, mesh, mesh.root());
+            tile.counts = drawn.counts;
+        });
+    }
+
+    /// The triangle that sample (column, row) sees.
+    #[inline]
+    pub fn triangle(&self, column: usize, row: usize) -> u32 {
+        let tiles_a_row = self.lattice.columns.div_ceil(self.tile);
+        let tile = &self.tiles[row / self.tile * tiles_a_row + column / self.tile];
+        tile.samples.ids[row % self.tile * tile.samples.stride() + column % self.tile]
+    }
+
+    /// The triangles of all samples, rows from the top.
+    pub fn triangles(&self) -> Vec<u32> {
+        self.gather(SKY, |samples| &samples.ids)
+    }
+
+    /// The depth keys of all samples (see [`Tile`]), rows from the top.
+    pub fn keys(&self) -> Vec<f32> {
+        self.gather(f32::NEG_INFINITY, |samples| &samples.keys)
+    }
+
+    /// What was done in all tiles.
+    pub fn counts(&self) -> Counts {
+        self.tiles
+            .iter()
+            .fold(Counts::default(), |sum, tile| sum.plus(tile.counts))
+    }
+
+    fn gather<T: Copy>(&self, empty: T, of: impl Fn(&Samples) -> &Vec<T>) -> Vec<T> {
+        let mut all = vec![empty; self.lattice.columns * self.lattice.rows];
+        for tile in &self.tiles {
+            for r in 0..tile.height {
+                let to = (tile.row + r) * self.lattice.columns + tile.column;
+                let from = r * tile.samples.stride();
+                all[to..to + tile.width].copy_from_slice(&of(&tile.samples)[from..from + tile.width]);
+            }
+        }
+        all
+    }
 }
 
 /// Draws what a node holds, nearest child first.
