@@ -1,5 +1,6 @@
 //! Changes to a scene file that are given beside it: `path=value`.
 
+use super::build::default_name;
 use super::place::{Origin, Place};
 use super::suggest;
 use super::tree::{self, Entry, Node, Table, Value};
@@ -160,14 +161,16 @@ impl Walk<'_> {
             };
             return (number < items.len()).then_some(number).ok_or_else(refusal);
         }
-        let names: Vec<&str> = items.iter().filter_map(name).collect();
-        items
+        let names: Vec<String> = items
             .iter()
-            .position(|item| name(item) == Some(segment))
-            .ok_or_else(|| {
-                self.error(format!("nothing here is called `{segment}`"))
-                    .help(suggest::nearest_or_all(segment, &names, "names"))
-            })
+            .enumerate()
+            .map(|(at, item)| name(item, at))
+            .collect();
+        names.iter().position(|name| name == segment).ok_or_else(|| {
+            let names: Vec<&str> = names.iter().map(String::as_str).collect();
+            self.error(format!("nothing here is called `{segment}`"))
+                .help(suggest::nearest_or_all(segment, &names, "names"))
+        })
     }
 
     fn error(&self, what: String) -> Error {
@@ -175,12 +178,11 @@ impl Walk<'_> {
     }
 }
 
-fn name(node: &Node) -> Option<&str> {
-    let Value::Table(table) = &node.value else {
-        return None;
-    };
-    match &table.get("name")?.value {
-        Value::Text(text) => Some(text),
+/// What a layer is called (things that are no layers have no name and are called by their number).
+fn name(node: &Node, index: usize) -> String {
+    let text = |key: &str| match &node.value {
+        Value::Table(table) => table.get(key).and_then(|node| node.value.text()),
         _ => None,
-    }
+    };
+    text("name").map_or_else(|| default_name(text("source"), text("layer"), index), Into::into)
 }

@@ -178,7 +178,7 @@ pub enum TerrainKind {
 /// A layer as it is written.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LayerSpec {
-    /// Its name; without one, the file's name without its extension, or `layer-N` counted from 0.
+    /// Its name; without one, the layer of the file, the file's name without its extension, or `layer-N` counted from 0.
     pub name: String,
     /// Where its features come from.
     pub source: LayerSource,

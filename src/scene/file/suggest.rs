@@ -23,8 +23,8 @@ pub(super) fn nearest<'a>(given: &str, known: &[&'a str]) -> Option<&'a str> {
         strsim::osa_distance(&given, &name).min(strsim::osa_distance(&given, stem))
     };
     let (cost, name) = known.iter().map(|name| (distance(name), *name)).min()?;
-    let allowed = (given.chars().count() / 3).max(1) + 1;
-    (cost < allowed.min(name.chars().count())).then_some(name)
+    let allowed = (given.chars().count() / 2).min(3);
+    (cost <= allowed && cost < name.chars().count()).then_some(name)
 }
 
 #[cfg(test)]

@@ -61,6 +61,14 @@ impl Value {
         }
     }
 
+    /// The string.
+    pub(super) fn text(&self) -> Option<&str> {
+        match self {
+            Value::Text(text) => Some(text),
+            _ => None,
+        }
+    }
+
     /// The number, written with or without a point.
     pub(super) fn number(&self) -> Option<f64> {
         match self {
@@ -73,10 +81,13 @@ impl Value {
 
 /// Parses a whole file.
 pub(super) fn parse(origin: &Origin<'_>) -> Result<Node> {
-    let root = DeTable::parse(origin.text).map_err(|error| {
+    // A slip early in the file may cause others: the first one is told.
+    let (root, errors) = DeTable::parse_recoverable(origin.text);
+    let start = |error: &toml::de::Error| error.span().map_or(0, |span| span.start);
+    if let Some(error) = errors.iter().min_by_key(|error| start(error)) {
         let place = Place::File(error.span().unwrap_or(0..0));
-        origin.error(&place, format!("this is not TOML: {}", error.message()))
-    })?;
+        return Err(origin.error(&place, format!("this is not TOML: {}", error.message())));
+    }
     Ok(Node {
         value: Value::Table(table(root.get_ref(), None)),
         place: Place::File(0..0),

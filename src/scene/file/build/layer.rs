@@ -28,20 +28,31 @@ pub(super) fn layers(root: &mut Section<'_>) -> Result<Vec<LayerSpec>> {
 fn layer(section: &mut Section<'_>, index: usize) -> Result<LayerSpec> {
     let name = section.text("name")?;
     let source = source(section)?;
-    let written = match &source {
-        LayerSource::File {
-            layer: Some(layer), ..
-        } => layer.clone(),
-        LayerSource::File { file, .. } => stem(Some(Path::new(&file.written)), "layer"),
-        _ => format!("layer-{index}"),
+    let default = match &source {
+        LayerSource::File { file, layer } => default_name(Some(&file.written), layer.as_deref(), index),
+        _ => default_name(None, None, index),
     };
     Ok(LayerSpec {
-        name: name.unwrap_or(written),
+        name: name.unwrap_or(default),
         source,
         crs: section.text("crs")?,
         offset: section.numbers("offset")?.map_or(DVec2::ZERO, DVec2::from_array),
         style: style(section)?,
     })
+}
+
+/// The name of a layer that states none.
+pub(in crate::scene::file) fn default_name(
+    source: Option<&str>,
+    layer: Option<&str>,
+    index: usize,
+) -> String {
+    let otherwise = || format!("layer-{index}");
+    match (source, layer) {
+        (Some(_), Some(layer)) => layer.into(),
+        (Some(source), None) => stem(Some(Path::new(source)), &otherwise()),
+        (None, _) => otherwise(),
+    }
 }
 
 fn source(section: &mut Section<'_>) -> Result<LayerSource> {

@@ -13,6 +13,7 @@ use crate::scene::{Color, Compositing, Device, ImageSettings, InverseProjection,
 use std::path::Path;
 
 pub(super) use camera::check_view;
+pub(super) use layer::default_name;
 
 /// The most pixels that an image may have.
 const MOST_PIXELS: usize = 1 << 28;
