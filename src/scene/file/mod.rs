@@ -51,6 +51,9 @@ use place::Origin;
 use std::path::Path;
 use tree::Value;
 
+/// The scene that is drawn where none is named: all of it generated, a start for one's own.
+pub const DEFAULT_SCENE: &str = include_str!("../../../golden/default/valley.toml");
+
 impl SceneFile {
     /// Reads a scene file's text.
     ///

@@ -216,6 +216,13 @@ fn a_minimal_scene_has_the_contracts_defaults() {
 }
 
 #[test]
+fn the_default_scene_is_right() {
+    let scene = SceneFile::parse(DEFAULT_SCENE, None, &[]).unwrap();
+    assert_eq!(scene.name, "valley");
+    assert!(scene.layers.len() > 5 && scene.camera.view.is_some());
+}
+
+#[test]
 fn paths_start_at_the_scene_files_folder() {
     let LayerSource::File { file, layer } = &parse(EVERY_KEY[0]).unwrap().layers[0].source else {
         panic!("no file")
