@@ -332,7 +332,7 @@ static GENERATE_LAYER: TableShape = TableShape {
         key(
             "count",
             Shape::Integer(1, 10_000_000),
-            "How many segments (roads) or polygons (mosaic, of all classes). Default: 1000.",
+            "How many segments (roads) or polygons (mosaic, of all classes; at most 10^6). Default: 1000.",
         ),
         key(
             "window",

@@ -28,8 +28,10 @@ impl Origin<'_> {
         match place {
             Place::File(span) => {
                 let error = Error::new(what).at(position(self.text, span));
-                self.path
-                    .map_or_else(|| error.clone(), |path| error.clone().in_file(path))
+                match self.path {
+                    Some(path) => error.in_file(path),
+                    None => error,
+                }
             }
             Place::Override(index) => {
                 let written = self.overrides.get(*index).map_or("", Override::text);

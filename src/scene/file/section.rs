@@ -161,6 +161,11 @@ impl<'a> Section<'a> {
         self.origin
     }
 
+    /// Where the table was written.
+    pub(super) fn place(&self) -> &Place {
+        &self.place
+    }
+
     /// A refusal of the whole table.
     pub(super) fn error(&self, what: impl Into<String>) -> Error {
         self.origin.error(&self.place, what)

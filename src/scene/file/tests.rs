@@ -6,7 +6,7 @@ use glam::DVec2;
 use proptest::prelude::*;
 
 /// Every key of the description at least once, over several files.
-const EVERY_KEY: [&str; 4] = [
+pub(super) const EVERY_KEY: [&str; 4] = [
     r##"
 schema = 1
 name = "all"
@@ -433,6 +433,10 @@ fn a_terrain_has_one_origin_and_its_own_keys() {
         (
             "schema = 1\nterrain = { source = \"a\", window = [1, 0, 1, 5] }",
             "`window` is empty",
+        ),
+        (
+            "schema = 1\nterrain = { source = \"a\", window = [-1e308, 0, 1e308, 5] }",
+            "`window` is larger than",
         ),
         (
             "schema = 1\nterrain = { generate = { kind = \"plane\" }, window = [0, 0, 1, 5] }",

@@ -54,7 +54,7 @@ impl Sequence {
 
     /// The next number 0 <= n < `end` (0 when `end` is 0).
     pub(super) fn below(&mut self, end: usize) -> usize {
-        (u128::from(self.next()) * end as u128 >> 64) as usize
+        ((u128::from(self.next()) * end as u128) >> 64) as usize
     }
 }
 

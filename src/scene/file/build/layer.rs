@@ -10,6 +10,9 @@ use crate::space::Plan;
 use glam::DVec2;
 use std::path::Path;
 
+/// The most polygons of a generated mosaic.
+const MOST_POLYGONS: usize = 1_000_000;
+
 pub(super) fn layers(root: &mut Section<'_>) -> Result<Vec<LayerSpec>> {
     let mut layers: Vec<LayerSpec> = Vec::new();
     for node in root.tables("layer")?.unwrap_or_default() {
@@ -115,9 +118,19 @@ fn generator(section: &mut Section<'_>) -> Result<VectorGenerator> {
     Ok(VectorGenerator {
         kind,
         seed: section.integer("seed")?.unwrap_or(1),
-        count: section.integer("count")?.unwrap_or(1000),
+        count: count(section, name)?,
         window: rectangle(section, "window")?,
     })
+}
+
+/// A mosaic's polygons have some thirty vertices each: fewer of them fit into memory than segments of roads.
+fn count(section: &mut Section<'_>, name: VectorName) -> Result<usize> {
+    match section.integer_at("count")? {
+        Some(Taken { value, place }) if name == VectorName::Mosaic && value > MOST_POLYGONS => {
+            Err(section.error_at(&place, format!("a mosaic has at most {MOST_POLYGONS} polygons")))
+        }
+        taken => Ok(taken.map_or(1000, |taken| taken.value)),
+    }
 }
 
 fn class(section: &mut Section<'_>) -> Result<Option<(u32, u32)>> {
@@ -196,10 +209,10 @@ fn width(section: &mut Section<'_>) -> Result<Width> {
 
 fn join(section: &mut Section<'_>) -> Result<Join> {
     let name = section.name("join")?.unwrap_or(JoinName::Round);
-    if name != JoinName::Miter {
-        if let Some((key, place)) = section.first_of(&["miter_limit"]) {
-            return Err(section.error_at(place, format!("`{key}` goes with join = \"miter\" only")));
-        }
+    if name != JoinName::Miter
+        && let Some((key, place)) = section.first_of(&["miter_limit"])
+    {
+        return Err(section.error_at(place, format!("`{key}` goes with join = \"miter\" only")));
     }
     Ok(match name {
         JoinName::Round => Join::Round,

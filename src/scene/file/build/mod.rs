@@ -39,19 +39,18 @@ pub(super) fn scene(origin: &Origin<'_>, root: Node) -> Result<SceneFile> {
 
 fn image(section: &mut Section<'_>) -> Result<ImageSettings> {
     let width = section.integer("width")?.unwrap_or(1200);
-    let height = section.integer_at::<usize>("height")?;
-    let rows = height.as_ref().map_or(800, |taken| taken.value);
-    if width * rows > MOST_PIXELS {
-        let what = format!("`image` of {width} x {rows} pixels is too large: at most 2^28 in all");
-        return Err(height.map_or_else(
-            || section.error(what.clone()),
-            |taken| section.error_at(&taken.place, what.clone()),
-        ));
+    let (height, place) = match section.integer_at("height")? {
+        Some(Taken { value, place }) => (value, place),
+        None => (800, section.place().clone()),
+    };
+    if width * height > MOST_PIXELS {
+        let what = format!("`image` of {width} x {height} pixels is too large: at most 2^28 in all");
+        return Err(section.error_at(&place, what));
     }
     let background = section.color("background")?.unwrap_or(Color([1.0; 4]));
     Ok(ImageSettings {
         width,
-        height: rows,
+        height,
         background,
     })
 }
@@ -100,6 +99,9 @@ fn rectangle(section: &mut Section<'_>, key: &str) -> Result<Option<[f64; 4]>> {
         return Ok(None);
     };
     let [x0, y0, x1, y1] = value;
+    if !((x1 - x0).is_finite() && (y1 - y0).is_finite()) {
+        return Err(section.error_at(&place, format!("`{key}` is larger than numbers can tell")));
+    }
     if x0 < x1 && y0 < y1 {
         return Ok(Some(value));
     }
