@@ -1,7 +1,8 @@
 //! Terrain and vectors made from numbers, the same bits on every machine: only + - * / sqrt and [`crate::math`].
 //!
-//! Input: what a scene file's `generate` says. Output: [`Posts`] around plan (0, 0), and features of a rectangle of
-//! the plan. Refuses nothing that a scene file can say, but numbers whose products overflow.
+//! Input: what a scene file's `generate` says. Output: [`Posts`](crate::scene::Posts) around plan (0, 0), and
+//! features of a rectangle of the plan. Refuses nothing that a scene file can say, but numbers whose products
+//! overflow.
 
 mod mosaic;
 mod noise;
@@ -12,8 +13,6 @@ mod terrain;
 pub use terrain::terrain;
 
 use crate::scene::Feature;
-#[allow(unused_imports, reason = "the documentation links it")]
-use crate::scene::Posts;
 use crate::scene::Shape;
 use crate::scene::file::{VectorGenerator, VectorKind};
 use crate::space::{Plan, PlanBox};
