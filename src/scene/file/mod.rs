@@ -8,14 +8,14 @@
 //!
 //! ```
 //! use drapery::scene::file::SceneFile;
-//! let text = r#"
+//! let text = r##"
 //! schema = 1
 //! [terrain]
 //! generate = { kind = "fbm", seed = 7 }
 //! [[layer]]
 //! features = [{ line = [[-900, 0], [900, 200]] }]
 //! line = { color = "#ff7f00", width = 12 }
-//! "#;
+//! "##;
 //! let error = SceneFile::parse(text, None, &[]).unwrap_err();
 //! assert_eq!(error.what(), "there is no key `layer.0.line.width`");
 //! assert_eq!(error.help_text(), Some("did you mean `width_m`?"));
