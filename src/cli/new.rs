@@ -79,7 +79,7 @@ background = "#dce9f2"
 {CAMERA}
 [terrain]
 source = {source}
-{encoding}encoding = "terrarium"                # how a PNG encodes heights: or "mapbox"
+{encoding}encoding = "terrarium"             # how a PNG encodes heights: or "mapbox"
 # bounds = [x0, y0, x1, y1]            # the rectangle that a PNG covers
 # window = [x0, y0, x1, y1]            # read only this part, in the file's own coordinates
 vertical_scale = 1.0
