@@ -4,6 +4,7 @@ pub mod buffer;
 pub mod crs;
 mod error;
 pub mod math;
+pub mod output;
 pub mod parallel;
 pub mod predicate;
 pub mod raster;

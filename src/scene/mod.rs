@@ -1,7 +1,7 @@
 //! What is drawn: terrain data, vector layers, camera, styles and the machine to imitate.
 //!
 //! Input: nothing (plain data). Output: [`Scene`], which every later room reads and none changes. It refuses nothing
-//! itself; [`file`] checks what a person wrote and `source` checks what the files hold.
+//! itself; [`mod@file`] checks what a person wrote and `source` checks what the files hold.
 
 mod camera;
 pub mod file;

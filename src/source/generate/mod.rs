@@ -1,1 +1,64 @@
-//! Terrain and vectors made from numbers, the same bits on every machine.
+//! Terrain and vectors made from numbers, the same bits on every machine: only + - * / sqrt and [`crate::math`].
+//!
+//! Input: what a scene file's `generate` says. Output: [`Posts`](crate::scene::Posts) around plan (0, 0), and
+//! features of a rectangle of the plan. Refuses nothing that a scene file can say, but numbers whose products
+//! overflow.
+
+mod mosaic;
+mod noise;
+mod random;
+mod roads;
+mod terrain;
+
+pub use terrain::terrain;
+
+use crate::scene::Feature;
+use crate::scene::Shape;
+use crate::scene::file::{VectorGenerator, VectorKind};
+use crate::space::{Plan, PlanBox};
+
+/// The features that `generator` describes, in plan coordinates; `terrain` is the rectangle of the plan that they fill
+/// where the generator names none.
+///
+/// ```
+/// use drapery::scene::file::{VectorGenerator, VectorKind};
+/// use drapery::space::{Plan, PlanBox};
+/// let generator = VectorGenerator { kind: VectorKind::Roads { segment_m: None }, seed: 1, count: 500, window: None };
+/// let roads = drapery::source::generate::features(&generator, PlanBox::around([Plan::new(0.0, 0.0), Plan::new(9e3, 9e3)]));
+/// assert!(roads.len() > 5);
+/// ```
+pub fn features(generator: &VectorGenerator, terrain: PlanBox) -> Vec<Feature> {
+    let window = generator.window.map_or(terrain, |[x0, y0, x1, y1]| PlanBox {
+        min: Plan::new(x0, y0),
+        max: Plan::new(x1, y1),
+    });
+    let shapes: Vec<Shape> = match generator.kind {
+        VectorKind::Roads { segment_m } => roads::roads(generator, segment_m, window),
+        VectorKind::Mosaic { class, holes } => mosaic::mosaic(generator, class, holes, window),
+    };
+    shapes
+        .into_iter()
+        .enumerate()
+        .map(|(index, shape)| Feature { index, shape })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    pub(super) fn window() -> PlanBox {
+        PlanBox::around([Plan::new(-3000.0, -1000.0), Plan::new(5000.0, 4000.0)])
+    }
+
+    pub(super) fn inside(p: Plan) -> bool {
+        PlanBox::around([p]).meets(&window())
+    }
+
+    /// A hash of the bits of all coordinates.
+    pub(super) fn bits(lines: &[Vec<Plan>]) -> String {
+        let numbers = lines.iter().flatten().flat_map(|p| [p.x, p.y]);
+        let bytes: Vec<u8> = numbers.flat_map(|x| x.to_bits().to_le_bytes()).collect();
+        blake3::hash(&bytes).to_hex()[..16].to_string()
+    }
+}

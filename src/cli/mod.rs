@@ -1,0 +1,118 @@
+//! The command line, a file a subcommand: the only code that prints or exits.
+//!
+//! Data goes to stdout, messages to stderr. Exit status: 0 done, 1 judged and failed, 2 the call or an input is wrong,
+//! 3 a bug of ours.
+
+mod completions;
+mod info;
+mod new;
+mod refusal;
+mod render;
+mod schema;
+mod stop;
+
+use clap::{ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand};
+use std::ffi::OsString;
+use std::process::ExitCode;
+use stop::{Outcome, Status, Stop};
+
+const EXAMPLES: &str = "\
+Examples:
+  drapery render                                   a built-in scene, into out/
+  drapery new dem.tif lakes.geojson roads.shp > scene.toml
+  drapery render scene.toml -o pictures            every technique that applies, and the truth
+  drapery render scene.toml -t truth -t clipmap --set image.width=600
+  drapery schema > scene.schema.json               for completion in an editor
+
+Exit status: 0 done and passed, 1 judged and failed, 2 the call or an input is wrong, 3 a bug in drapery.
+Data goes to stdout, messages to stderr; `-` is stdin. NO_COLOR is honoured.";
+
+/// The reference renderer for 2D vector data draped over 3D terrain.
+///
+/// Drapery computes the right picture of roads, lakes and fields on a terrain as certified intervals, and imitates the
+/// published GPU techniques so that their pictures can be judged against it.
+#[derive(Debug, Parser)]
+#[command(version, after_long_help = EXAMPLES, arg_required_else_help = true, max_term_width = 110)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+    /// Whether messages are coloured.
+    #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
+    color: ColorChoice,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Render a scene by one technique or by all.
+    Render(render::Arguments),
+    /// Write a starter scene for your own files, commented, ready to render.
+    New(new::Arguments),
+    /// Tell what a data file holds.
+    Info(info::Arguments),
+    /// Print the JSON Schema of the scene file.
+    Schema,
+    /// Print completions for a shell.
+    Completions(completions::Arguments),
+}
+
+/// Runs the program.
+pub(crate) fn main() -> ExitCode {
+    std::panic::set_hook(Box::new(stop::panicked));
+    let arguments: Vec<OsString> = std::env::args_os().collect();
+    let parsed = Cli::command()
+        .color(wanted_color(&arguments))
+        .try_get_matches_from(arguments);
+    let cli = match parsed.and_then(|matches| Cli::from_arg_matches(&matches)) {
+        Ok(cli) => cli,
+        Err(usage) => return stop::usage(&usage),
+    };
+    stop::exit(run(cli.command), cli.color)
+}
+
+fn run(command: Command) -> Outcome {
+    match command {
+        Command::Render(arguments) => render::run(&arguments),
+        Command::New(arguments) => new::run(&arguments),
+        Command::Info(arguments) => info::run(&arguments),
+        Command::Schema => schema::run(),
+        Command::Completions(arguments) => completions::run(&arguments),
+    }
+}
+
+/// The colour choice for the parser's own messages, which are printed before there are parsed arguments.
+fn wanted_color(arguments: &[OsString]) -> ColorChoice {
+    let words: Vec<&str> = arguments
+        .iter()
+        .filter_map(|argument| argument.to_str())
+        .collect();
+    let after = words
+        .iter()
+        .position(|word| *word == "--color")
+        .and_then(|at| words.get(at + 1).copied());
+    let joined = words.iter().find_map(|word| word.strip_prefix("--color="));
+    joined
+        .or(after)
+        .and_then(|word| word.parse().ok())
+        .unwrap_or(ColorChoice::Auto)
+}
+
+/// Prints data on stdout.
+fn print(text: &str) -> Outcome {
+    use std::io::Write;
+    let mut stdout = std::io::stdout().lock();
+    stdout
+        .write_all(text.as_bytes())
+        .and_then(|()| stdout.flush())
+        .map_err(Stop::stdout)?;
+    Ok(Status::Passed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
+}

@@ -1,0 +1,7 @@
+//! `drapery schema`
+
+use super::stop::Outcome;
+
+pub(super) fn run() -> Outcome {
+    super::print(&format!("{:#}\n", drapery::scene::file::schema()))
+}

@@ -1,0 +1,95 @@
+//! Files that appear whole or not at all.
+//!
+//! Input: a path and a function that writes. Output: the file. Refuses nothing; on any failure the path is as it was.
+
+use crate::error::{Error, Result};
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+/// Writes a file beside its place and renames it, so that no reader ever sees a part of it.
+///
+/// ```
+/// use std::io::Write;
+/// let folder = tempfile::tempdir().unwrap();
+/// let path = folder.path().join("result.json");
+/// drapery::output::write_whole(&path, |w| writeln!(w, "{{}}")).unwrap();
+/// assert_eq!(std::fs::read_to_string(&path).unwrap(), "{}\n");
+/// ```
+///
+/// # Errors
+/// When the file cannot be made or `write` fails; says which file. What was there before is still there then.
+pub fn write_whole(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
+    let refuse = |error: io::Error| Error::new(format!("this file cannot be written: {error}")).in_file(path);
+    let (beside, file) = create_beside(path).map_err(refuse)?;
+    fill(file, write)
+        .and_then(|()| fs::rename(&beside, path))
+        .map_err(|error| {
+            // The error is told already; a temporary file that cannot even be removed adds nothing.
+            let _ = fs::remove_file(&beside);
+            refuse(error)
+        })
+}
+
+fn fill(file: File, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+    let mut buffered = BufWriter::new(file);
+    write(&mut buffered)?;
+    buffered.flush()
+}
+
+/// A new file in the folder of `path`; several processes may be at work.
+fn create_beside(path: &Path) -> io::Result<(PathBuf, File)> {
+    let name = path
+        .file_name()
+        .ok_or_else(|| io::Error::other("the path names no file"))?
+        .to_string_lossy();
+    let mut attempt = 0;
+    loop {
+        let beside = path.with_file_name(format!(".{name}.{}-{attempt}.part", std::process::id()));
+        match OpenOptions::new().write(true).create_new(true).open(&beside) {
+            Ok(file) => return Ok((beside, file)),
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists && attempt < 1000 => attempt += 1,
+            Err(error) => return Err(error),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_failed_write_leaves_what_was_there_and_nothing_else() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.txt");
+        fs::write(&path, "before").unwrap();
+        let result = write_whole(&path, |w| {
+            w.write_all(b"half")?;
+            Err(io::Error::other("no more"))
+        });
+        assert!(
+            result
+                .unwrap_err()
+                .to_string()
+                .contains("a.txt: this file cannot be written: no more")
+        );
+        assert_eq!(fs::read_to_string(&path).unwrap(), "before");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn a_whole_write_replaces_what_was_there() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.txt");
+        fs::write(&path, "before").unwrap();
+        write_whole(&path, |w| w.write_all(b"after")).unwrap();
+        assert_eq!(fs::read_to_string(&path).unwrap(), "after");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn a_folder_that_is_missing_is_named() {
+        let error = write_whole(Path::new("no/such/folder/a.txt"), |_| Ok(())).unwrap_err();
+        assert!(error.to_string().starts_with("no/such/folder/a.txt: "), "{error}");
+    }
+}

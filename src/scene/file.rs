@@ -1,1 +1,0 @@
-//! The scene file: what a person wrote, checked.

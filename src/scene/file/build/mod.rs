@@ -1,0 +1,129 @@
+//! A checked tree -> [`SceneFile`]: defaults, and the checks that need several values.
+
+mod camera;
+mod layer;
+mod terrain;
+
+use super::place::Origin;
+use super::section::{Section, Taken};
+use super::spec::{DataFile, SceneFile};
+use super::tree::Node;
+use crate::error::Result;
+use crate::scene::{Color, Compositing, Device, ImageSettings, InverseProjection, TechniqueSettings};
+use std::path::Path;
+
+pub(super) use camera::check_view;
+pub(super) use layer::default_name;
+
+/// The most pixels that an image may have.
+const MOST_PIXELS: usize = 1 << 28;
+
+/// Builds the whole scene file.
+pub(super) fn scene(origin: &Origin<'_>, root: Node) -> Result<SceneFile> {
+    Section::read(origin, root, |root| {
+        root.integer::<i64>("schema")?;
+        let child = |root: &mut Section<'_>, key: &str| root.take_or_empty(key);
+        Ok(SceneFile {
+            name: root.text("name")?.unwrap_or_else(|| stem(origin.path, "scene")),
+            crs: root.text("crs")?,
+            image: Section::read(origin, child(root, "image"), image)?,
+            camera: Section::read(origin, child(root, "camera"), camera::camera)?,
+            terrain: Section::read(origin, child(root, "terrain"), terrain::terrain)?,
+            layers: layer::layers(root)?,
+            compositing: Section::read(origin, child(root, "compositing"), compositing)?,
+            device: Section::read(origin, child(root, "device"), device)?,
+            technique: Section::read(origin, child(root, "technique"), technique)?,
+        })
+    })
+}
+
+fn image(section: &mut Section<'_>) -> Result<ImageSettings> {
+    let width = section.integer("width")?.unwrap_or(1200);
+    let (height, place) = match section.integer_at("height")? {
+        Some(Taken { value, place }) => (value, place),
+        None => (800, section.place().clone()),
+    };
+    if width * height > MOST_PIXELS {
+        let what = format!("`image` of {width} x {height} pixels is too large: at most 2^28 in all");
+        return Err(section.error_at(&place, what));
+    }
+    let background = section.color("background")?.unwrap_or(Color([1.0; 4]));
+    Ok(ImageSettings {
+        width,
+        height,
+        background,
+    })
+}
+
+fn compositing(section: &mut Section<'_>) -> Result<Compositing> {
+    Ok(Compositing {
+        space: section.name("space")?.unwrap_or_default(),
+        mode: section.name("mode")?.unwrap_or_default(),
+    })
+}
+
+fn device(section: &mut Section<'_>) -> Result<Device> {
+    let exact = Device::default();
+    Ok(Device {
+        precision: section.name("precision")?.unwrap_or(exact.precision),
+        subpixel_bits: section.integer("subpixel_bits")?.unwrap_or(exact.subpixel_bits),
+        depth: section.name("depth")?.unwrap_or(exact.depth),
+        stencil_bits: section.integer("stencil_bits")?.unwrap_or(exact.stencil_bits),
+        max_line_width_px: section
+            .number("max_line_width_px")?
+            .unwrap_or(exact.max_line_width_px),
+    })
+}
+
+fn technique(section: &mut Section<'_>) -> Result<TechniqueSettings> {
+    let node = section.take_or_empty("inverse-projection");
+    let inverse_projection = Section::read(section.origin(), node, inverse_projection)?;
+    Ok(TechniqueSettings { inverse_projection })
+}
+
+fn inverse_projection(section: &mut Section<'_>) -> Result<InverseProjection> {
+    let default = InverseProjection::default();
+    Ok(InverseProjection {
+        samples: section.integer("samples")?.unwrap_or(default.samples),
+        corners: section.name("corners")?.unwrap_or(default.corners),
+        point_in_polygon: section
+            .name("point_in_polygon")?
+            .unwrap_or(default.point_in_polygon),
+        silhouette: section.name("silhouette")?.unwrap_or(default.silhouette),
+    })
+}
+
+/// A rectangle x0, y0, x1, y1 that is not empty.
+fn rectangle(section: &mut Section<'_>, key: &str) -> Result<Option<[f64; 4]>> {
+    let Some(Taken { value, place }) = section.numbers_at::<4>(key)? else {
+        return Ok(None);
+    };
+    let [x0, y0, x1, y1] = value;
+    if !((x1 - x0).is_finite() && (y1 - y0).is_finite()) {
+        return Err(section.error_at(&place, format!("`{key}` is larger than numbers can tell")));
+    }
+    if x0 < x1 && y0 < y1 {
+        return Ok(Some(value));
+    }
+    let what = format!("`{key}` is empty: x0 < x1 and y0 < y1 must hold in [x0, y0, x1, y1]");
+    Err(section.error_at(&place, what))
+}
+
+/// A data file beside the scene file.
+fn data_file(origin: &Origin<'_>, taken: Taken<String>) -> DataFile {
+    let folder = origin.path.and_then(Path::parent).unwrap_or(Path::new(""));
+    DataFile {
+        path: folder.join(&taken.value),
+        position: origin.position(&taken.place),
+        written: taken.value,
+    }
+}
+
+/// A file's name without its extension.
+fn stem(path: Option<&Path>, otherwise: &str) -> String {
+    let stem = path
+        .and_then(Path::file_stem)
+        .map(|stem| stem.to_string_lossy().into_owned());
+    stem.filter(|stem| !stem.is_empty() && !stem.starts_with('<'))
+        .unwrap_or_else(|| otherwise.into())
+}

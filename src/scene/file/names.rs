@@ -1,0 +1,93 @@
+//! The words of the scene file and what they stand for.
+
+use super::spec::HeightEncoding;
+use crate::scene::{
+    BlendMode, BlendSpace, Cap, Corners, DepthFormat, Diagonal, OutlineMode, PointInPolygon, Precision, Rule,
+    Silhouette,
+};
+
+/// A setting that is written as one of some words.
+pub(super) trait Named: Copy + 'static {
+    /// Each word and what it stands for.
+    const NAMES: &'static [(&'static str, Self)];
+
+    /// What a word stands for.
+    fn from_name(name: &str) -> Option<Self> {
+        Self::NAMES
+            .iter()
+            .find(|(known, _)| *known == name)
+            .map(|(_, value)| *value)
+    }
+}
+
+macro_rules! named {
+    ($($name:ty { $($word:literal => $value:ident),+ $(,)? })+) => {
+        $(impl Named for $name {
+            const NAMES: &'static [(&'static str, Self)] = &[$(($word, Self::$value)),+];
+        })+
+    };
+}
+
+/// The kinds of projection.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum ProjectionName {
+    Perspective,
+    Orthographic,
+}
+
+/// The kinds of join.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum JoinName {
+    Round,
+    Miter,
+    Bevel,
+}
+
+/// The terrain's shading.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum ShadeName {
+    Flat,
+    Hillshade,
+}
+
+/// The generated terrains.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum TerrainName {
+    Plane,
+    Ramp,
+    Sine,
+    Cone,
+    Tent,
+    Fbm,
+}
+
+/// The generated layers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum VectorName {
+    Roads,
+    Mosaic,
+}
+
+named! {
+    ProjectionName { "perspective" => Perspective, "orthographic" => Orthographic }
+    JoinName { "round" => Round, "miter" => Miter, "bevel" => Bevel }
+    ShadeName { "flat" => Flat, "hillshade" => Hillshade }
+    TerrainName {
+        "plane" => Plane, "ramp" => Ramp, "sine" => Sine, "cone" => Cone, "tent" => Tent, "fbm" => Fbm
+    }
+    VectorName { "roads" => Roads, "mosaic" => Mosaic }
+    HeightEncoding { "terrarium" => Terrarium, "mapbox" => Mapbox }
+    Diagonal { "sw-ne" => SwNe, "nw-se" => NwSe, "alternating" => Alternating }
+    Rule { "even-odd" => EvenOdd, "nonzero" => NonZero }
+    OutlineMode { "inset" => Inset, "normal" => Normal, "offset" => Offset }
+    Cap { "butt" => Butt, "square" => Square, "round" => Round }
+    BlendSpace { "encoded" => Encoded, "linear" => Linear }
+    BlendMode { "over" => Over, "additive" => Additive }
+    Precision { "f64" => F64, "f32" => F32 }
+    DepthFormat {
+        "f32-reversed" => F32Reversed, "f32" => F32, "unorm24" => Unorm24, "unorm16" => Unorm16
+    }
+    Corners { "centres" => Centres, "true" => True }
+    PointInPolygon { "edge-normals" => EdgeNormals, "winding" => Winding }
+    Silhouette { "centre" => Centre, "smear" => Smear }
+}

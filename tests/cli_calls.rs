@@ -1,0 +1,215 @@
+//! The command line as a user or a script calls it: what goes where, and the exit status.
+
+#![allow(clippy::unwrap_used, reason = "helpers of tests are no tests to the lint")]
+
+use std::io::Write;
+use std::process::{Command, Output, Stdio};
+
+fn drapery(arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_drapery"));
+    command
+        .args(arguments)
+        .env_remove("NO_COLOR")
+        .env_remove("CLICOLOR_FORCE")
+        .stdin(Stdio::null());
+    command
+}
+
+fn call(arguments: &[&str]) -> Output {
+    drapery(arguments).output().unwrap()
+}
+
+/// What a failing call says on stderr; its stdout is empty.
+fn refused(output: Output, status: i32) -> String {
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(status), "{said}");
+    assert!(output.stdout.is_empty(), "data and a refusal together");
+    said
+}
+
+fn done(output: Output) -> String {
+    assert_eq!(
+        output.status.code(),
+        Some(0),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    assert!(output.stderr.is_empty());
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// A call that reads `text` on stdin.
+fn piped(arguments: &[&str], text: &[u8]) -> Output {
+    let mut command = drapery(arguments);
+    let mut child = command
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    child.stdin.take().unwrap().write_all(text).unwrap();
+    child.wait_with_output().unwrap()
+}
+
+#[test]
+fn version_and_help_go_to_stdout() {
+    assert!(done(call(&["--version"])).starts_with("drapery 0."));
+    let long = done(call(&["--help"]));
+    assert!(
+        long.contains("Examples:") && long.contains("drapery new dem.tif"),
+        "{long}"
+    );
+    assert!(done(call(&["render", "--help"])).contains("--set layer.roads.line.width_m=20"));
+    assert!(done(call(&["-h"])).len() < long.len());
+}
+
+#[test]
+fn a_wrong_call_exits_with_2_and_a_hint() {
+    let said = refused(call(&["rendr"]), 2);
+    assert!(said.contains("render"), "{said}");
+    refused(call(&["render", "--nonsense"]), 2);
+    refused(call(&["render", "--repeat", "0"]), 2);
+    refused(call(&["completions", "no-shell"]), 2);
+    refused(call(&[]), 2);
+}
+
+#[test]
+fn the_schema_is_json_that_names_the_keys() {
+    let schema: serde_json::Value = serde_json::from_str(&done(call(&["schema"]))).unwrap();
+    assert_eq!(schema["properties"]["schema"]["minimum"], 1);
+    let line = &schema["properties"]["layer"]["items"]["properties"]["line"];
+    assert_eq!(
+        line["properties"]["cap"]["enum"],
+        serde_json::json!(["butt", "square", "round"])
+    );
+    assert_eq!(schema["additionalProperties"], false);
+}
+
+#[test]
+fn every_shell_gets_completions() {
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        assert!(done(call(&["completions", shell])).contains("drapery"), "{shell}");
+    }
+}
+
+#[test]
+fn a_pipe_that_nobody_reads_is_a_quiet_end() {
+    for arguments in [&["schema"][..], &["completions", "bash"], &["--help"]] {
+        let mut command = drapery(arguments);
+        let mut child = command
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        drop(child.stdout.take());
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(output.status.code(), Some(0));
+        assert!(
+            output.stderr.is_empty(),
+            "{}",
+            String::from_utf8_lossy(&output.stderr)
+        );
+    }
+}
+
+#[test]
+fn a_wrong_scene_is_shown_with_its_line_and_a_caret() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("s.toml"), "schema = 1\n[image]\nwidht = 3\n").unwrap();
+    let said = refused(
+        drapery(&["render", "s.toml"])
+            .current_dir(folder.path())
+            .output()
+            .unwrap(),
+        2,
+    );
+    assert_eq!(
+        said,
+        "error: s.toml:3:1: there is no key `image.widht`\n3 | widht = 3\n  | ^^^^^\nhelp: did you mean `width`?\n"
+    );
+}
+
+#[test]
+fn a_scene_on_stdin_is_shown_in_the_same_way() {
+    let said = refused(piped(&["render", "-"], b"schema = 1\nlayer = 5"), 2);
+    assert!(
+        said.starts_with("error: <stdin>:2:9: `layer` must be an array of tables; found 5\n2 | layer = 5\n"),
+        "{said}"
+    );
+    let said = refused(piped(&["render", "-"], b"schema = 1\n\xff\xfe"), 2);
+    assert!(said.contains("<stdin>:2:1: a scene file is UTF-8 text"), "{said}");
+}
+
+#[test]
+fn what_is_no_scene_file_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().to_str().unwrap();
+    for wrong in [path, "no/such/scene.toml"] {
+        let said = refused(call(&["render", wrong]), 2);
+        assert!(
+            said.starts_with(&format!("error: {wrong}: this scene file cannot be read")),
+            "{said}"
+        );
+    }
+}
+
+#[test]
+fn an_override_is_blamed_by_its_own_text() {
+    let said = refused(call(&["render", "--set", "image.width=0"]), 2);
+    assert!(
+        said.starts_with("error: override `image.width=0`: `image.width` must be"),
+        "{said}"
+    );
+    let said = refused(call(&["render", "--set", "image"]), 2);
+    assert!(
+        said.contains("there is no `=`") && said.contains("help: write path=value"),
+        "{said}"
+    );
+}
+
+#[test]
+fn colours_come_only_where_they_are_wanted() {
+    let escape = '\x1b';
+    let arguments = ["render", "no.toml"];
+    assert!(
+        !refused(call(&arguments), 2).contains(escape),
+        "a pipe is no terminal"
+    );
+    assert!(refused(call(&["--color", "always", "render", "no.toml"]), 2).contains(escape));
+    assert!(refused(call(&["--color=always", "render", "--nonsense"]), 2).contains(escape));
+    let forced = drapery(&arguments)
+        .env("CLICOLOR_FORCE", "1")
+        .env("NO_COLOR", "1")
+        .output()
+        .unwrap();
+    assert!(!refused(forced, 2).contains(escape), "NO_COLOR is honoured");
+}
+
+#[test]
+fn a_starter_scene_names_the_files_as_given_and_is_a_scene() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["dem.tif", "roads.shp"] {
+        std::fs::write(folder.path().join(name), "").unwrap();
+    }
+    let dem_only = done(
+        drapery(&["new", "dem.tif"])
+            .current_dir(folder.path())
+            .output()
+            .unwrap(),
+    );
+    assert!(
+        dem_only.contains("source = \"dem.tif\"") && dem_only.starts_with("# A scene for drapery."),
+        "{dem_only}"
+    );
+    let scene = drapery::scene::file::SceneFile::parse(&dem_only, None, &[]).unwrap();
+    assert_eq!(scene.name, "dem");
+}
+
+#[test]
+fn a_starter_scene_for_files_that_are_not_there_is_refused() {
+    let said = refused(call(&["new", "no-dem.tif"]), 2);
+    assert!(
+        said.starts_with("error: no-dem.tif: this file cannot be read"),
+        "{said}"
+    );
+}
