@@ -175,7 +175,9 @@ impl<R: Read + Seek> GridFile for GeoTiff<R> {
     fn check_promise(&mut self, part: &Part) -> Result<()> {
         let mut stored = 0_usize;
         for block in self.layout.blocks_of(part) {
-            if !block.is_left_out() {
+            if block.is_left_out() {
+                check_left_out(&block)?;
+            } else {
                 self.check_block(&block, block.rows_of(part).end)?;
                 stored += 1;
             }
@@ -190,6 +192,7 @@ impl<R: Read + Seek> GridFile for GeoTiff<R> {
     }
 
     fn scan(&mut self, part: &Part, sink: &mut dyn RowSink) -> Result<()> {
+        self.check_promise(part)?;
         let mut buffers = Buffers::default();
         let blocks: Vec<_> = self.layout.blocks_of(part).collect();
         for block in blocks {
@@ -201,6 +204,20 @@ impl<R: Read + Seek> GridFile for GeoTiff<R> {
         }
         Ok(())
     }
+}
+
+/// Refuses a block that is left out and yet vast: nothing in the file vouches for its size.
+fn check_left_out(block: &Block) -> Result<()> {
+    const MOST: usize = 1 << 24;
+    let (columns, rows) = block.size;
+    if columns * rows <= MOST {
+        return Ok(());
+    }
+    Err(Error::new(format!(
+        "block {} of {columns} x {rows} samples is not in the file",
+        block.index
+    ))
+    .help("it may be half a download: fetch it again"))
 }
 
 /// Memory for a row of a block.
