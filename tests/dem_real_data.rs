@@ -2,6 +2,12 @@
 //!
 //! The data lie in the folder that `DRAPERY_DATA` names, else in `../shared/data`; without them the tests say so and pass.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test says why it skips, and fails by panicking"
+)]
+
 use drapery::scene::{Posts, Surface};
 use drapery::source::dem::{CrsHint, Dem, DemOptions, DemSummary, PngEncoding, describe, read};
 use std::path::{Path, PathBuf};

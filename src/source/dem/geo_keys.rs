@@ -302,7 +302,7 @@ fn of_geodetic_crs(code: u16) -> Option<&'static str> {
         4230 => "+ellps=intl",
         4267 => "+ellps=clrk66",
         4277 => "+ellps=airy",
-        4312 | 4313 | 4314 => "+ellps=bessel",
+        4312..=4314 => "+ellps=bessel",
         _ => return None,
     })
 }

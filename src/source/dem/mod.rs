@@ -22,6 +22,7 @@
 //! [`Posts`]: crate::scene::Posts
 
 mod ascii;
+mod frame;
 mod geo_keys;
 mod geotiff;
 mod grid;
@@ -105,10 +106,10 @@ fn read_grid(file: &mut dyn GridFile, window: Option<[f64; 4]>) -> Result<Dem> {
     let frame = file.header().frame;
     let (part, note) = frame.part(window)?;
     notes.extend(note);
-    if part.columns * part.rows > MAX_POSTS {
+    file.check_promise(&part)?;
+    if part.count() > MAX_POSTS {
         return Err(too_many_posts(&part));
     }
-    file.check_promise(&part)?;
     let mut sheet = Sheet::new(&frame, part)?;
     file.scan(&part, &mut sheet)?;
     let posts = sheet.finish(&mut notes)?;
@@ -120,7 +121,7 @@ fn read_grid(file: &mut dyn GridFile, window: Option<[f64; 4]>) -> Result<Dem> {
 }
 
 /// More posts than one call may read.
-fn too_many_posts(part: &grid::Part) -> Error {
+fn too_many_posts(part: &frame::Part) -> Error {
     Error::new(format!(
         "{} x {} posts are more than the {MAX_POSTS} that can be read at once",
         part.columns, part.rows

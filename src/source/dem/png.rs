@@ -4,7 +4,8 @@
 //! south-west post stands at (0, 0). It refuses images that are not 8-bit RGB or RGBA as stored: grey values, palettes
 //! and 16-bit channels are no encoded heights. Fully transparent pixels hold no data.
 
-use super::grid::{Frame, GridFile, Header, Part, RowSink};
+use super::frame::{Frame, Part};
+use super::grid::{GridFile, Header, RowSink};
 use super::open::unreadable;
 use super::{DemOptions, PngEncoding, world_file};
 use crate::error::{Error, Result};

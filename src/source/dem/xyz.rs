@@ -4,7 +4,7 @@
 //! A point that repeats another is dropped; two heights at one place are refused, naming both lines: which one is the
 //! terrain's is not ours to guess. Every other line that is not three finite numbers is refused by line and column.
 
-use super::grid::show_box;
+use super::frame::show_box;
 use super::open::unreadable;
 use super::text::{characters, number, number_help};
 use super::{Dem, MAX_POINTS};

@@ -1,6 +1,6 @@
 //! How a TIFF's samples are cut into blocks (strips or tiles), and where those lie in the file.
 
-use super::super::grid::Part;
+use super::super::frame::Part;
 use super::tags::{Directory, Source, tag};
 use crate::error::{Error, Result};
 use std::io::{Read, Seek};

@@ -3,8 +3,8 @@
 //! Source: OGC 19-008r4, sections 7.3 (raster space) and annex B.6: `ModelTransformation`, or `ModelTiepoint` with
 //! `ModelPixelScale`. Posts stand at the pixels' centres, or at their corners where samples are points.
 
+use super::super::frame::Frame;
 use super::super::geo_keys::GeoKeys;
-use super::super::grid::Frame;
 use super::super::world_file;
 use super::tags::{Directory, Source, tag};
 use crate::error::{Error, Result};

@@ -1,6 +1,7 @@
 //! Frames: how a file's columns and rows turn east and north, and what is missing.
 
-use super::super::grid::{Frame, RowSink, Sheet};
+use super::super::frame::Frame;
+use super::super::grid::{RowSink, Sheet};
 use super::super::{DemOptions, read};
 use super::refusal;
 use crate::space::Plan;

@@ -3,6 +3,7 @@
 mod ascii;
 mod frames;
 mod geotiff;
+mod hgt;
 mod png;
 mod robustness;
 mod tiff_writer;

@@ -44,11 +44,10 @@ fn try_all(name: &str, bytes: &[u8], window: Option<[f64; 4]>) {
         bounds: None,
     };
     with_file(name, bytes, |path| {
-        for outcome in [read(&path, &options).err(), describe(&path, &options).err()] {
-            if let Some(error) = outcome {
-                assert!(!error.is_internal(), "{error}");
-                assert!(error.to_string().contains(name), "{error}");
-            }
+        let outcomes = [read(&path, &options).err(), describe(&path, &options).err()];
+        for error in outcomes.into_iter().flatten() {
+            assert!(!error.is_internal(), "{error}");
+            assert!(error.to_string().contains(name), "{error}");
         }
     });
 }
