@@ -1,0 +1,276 @@
+//! Esri ASCII grids (`.asc`): a few keys, then all heights from the north-west.
+//!
+//! Keys in any order and letter case: `ncols`, `nrows`; `xllcorner` or `xllcenter`, `yllcorner` or `yllcenter`; `cellsize`, or
+//! `dx` and `dy`; `NODATA_value`, which is -9999 where it is left out (Esri's rule). A `.prj` file beside it gives the CRS.
+//! It refuses words that are no numbers, and too few or too many of them, each by line and column.
+
+use super::frame::{Frame, Part};
+use super::geo_keys::CrsHint;
+use super::grid::{GridFile, Header, RowSink};
+use super::nodata::{Nodata, Precision};
+use super::open::unreadable;
+use super::text::{Word, Words, number_help};
+use crate::error::{Error, Position, Result};
+use glam::DVec2;
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{BufReader, Read, Seek, SeekFrom};
+use std::path::Path;
+
+/// An Esri ASCII grid.
+pub(super) struct AsciiGrid<R> {
+    words: Words<BufReader<R>>,
+    /// The first height, which ended the header.
+    first: Option<(f64, Position)>,
+    length: u64,
+    header: Header,
+    nodata: Nodata,
+}
+
+impl<R: Read + Seek> AsciiGrid<R> {
+    /// Reads the header, and the `.prj` file beside `path`.
+    pub(super) fn open(mut input: R, path: Option<&Path>) -> Result<Self> {
+        let length = input.seek(SeekFrom::End(0)).map_err(unreadable)?;
+        input.rewind().map_err(unreadable)?;
+        let mut words = Words::new(BufReader::with_capacity(1 << 16, input));
+        let (keys, first) = Keys::read(&mut words)?;
+        let declared = keys.get("nodata_value").unwrap_or(-9999.0);
+        let header = Header {
+            format: "Esri ASCII grid",
+            sample: "text".into(),
+            compression: "none".into(),
+            layout: "rows".into(),
+            nodata: Some(declared.to_string()),
+            frame: keys.frame()?,
+            crs_hint: path.and_then(prj_beside),
+            notes: Vec::new(),
+        };
+        Ok(Self {
+            words,
+            first: Some(first),
+            length,
+            header,
+            nodata: Nodata::new(Some(declared), Precision::Double),
+        })
+    }
+
+    /// The next height, where `read` of them have been read.
+    fn next_height(&mut self, read: usize) -> Result<f64> {
+        if let Some((height, _)) = self.first.take() {
+            return Ok(self.nodata.height(height));
+        }
+        let Some(word) = self.words.next()? else {
+            let Frame { columns, rows, .. } = self.header.frame;
+            return Err(Error::new(format!(
+                "the file ends after {read} of the {} heights that {columns} x {rows} posts need",
+                columns * rows
+            ))
+            .help("it may be half a download: fetch it again, or correct ncols and nrows")
+            .at(self.words.end()));
+        };
+        Ok(self.nodata.height(height_of(&word)?))
+    }
+
+    fn refuse_more(&mut self) -> Result<()> {
+        let Frame { columns, rows, .. } = self.header.frame;
+        match self.words.next()? {
+            None => Ok(()),
+            Some(word) => Err(Error::new(format!(
+                "`{}` comes after the {} heights that {columns} x {rows} posts need",
+                word.text(),
+                columns * rows
+            ))
+            .help("correct ncols and nrows, or cut what follows")
+            .at(word.position())),
+        }
+    }
+}
+
+impl<R: Read + Seek> GridFile for AsciiGrid<R> {
+    fn header(&self) -> &Header {
+        &self.header
+    }
+
+    fn check_promise(&mut self, _part: &Part) -> Result<()> {
+        let Frame { columns, rows, .. } = self.header.frame;
+        let heights = columns as u64 * rows as u64;
+        // A height is a digit and a space; the last one may lack the space.
+        if heights > self.length.div_ceil(2) {
+            return Err(Error::new(format!(
+                "{columns} x {rows} posts need {heights} heights, more than the file's {} bytes can hold",
+                self.length
+            ))
+            .help("it may be half a download: fetch it again, or correct ncols and nrows"));
+        }
+        Ok(())
+    }
+
+    fn scan(&mut self, _part: &Part, sink: &mut dyn RowSink) -> Result<()> {
+        self.check_promise(&self.header.frame.whole())?;
+        let Frame { columns, rows, .. } = self.header.frame;
+        let mut heights = vec![0.0; columns];
+        for row in 0..rows {
+            for (c, height) in heights.iter_mut().enumerate() {
+                *height = self.next_height(row * columns + c)?;
+            }
+            sink.take(row, 0, &heights);
+        }
+        self.refuse_more()
+    }
+}
+
+/// The header's keys, where they stand and what they say.
+struct Keys(BTreeMap<&'static str, (f64, Position)>);
+
+const KEYS: [&str; 10] = [
+    "ncols",
+    "nrows",
+    "xllcorner",
+    "xllcenter",
+    "yllcorner",
+    "yllcenter",
+    "cellsize",
+    "dx",
+    "dy",
+    "nodata_value",
+];
+
+impl Keys {
+    /// Reads keys up to the first height, which it returns, too.
+    fn read<R: Read>(words: &mut Words<BufReader<R>>) -> Result<(Self, (f64, Position))> {
+        let mut keys = BTreeMap::new();
+        loop {
+            let Some(word) = words.next()? else {
+                return Err(Error::new("the file ends before the first height")
+                    .help("it may be half a download: fetch it again")
+                    .at(words.end()));
+            };
+            let at = word.position();
+            if word.number().is_some() {
+                return Ok((Self(keys), (height_of(&word)?, at)));
+            }
+            let name = known_key(&word)?;
+            let value = key_value(words, name)?;
+            if keys.insert(name, (value, at)).is_some() {
+                return Err(Error::new(format!("`{name}` is given twice")).at(at));
+            }
+        }
+    }
+
+    fn get(&self, name: &str) -> Option<f64> {
+        self.0.get(name).map(|(value, _)| *value)
+    }
+
+    fn need(&self, names: &[&str]) -> Result<f64> {
+        names.iter().find_map(|n| self.get(n)).ok_or_else(|| {
+            Error::new(format!("the header lacks `{}`", names.join("` or `")))
+                .help("an Esri ASCII grid begins with ncols, nrows, xllcorner, yllcorner, cellsize")
+        })
+    }
+
+    fn count(&self, name: &str) -> Result<usize> {
+        let value = self.need(&[name])?;
+        if value >= 1.0 && value <= f64::from(u32::MAX) && value.fract() == 0.0 {
+            return Ok(value as usize);
+        }
+        let error = Error::new(format!("`{name} {value}` is not a count of posts"));
+        Err(match self.0.get(name) {
+            Some((_, at)) => error.at(*at),
+            None => error,
+        })
+    }
+
+    /// Where the posts stand: at the cells' centres.
+    fn frame(&self) -> Result<Frame> {
+        let size = (self.count("ncols")?, self.count("nrows")?);
+        let dx = self.need(&["dx", "cellsize"])?;
+        let dy = self.need(&["dy", "cellsize"])?;
+        let x = self.lower_left("x", dx)?;
+        let y = self.lower_left("y", dy)?;
+        if !(dx > 0.0 && dy > 0.0) {
+            return Err(Error::new(format!("the cell size {dx} x {dy} is not above 0"))
+                .help("correct cellsize (or dx and dy) in the header"));
+        }
+        let first = DVec2::new(x, y + dy * (size.1 as f64 - 1.0));
+        Frame::new(size, first, (DVec2::new(dx, 0.0), DVec2::new(0.0, -dy)))
+    }
+
+    /// The centre of the lower left cell along an axis.
+    fn lower_left(&self, axis: &str, step: f64) -> Result<f64> {
+        let (corner, center) = (format!("{axis}llcorner"), format!("{axis}llcenter"));
+        match self.get(&center) {
+            Some(v) => Ok(v),
+            None => Ok(self.need(&[&corner, &center])? + step * 0.5),
+        }
+    }
+}
+
+/// The key that a word names.
+fn known_key(word: &Word<'_>) -> Result<&'static str> {
+    let mut name = word.text().to_ascii_lowercase();
+    if name == "nodata" {
+        name = "nodata_value".into();
+    }
+    if let Some(known) = KEYS.into_iter().find(|k| *k == name) {
+        return Ok(known);
+    }
+    let nearest = KEYS
+        .into_iter()
+        .filter(|k| strsim::damerau_levenshtein(k, &name) <= 2)
+        .min_by_key(|k| strsim::damerau_levenshtein(k, &name));
+    let error = Error::new(format!("`{}` is no key of an Esri ASCII grid", word.text())).at(word.position());
+    Err(match nearest {
+        Some(key) => error.help(format!("did you mean `{key}`?")),
+        None => error.help("known keys: ncols nrows xllcorner yllcorner cellsize NODATA_value"),
+    })
+}
+
+/// The number after a key.
+fn key_value<R: Read>(words: &mut Words<BufReader<R>>, name: &str) -> Result<f64> {
+    if let Some(word) = words.next()? {
+        return word.number().ok_or_else(|| {
+            Error::new(format!(
+                "`{name}` is followed by `{}`, which is no number",
+                word.text()
+            ))
+            .help(number_help(&word.text()))
+            .at(word.position())
+        });
+    }
+    Err(Error::new(format!("the file ends after `{name}`")).at(words.end()))
+}
+
+/// A height; NaN is no data.
+fn height_of(word: &Word<'_>) -> Result<f64> {
+    match word.number() {
+        Some(height) if !height.is_infinite() => Ok(height),
+        _ => Err(Error::new(format!("`{}` is not a height", word.text()))
+            .help(number_help(&word.text()))
+            .at(word.position())),
+    }
+}
+
+/// What the `.prj` file beside a grid says.
+fn prj_beside(path: &Path) -> Option<CrsHint> {
+    const LONGEST: u64 = 1 << 16;
+    let beside = ["prj", "PRJ"].map(|e| path.with_extension(e));
+    let file = beside
+        .iter()
+        .filter(|p| p.is_file())
+        .find_map(|p| File::open(p).ok())?;
+    let mut bytes = Vec::new();
+    file.take(LONGEST).read_to_end(&mut bytes).ok()?;
+    let text = String::from_utf8_lossy(&bytes).trim().to_owned();
+    let is_wkt = ["PROJC", "GEOGC", "GEODC", "COMPD", "BOUNDCRS"]
+        .iter()
+        .any(|k| text.to_ascii_uppercase().starts_with(k));
+    if is_wkt {
+        Some(CrsHint::Wkt(text))
+    } else {
+        let first = text.lines().next().unwrap_or_default().to_owned();
+        Some(CrsHint::Unknown(format!(
+            "{}: {first}",
+            "the .prj file beside it"
+        )))
+    }
+}
