@@ -96,7 +96,8 @@ pub(crate) fn parallel_radius(ellipsoid: &Ellipsoid, lat: f64) -> f64 {
 pub(crate) struct Mercator {
     /// Scale on the equator.
     pub(crate) k_0: f64,
-    ellipsoid: Ellipsoid,
+    /// A sphere for Web Mercator.
+    pub(crate) ellipsoid: Ellipsoid,
 }
 
 impl Mercator {

@@ -135,6 +135,7 @@ impl Crs {
 
     fn from_definition(definition: &Definition) -> Result<Self> {
         let ellipsoid = definition.ellipsoid()?;
+        let datum = definition.datum(&ellipsoid)?;
         let projection = Projection::new(definition, ellipsoid)?;
         let unit = match projection {
             Projection::Geographic => 1.0,
@@ -143,8 +144,8 @@ impl Crs {
         Ok(Self {
             epsg: None,
             name: definition.to_string(),
-            ellipsoid,
-            datum: definition.datum(&ellipsoid)?,
+            ellipsoid: projection.own_ellipsoid().unwrap_or(ellipsoid),
+            datum,
             prime_meridian: definition.prime_meridian()?,
             projection,
             unit,

@@ -27,6 +27,7 @@ impl Definition {
         for token in text.split_whitespace() {
             let token = token.strip_prefix('+').unwrap_or(token);
             let (key, value) = token.split_once('=').unwrap_or((token, ""));
+            let key = if key == "k" { "k_0" } else { key };
             pairs.entry(key.to_owned()).or_insert_with(|| value.to_owned());
         }
         if pairs.get("proj").is_none_or(String::is_empty) {
@@ -53,13 +54,9 @@ impl Definition {
         Ok(self.number(key)?.unwrap_or(default))
     }
 
-    /// The scale factor, under either of its names.
+    /// The scale factor.
     pub(crate) fn scale(&self) -> Result<f64> {
-        let k = match self.number("k_0")? {
-            Some(k) => k,
-            None => self.number_or("k", 1.0)?,
-        };
-        positive("k_0", k)
+        positive("k_0", self.number_or("k_0", 1.0)?)
     }
 
     /// Whether all pairs are equal, numbers to nine digits.
@@ -67,6 +64,7 @@ impl Definition {
         let idle = |k: &str, v: &str| {
             matches!(k, "no_defs" | "wktext" | "over" | "type" | "title")
                 || v.parse() == Ok(0.0)
+                || (k, v) == ("k_0", "1")
                 || (k, v) == ("units", "m")
         };
         let ours = self.0.iter().filter(|(k, v)| !idle(k, v));

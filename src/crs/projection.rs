@@ -89,6 +89,14 @@ impl Projection {
         Some(DVec2::new(lon, lat.to_degrees()))
     }
 
+    /// The sphere of Web Mercator, which is not the ellipsoid of its datum.
+    pub(crate) fn own_ellipsoid(&self) -> Option<Ellipsoid> {
+        match self {
+            Self::Mercator(_, m) => Some(m.ellipsoid),
+            _ => None,
+        }
+    }
+
     fn origin(&self) -> Option<&Origin> {
         match self {
             Self::Transverse(o, _) | Self::Lambert(o, _) | Self::Mercator(o, _) => Some(o),

@@ -232,7 +232,7 @@ fn crs_of_parameters(node: &Node) -> Result<Crs> {
     };
     let ellipsoid = ellipsoid_of(geographic)?;
     let _ = write!(text, " +a={} +rf={}", ellipsoid.0, ellipsoid.1);
-    if let Some(meridian) = prime_meridian_of(geographic, angle) {
+    if let Some(meridian) = prime_meridian_of(geographic) {
         let _ = write!(text, " +pm={meridian}");
     }
     if let Some(shift) = geographic.find(&["TOWGS84"]) {
@@ -285,13 +285,14 @@ fn ellipsoid_of(geographic: &Node) -> Result<(f64, f64)> {
     Ok((a, rf))
 }
 
-fn prime_meridian_of(geographic: &Node, angle: f64) -> Option<f64> {
+/// In degrees whatever the unit of the CRS, unless it states its own: that is how GDAL and Esri write it.
+fn prime_meridian_of(geographic: &Node) -> Option<f64> {
     let meridian = geographic.child(&["PRIMEM", "PRIMEMERIDIAN"])?;
     let own = meridian
         .child(&ANGLE)
         .and_then(|unit| unit.number(1))
         .map(f64::to_degrees);
-    let degrees = meridian.number(1)? * own.unwrap_or(angle);
+    let degrees = meridian.number(1)? * own.unwrap_or(1.0);
     (degrees != 0.0).then_some(degrees)
 }
 

@@ -60,6 +60,9 @@ pub(crate) fn proj_text(
     for (key, number) in parameters {
         let key = match (proj, *key) {
             ("merc" | "stere" | "eqc" | "cea", "lat_1") => "lat_ts",
+            // WKT 1 calls the latitude of true scale of a polar projection its origin.
+            ("stere", "lat_0") if number.abs() < 90.0 => "lat_ts",
+            ("stere", "lat_0") => continue,
             ("omerc", "lon_0") => "lonc",
             ("somerc", "alpha" | "gamma") | ("krovak", "lat_1") => continue,
             ("webmerc", "lat_1" | "alpha") => continue,
@@ -67,8 +70,8 @@ pub(crate) fn proj_text(
         };
         let _ = write!(text, " +{key}={number}");
     }
-    if proj == "stere" && value("lat_0").is_none() {
-        let south = value("lat_1").unwrap_or(90.0) < 0.0;
+    if proj == "stere" {
+        let south = value("lat_1").or(value("lat_0")).unwrap_or(90.0) < 0.0;
         text += if south { " +lat_0=-90" } else { " +lat_0=90" };
     }
     if metres != 1.0 {
@@ -83,6 +86,7 @@ fn proj_of(method: &str, azimuth: Option<f64>) -> Option<&'static str> {
         "lambertconformalconic"
         | "lambertconformalconic1sp"
         | "lambertconformalconic2sp"
+        | "lambertconformalconic2spbelgium"
         | "lambertconicconformal1sp"
         | "lambertconicconformal2sp" => "lcc",
         "mercatorauxiliarysphere" | "popularvisualisationpseudomercator" => "webmerc",
