@@ -19,6 +19,7 @@
 mod conic;
 mod datum;
 mod ellipsoid;
+mod epsg;
 mod imported;
 mod plan;
 mod proj_string;
@@ -63,12 +64,11 @@ impl Crs {
     /// # Errors
     /// When the code is not known or names a system without a plane of coordinates (geocentric, vertical).
     pub fn from_epsg(code: u32) -> Result<Self> {
-        let known = u16::try_from(code).ok().and_then(crs_definitions::from_code);
-        let known = known.ok_or_else(|| {
+        let known = epsg::known(code).ok_or_else(|| {
             Error::new(format!("EPSG:{code} is not a CRS known here"))
                 .help("write it as a PROJ string or as WKT, or reproject the data")
         })?;
-        let mut crs = Self::from_definition(&Definition::parse(known.proj4)?).map_err(|e| {
+        let mut crs = Self::from_definition(&Definition::parse(&known.proj)?).map_err(|e| {
             e.help(format!(
                 "EPSG:{code} cannot be used: reproject the data, for example to UTM"
             ))

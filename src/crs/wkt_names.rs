@@ -2,6 +2,7 @@
 
 use super::datum::Datum;
 use super::ellipsoid::Ellipsoid;
+use super::epsg;
 use super::proj_string::Definition;
 use crate::error::{Error, Result};
 use std::fmt::Write;
@@ -74,6 +75,14 @@ pub(crate) fn proj_text(
         let south = value("lat_1").or(value("lat_0")).unwrap_or(90.0) < 0.0;
         text += if south { " +lat_0=-90" } else { " +lat_0=90" };
     }
+    if matches!(
+        method,
+        "hotineobliquemercator"
+            | "hotineobliquemercatorvarianta"
+            | "hotineobliquemercatorazimuthnaturalorigin"
+    ) {
+        text += " +no_uoff";
+    }
     if metres != 1.0 {
         let _ = write!(text, " +to_meter={metres}");
     }
@@ -105,6 +114,9 @@ fn proj_of(method: &str, azimuth: Option<f64>) -> Option<&'static str> {
         "azimuthalequidistant" | "modifiedazimuthalequidistant" => "aeqd",
         "cylindricalequalarea" | "lambertcylindricalequalarea" => "cea",
         "swissobliquecylindrical" | "swissobliquemercator" => "somerc",
+        "hotineobliquemercator"
+        | "hotineobliquemercatorvarianta"
+        | "hotineobliquemercatorazimuthnaturalorigin" => "omerc",
         "hotineobliquemercatorazimuthcenter"
         | "hotineobliquemercatorvariantb"
         | "rectifiedskeworthomorphiccenter" => {
@@ -117,7 +129,7 @@ fn proj_of(method: &str, azimuth: Option<f64>) -> Option<&'static str> {
 }
 
 /// Datums whose usual names in WKT are not those of EPSG, each with the code of its geographic CRS.
-const ALIASES: [(&str, u16); 13] = [
+const ALIASES: [(&str, u32); 13] = [
     ("mgi", 4312),
     ("militargeographischeinstitut", 4312),
     ("europeandatum1950", 4230),
@@ -138,13 +150,13 @@ pub(crate) fn datum_named(name: &str, ellipsoid: &Ellipsoid) -> Datum {
     let wanted = datum_key(name);
     let alias = ALIASES.iter().find(|a| a.0 == wanted).map(|a| a.1);
     let mut codes = alias.into_iter().chain(4001..4999);
-    let named = |code: &u16| {
-        crs_definitions::from_code(*code)
+    let named = |code: &u32| {
+        epsg::known(*code)
             .and_then(|d| Some(datum_key(d.wkt.split_once("DATUM[\"")?.1.split('"').next()?)))
             .is_some_and(|key| Some(*code) == alias || key == wanted)
     };
-    let shift = |code: u16| {
-        let definition = Definition::parse(crs_definitions::from_code(code)?.proj4).ok()?;
+    let shift = |code: u32| {
+        let definition = Definition::parse(&epsg::known(code)?.proj).ok()?;
         let theirs = definition.ellipsoid().ok()?;
         let datum = definition.datum(&theirs).ok()?;
         let known = theirs.agrees_with(ellipsoid) && datum != Datum::Unknown;

@@ -86,13 +86,14 @@ fn gpkg(layers: &[&str], blob: &[u8]) -> Vec<u8> {
     )
     .unwrap();
     for layer in layers {
+        let double = layer.replace('"', "\"\"");
         db.execute_batch(&format!(
-            "CREATE TABLE \"{layer}\" (fid INTEGER PRIMARY KEY, geom BLOB);
+            "CREATE TABLE \"{double}\" (fid INTEGER PRIMARY KEY, geom BLOB);
              INSERT INTO gpkg_contents VALUES ('{layer}', 'features');
              INSERT INTO gpkg_geometry_columns VALUES ('{layer}', 'geom', 32733);"
         ))
         .unwrap();
-        db.execute(&format!("INSERT INTO \"{layer}\" (geom) VALUES (?1)"), [blob])
+        db.execute(&format!("INSERT INTO \"{double}\" (geom) VALUES (?1)"), [blob])
             .unwrap();
     }
     drop(db);
