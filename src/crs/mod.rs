@@ -209,10 +209,10 @@ impl Crs {
     ///
     /// # Errors
     /// When the point lies outside the projection's domain or is not finite.
-    pub fn geographic_from(&self, p: DVec2) -> Result<DVec2> {
+    pub fn geographic_from_native(&self, p: DVec2) -> Result<DVec2> {
         let own = self.own_geographic(p)?;
         match &self.datum {
-            Datum::Shift(shift) => Ok(shift.to_wgs84(&self.ellipsoid, own)),
+            Datum::Shift(shift) => Ok(shift.wgs84_from(&self.ellipsoid, own)),
             Datum::Wgs84 | Datum::Unknown => Ok(own),
         }
     }
@@ -221,10 +221,10 @@ impl Crs {
     ///
     /// # Errors
     /// When the place lies outside the projection's domain or is not finite.
-    pub fn from_geographic(&self, p: DVec2) -> Result<DVec2> {
+    pub fn native_from_geographic(&self, p: DVec2) -> Result<DVec2> {
         let p = checked_geographic(p).ok_or_else(|| self.outside(p))?;
         let own = match &self.datum {
-            Datum::Shift(shift) => shift.from_wgs84(&self.ellipsoid, p)?,
+            Datum::Shift(shift) => shift.own_from_wgs84(&self.ellipsoid, p)?,
             Datum::Wgs84 | Datum::Unknown => p,
         };
         self.project(own)

@@ -148,7 +148,7 @@ impl PlanSpace {
     /// # Errors
     /// When the place is outside the plane's domain.
     pub fn plan_from_geographic(&self, lon: f64, lat: f64) -> Result<DVec2> {
-        self.from_crs(self.crs().from_geographic(DVec2::new(lon, lat))?)
+        self.plan_from_native(self.crs().native_from_geographic(DVec2::new(lon, lat))?)
     }
 
     /// The longitude and latitude on WGS 84, degrees, of a plan point.
@@ -156,7 +156,7 @@ impl PlanSpace {
     /// # Errors
     /// When the point is outside the plane's domain.
     pub fn geographic_from_plan(&self, p: DVec2) -> Result<DVec2> {
-        self.crs().geographic_from(self.to_crs(p)?)
+        self.crs().geographic_from_native(self.native_from_plan(p)?)
     }
 
     fn affine(&self) -> Affine {
@@ -173,7 +173,7 @@ impl PlanSpace {
     }
 
     /// From the plane's own CRS.
-    fn from_crs(&self, p: DVec2) -> Result<DVec2> {
+    fn plan_from_native(&self, p: DVec2) -> Result<DVec2> {
         let affine = self.affine();
         let mut off = p - affine.origin;
         if let Kind::Local(plane) = &self.0 {
@@ -189,7 +189,7 @@ impl PlanSpace {
     }
 
     /// To the plane's own CRS.
-    fn to_crs(&self, p: DVec2) -> Result<DVec2> {
+    fn native_from_plan(&self, p: DVec2) -> Result<DVec2> {
         let affine = self.affine();
         let q = p / affine.scale + affine.origin;
         let on_the_globe = match &self.0 {
@@ -235,15 +235,15 @@ impl PlanFrom {
     /// When the point lies outside the domain of either CRS or is not finite.
     pub fn apply(&self, p: DVec2) -> Result<DVec2> {
         if self.same {
-            return self.plan.from_crs(p);
+            return self.plan.plan_from_native(p);
         }
         let to = self.plan.crs();
         let there = if self.file.has_datum_of(to) {
             to.project(self.file.own_geographic(p)?)?
         } else {
-            to.from_geographic(self.file.geographic_from(p)?)?
+            to.native_from_geographic(self.file.geographic_from_native(p)?)?
         };
-        self.plan.from_crs(there)
+        self.plan.plan_from_native(there)
     }
 
     /// The point in the file's CRS of a plan point: the inverse of [`Self::apply`].
@@ -251,7 +251,7 @@ impl PlanFrom {
     /// # Errors
     /// When the point lies outside the domain of either CRS or is not finite.
     pub fn invert(&self, p: DVec2) -> Result<DVec2> {
-        let there = self.plan.to_crs(p)?;
+        let there = self.plan.native_from_plan(p)?;
         if self.same {
             return Ok(there);
         }
@@ -259,7 +259,8 @@ impl PlanFrom {
         if self.file.has_datum_of(from) {
             self.file.project(from.own_geographic(there)?)
         } else {
-            self.file.from_geographic(from.geographic_from(there)?)
+            self.file
+                .native_from_geographic(from.geographic_from_native(there)?)
         }
     }
 }

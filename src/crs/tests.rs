@@ -238,9 +238,9 @@ fn datum_shifts_agree_with_proj() {
             51.967_670_895_305_886,
         ),
     ] {
-        let p = crs(text).geographic_from(DVec2::new(x, y)).unwrap();
+        let p = crs(text).geographic_from_native(DVec2::new(x, y)).unwrap();
         assert!((p - DVec2::new(lon, lat)).length() < 1e-11, "{text}: {p}");
-        let back = crs(text).from_geographic(p).unwrap();
+        let back = crs(text).native_from_geographic(p).unwrap();
         assert!((back - DVec2::new(x, y)).length() < 1e-6, "{text}: {back}");
     }
 }
@@ -403,14 +403,21 @@ fn deep_brackets_are_refused() {
 #[test]
 fn places_outside_the_domain_are_errors() {
     let utm = crs("EPSG:32733");
-    assert!(utm.from_geographic(DVec2::new(105.0, 0.0)).is_err());
-    assert!(utm.from_geographic(DVec2::new(15.0, 91.0)).is_err());
-    assert!(utm.from_geographic(DVec2::new(f64::NAN, 0.0)).is_err());
-    assert!(utm.geographic_from(DVec2::new(f64::INFINITY, 0.0)).is_err());
-    assert!(crs("EPSG:3857").from_geographic(DVec2::new(0.0, 90.0)).is_err());
+    assert!(utm.native_from_geographic(DVec2::new(105.0, 0.0)).is_err());
+    assert!(utm.native_from_geographic(DVec2::new(15.0, 91.0)).is_err());
+    assert!(utm.native_from_geographic(DVec2::new(f64::NAN, 0.0)).is_err());
+    assert!(
+        utm.geographic_from_native(DVec2::new(f64::INFINITY, 0.0))
+            .is_err()
+    );
+    assert!(
+        crs("EPSG:3857")
+            .native_from_geographic(DVec2::new(0.0, 90.0))
+            .is_err()
+    );
     assert!(
         crs("EPSG:4326")
-            .geographic_from(DVec2::new(240_000.0, 350_000.0))
+            .geographic_from_native(DVec2::new(240_000.0, 350_000.0))
             .is_err()
     );
 }
@@ -495,7 +502,7 @@ fn plan_and_back_is_the_same_place() {
     ] {
         for file in ["EPSG:4326", "EPSG:32632", "EPSG:31287", "EPSG:23032"] {
             let map = plan.plan_from(&crs(file)).unwrap();
-            let start = crs(file).from_geographic(DVec2::new(11.5, 47.3)).unwrap();
+            let start = crs(file).native_from_geographic(DVec2::new(11.5, 47.3)).unwrap();
             let there = map.apply(start).unwrap();
             let back = map.invert(there).unwrap();
             assert!(
@@ -542,7 +549,7 @@ proptest! {
         p in (-1e7..1e7_f64, -1e7..1e7_f64),
     ) {
         if let Ok(crs) = Crs::parse(&format!("+proj={proj}{rest}")) {
-            for q in [crs.geographic_from(DVec2::new(p.0, p.1)), crs.from_geographic(DVec2::new(p.0 / 1e5, p.1 / 1e5))].into_iter().flatten() {
+            for q in [crs.geographic_from_native(DVec2::new(p.0, p.1)), crs.native_from_geographic(DVec2::new(p.0 / 1e5, p.1 / 1e5))].into_iter().flatten() {
                 prop_assert!(q.is_finite());
             }
         }

@@ -52,7 +52,7 @@ impl TransverseMercator {
         let taup = self.ellipsoid.conformal_tan(lat);
         let (s, c) = (sin(lam), cos(lam));
         let sphere = DVec2::new(atan2(taup, c), asinh(s / (taup * taup + c * c).sqrt()));
-        if !(sphere.y.abs() <= LARGEST_ETA) {
+        if sphere.y.is_nan() || sphere.y.abs() > LARGEST_ETA {
             return None;
         }
         let z = sphere + sine_series(&self.alpha, sphere);

@@ -1,8 +1,9 @@
 //! Esri shapefiles: *ESRI Shapefile Technical Description*, July 1998.
 //!
 //! Read here and not by the `shapefile` crate, which allocates by the counts that a damaged record claims. Every
-//! count is held against the bytes of its record, every record against the file. The .shx index is not needed, the
-//! .dbf not read.
+//! count is held against the bytes of its record, every record against the file. Records are read one after the other,
+//! so the .shx index is not needed; where there is one that points elsewhere, a note says from which feature on, since
+//! programs that follow it see other features or none. The .dbf is not read.
 
 use super::bytes::{Cursor, Endian};
 use super::collector::Collector;
@@ -18,21 +19,62 @@ pub(super) fn read(path: &Path) -> Result<Collector> {
     let bytes = super::contents_of(path)?;
     let mut found = Collector::default();
     read_prj(path, &mut found);
-    let mut cursor = Cursor::new(records_of(&bytes, &mut found)?);
+    let records = records_of(&bytes, &mut found)?;
+    let mut cursor = Cursor::new(records);
+    let mut starts = Vec::new();
     while cursor.left() > 0 {
         let index = found.current();
+        starts.push(HEADER_BYTES + records.len() - cursor.left());
         let record = next_record(&mut cursor).map_err(|e| e.in_feature(index))?;
         read_record(record, &mut found).map_err(|e| e.in_feature(index))?;
         found.next_feature();
     }
+    note_index_that_points_elsewhere(path, &starts, &mut found);
     found.finish();
     Ok(found)
 }
 
+/// Compare the .shx, where there is one, with where the records are.
+fn note_index_that_points_elsewhere(path: &Path, starts: &[usize], found: &mut Collector) {
+    let index = beside(path, "shx", "SHX");
+    let Some(entries) = index.as_deref().and_then(|bytes| bytes.get(HEADER_BYTES..)) else {
+        return;
+    };
+    let offset = |entry: &[u8]| {
+        Cursor::new(entry)
+            .u32(Endian::Big)
+            .map(|words| words as usize * 2)
+    };
+    let listed: Vec<_> = entries.chunks_exact(8).map(offset).collect();
+    let first_wrong = starts
+        .iter()
+        .zip(&listed)
+        .position(|(start, listed)| Some(*start) != *listed);
+    let shorter = if starts.len() < listed.len() {
+        starts.len()
+    } else {
+        listed.len()
+    };
+    if first_wrong.is_some() || starts.len() != listed.len() {
+        found.notes.push(format!(
+            "the .shx index is damaged: it lists {} features, points elsewhere from feature {} on, and is not used; the \
+             .shp itself holds {} whole ones",
+            listed.len(),
+            first_wrong.unwrap_or(shorter),
+            starts.len()
+        ));
+    }
+}
+
+/// The contents of a file beside the .shp, by one of two spellings of its extension.
+fn beside(path: &Path, extension: &str, capitals: &str) -> Option<Vec<u8>> {
+    let read = |extension: &str| std::fs::read(path.with_extension(extension)).ok();
+    read(extension).or_else(|| read(capitals))
+}
+
 /// A .prj that is missing or not understood is a note: the scene can name the CRS.
 fn read_prj(path: &Path, found: &mut Collector) {
-    let read = |extension: &str| std::fs::read(path.with_extension(extension)).ok();
-    let Some(bytes) = read("prj").or_else(|| read("PRJ")) else {
+    let Some(bytes) = beside(path, "prj", "PRJ") else {
         return found
             .notes
             .push("there is no .prj beside the file, so its CRS is not known".to_owned());

@@ -283,6 +283,27 @@ fn shapefiles_with_absurd_counts_are_refused_by_feature() {
 }
 
 #[test]
+fn a_shapefile_index_that_points_elsewhere_is_noted_by_feature() {
+    let (_folder, path) = file(
+        "a.shp",
+        &shp(5, &[shp_parts(5, &[&SQUARE]), shp_parts(5, &[&SQUARE])]),
+    );
+    let mut index = vec![0; 100];
+    for words in [50_u32, 64, 118, 64] {
+        index.extend(words.to_be_bytes());
+    }
+    for (index, wrong_from) in [(&index, None), (&index[..108].to_vec(), Some("feature 1 on"))] {
+        std::fs::write(path.with_extension("shx"), index).unwrap();
+        let notes = super::read(&path, None).unwrap().notes;
+        assert_eq!(
+            wrong_from.is_some(),
+            notes.iter().any(|n| n.contains(wrong_from.unwrap_or(".shx"))),
+            "{notes:?}"
+        );
+    }
+}
+
+#[test]
 fn flatgeobuf_is_read_with_its_crs() {
     let read = read_bytes("a.fgb", &fgb()).unwrap();
     assert_eq!(read.features.len(), 3);
