@@ -21,47 +21,50 @@ pub(super) fn read(path: &Path) -> Result<Collector> {
     read_prj(path, &mut found);
     let records = records_of(&bytes, &mut found)?;
     let mut cursor = Cursor::new(records);
-    let mut starts = Vec::new();
+    let mut places = Vec::new();
     while cursor.left() > 0 {
         let index = found.current();
-        starts.push(HEADER_BYTES + records.len() - cursor.left());
+        let start = HEADER_BYTES + records.len() - cursor.left();
         let record = next_record(&mut cursor).map_err(|e| e.in_feature(index))?;
+        places.push((start, record.left()));
         read_record(record, &mut found).map_err(|e| e.in_feature(index))?;
         found.next_feature();
     }
-    note_index_that_points_elsewhere(path, &starts, &mut found);
+    note_index_that_points_elsewhere(path, &places, &mut found);
     found.finish();
     Ok(found)
 }
 
-/// Compare the .shx, where there is one, with where the records are.
-fn note_index_that_points_elsewhere(path: &Path, starts: &[usize], found: &mut Collector) {
+/// Compare the .shx, where there is one, with where the records begin and how long they are.
+fn note_index_that_points_elsewhere(path: &Path, places: &[(usize, usize)], found: &mut Collector) {
     let index = beside(path, "shx", "SHX");
     let Some(entries) = index.as_deref().and_then(|bytes| bytes.get(HEADER_BYTES..)) else {
         return;
     };
-    let offset = |entry: &[u8]| {
-        Cursor::new(entry)
-            .u32(Endian::Big)
-            .map(|words| words as usize * 2)
+    let place = |entry: &[u8]| {
+        let mut cursor = Cursor::new(entry);
+        let mut bytes = || {
+            cursor
+                .u32(Endian::Big)
+                .and_then(|words| (words as usize).checked_mul(2))
+        };
+        Some((bytes()?, bytes()?))
     };
-    let listed: Vec<_> = entries.chunks_exact(8).map(offset).collect();
-    let first_wrong = starts
-        .iter()
-        .zip(&listed)
-        .position(|(start, listed)| Some(*start) != *listed);
-    let shorter = if starts.len() < listed.len() {
-        starts.len()
+    let listed: Vec<_> = entries.chunks_exact(8).map(place).collect();
+    let differ = |(place, listed): (&(usize, usize), &Option<_>)| Some(*place) != *listed;
+    let first_wrong = places.iter().zip(&listed).position(differ);
+    let shorter = if places.len() < listed.len() {
+        places.len()
     } else {
         listed.len()
     };
-    if first_wrong.is_some() || starts.len() != listed.len() {
+    if first_wrong.is_some() || places.len() != listed.len() {
         found.notes.push(format!(
             "the .shx index is damaged: it lists {} features, points elsewhere from feature {} on, and is not used; the \
              .shp itself holds {} whole ones",
             listed.len(),
             first_wrong.unwrap_or(shorter),
-            starts.len()
+            places.len()
         ));
     }
 }
