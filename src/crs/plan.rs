@@ -1,0 +1,266 @@
+//! The scene's plan: a projected CRS in metres, or the local plane of data in degrees.
+
+use super::{Crs, wrapped};
+use crate::error::{Error, Result};
+use crate::math::cos;
+use glam::DVec2;
+
+/// The scene's plan plane, in metres east and north.
+///
+/// The **local plane** at (lon0, lat0) is x = (lon - lon0) N cos(lat0), y = (lat - lat0) M, angles in radians, with
+/// the ellipsoid's radii of curvature in the prime vertical, N, and in the meridian, M, at lat0: a regular grid in degrees
+/// stays a regular grid.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlanSpace(Kind);
+
+#[derive(Debug, Clone, PartialEq)]
+enum Kind {
+    Projected(Crs),
+    Local(LocalPlane),
+}
+
+#[derive(Debug, Clone, PartialEq)]
+struct LocalPlane {
+    crs: Crs,
+    center: DVec2,
+    metres_per_degree: DVec2,
+}
+
+/// A map that keeps grids regular: p becomes (p - origin) * scale, by components.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Affine {
+    /// What becomes (0, 0).
+    pub origin: DVec2,
+    /// Plan metres in a unit of the file.
+    pub scale: DVec2,
+}
+
+/// The map from a file's coordinates to plan coordinates, and back.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlanFrom {
+    file: Crs,
+    plan: PlanSpace,
+    same: bool,
+}
+
+impl PlanSpace {
+    /// The plane of a projected CRS. Its coordinates in the plan are metres, also where the CRS counts in feet.
+    ///
+    /// # Errors
+    /// When the CRS is geographic: its degrees are no plane.
+    pub fn projected(crs: Crs) -> Result<Self> {
+        if crs.is_geographic() {
+            return Err(Error::new(format!("{} is in degrees, not a plane", crs.name()))
+                .help("name a projected CRS such as 'EPSG:32733', or leave crs out: a DEM in degrees gets its local plane"));
+        }
+        Ok(Self(Kind::Projected(crs)))
+    }
+
+    /// The local plane of a geographic CRS at a centre, given in that CRS's own degrees.
+    ///
+    /// # Errors
+    /// When the CRS is not geographic, or the centre is within a tenth of a degree of a pole or not on the globe.
+    pub fn local_plane(center_lon: f64, center_lat: f64, crs: Crs) -> Result<Self> {
+        if !crs.is_geographic() {
+            return Err(Error::new(format!("{} is a plane already", crs.name()))
+                .help("the local plane is for data in degrees"));
+        }
+        if !(center_lat.abs() <= 89.9 && center_lon.abs() <= 540.0) {
+            return Err(Error::new(format!(
+                "there is no local plane at longitude {center_lon}, latitude {center_lat}"
+            ))
+            .help("name a polar projection as the scene's crs"));
+        }
+        let metres_per_degree = metres_per_degree_at(&crs, center_lat);
+        let center = DVec2::new(center_lon, center_lat);
+        Ok(Self(Kind::Local(LocalPlane {
+            crs,
+            center,
+            metres_per_degree,
+        })))
+    }
+
+    /// What the plane is, for people.
+    pub fn describe(&self) -> String {
+        match &self.0 {
+            Kind::Projected(crs) => crs.name().to_owned(),
+            Kind::Local(plane) => format!(
+                "local plane at longitude {}, latitude {} of {}",
+                plane.center.x,
+                plane.center.y,
+                plane.crs.name()
+            ),
+        }
+    }
+
+    /// The CRS of the plane, or the geographic one that the local plane unrolls.
+    pub fn crs(&self) -> &Crs {
+        match &self.0 {
+            Kind::Projected(crs) => crs,
+            Kind::Local(plane) => &plane.crs,
+        }
+    }
+
+    /// The centre of the local plane: longitude and latitude in its CRS.
+    pub fn center(&self) -> Option<(f64, f64)> {
+        match &self.0 {
+            Kind::Projected(_) => None,
+            Kind::Local(plane) => Some((plane.center.x, plane.center.y)),
+        }
+    }
+
+    /// Plan metres in a degree of longitude and of latitude; `None` but for the local plane.
+    pub fn metres_per_degree(&self) -> Option<(f64, f64)> {
+        match &self.0 {
+            Kind::Projected(_) => None,
+            Kind::Local(plane) => Some((plane.metres_per_degree.x, plane.metres_per_degree.y)),
+        }
+    }
+
+    /// By how much the local plane is longer than the ground at a plan point, east and north: 0.01 is one per cent.
+    /// Zero for a projected CRS, whose scale error is nobody's surprise.
+    pub fn scale_error_at(&self, _x: f64, y: f64) -> (f64, f64) {
+        match &self.0 {
+            Kind::Projected(_) => (0.0, 0.0),
+            Kind::Local(plane) => {
+                let lat = plane.center.y + y / plane.metres_per_degree.y;
+                let ground = metres_per_degree_at(&plane.crs, lat);
+                let error = plane.metres_per_degree / ground - DVec2::ONE;
+                (error.x, error.y)
+            }
+        }
+    }
+
+    /// The map from a file's CRS to the plan.
+    ///
+    /// # Errors
+    /// None today; a CRS that has no map to the plan is to be refused here.
+    pub fn plan_from(&self, file: &Crs) -> Result<PlanFrom> {
+        Ok(PlanFrom {
+            file: file.clone(),
+            plan: self.clone(),
+            same: self.crs().is_same(file),
+        })
+    }
+
+    /// The plan point of a longitude and latitude on WGS 84, degrees.
+    ///
+    /// # Errors
+    /// When the place is outside the plane's domain.
+    pub fn plan_from_geographic(&self, lon: f64, lat: f64) -> Result<DVec2> {
+        self.plan_from_native(self.crs().native_from_geographic(DVec2::new(lon, lat))?)
+    }
+
+    /// The longitude and latitude on WGS 84, degrees, of a plan point.
+    ///
+    /// # Errors
+    /// When the point is outside the plane's domain.
+    pub fn geographic_from_plan(&self, p: DVec2) -> Result<DVec2> {
+        self.crs().geographic_from_native(self.native_from_plan(p)?)
+    }
+
+    fn affine(&self) -> Affine {
+        match &self.0 {
+            Kind::Projected(crs) => Affine {
+                origin: DVec2::ZERO,
+                scale: DVec2::splat(crs.unit),
+            },
+            Kind::Local(plane) => Affine {
+                origin: plane.center / plane.crs.unit,
+                scale: plane.metres_per_degree * plane.crs.unit,
+            },
+        }
+    }
+
+    /// From the plane's own CRS.
+    fn plan_from_native(&self, p: DVec2) -> Result<DVec2> {
+        let affine = self.affine();
+        let mut off = p - affine.origin;
+        if let Kind::Local(plane) = &self.0 {
+            let latitude = p.y * plane.crs.unit;
+            if !(latitude.abs() <= 90.0 && (p.x * plane.crs.unit).abs() <= 540.0) {
+                return Err(not_on_the_globe(p, &plane.crs));
+            }
+            off.x = wrapped(off.x * plane.crs.unit) / plane.crs.unit;
+        }
+        Some(off * affine.scale)
+            .filter(|q| q.is_finite())
+            .ok_or_else(|| not_on_the_globe(p, self.crs()))
+    }
+
+    /// To the plane's own CRS.
+    fn native_from_plan(&self, p: DVec2) -> Result<DVec2> {
+        let affine = self.affine();
+        let q = p / affine.scale + affine.origin;
+        let on_the_globe = match &self.0 {
+            Kind::Projected(_) => q.is_finite(),
+            Kind::Local(plane) => (q.y * plane.crs.unit).abs() <= 90.0 && q.x.is_finite(),
+        };
+        on_the_globe.then_some(q).ok_or_else(|| {
+            Error::new(format!("the plan point ({}, {}) is not on the globe", p.x, p.y))
+                .help("the local plane ends at the poles")
+        })
+    }
+}
+
+fn not_on_the_globe(p: DVec2, crs: &Crs) -> Error {
+    Error::new(format!("({}, {}) is not a place in {}", p.x, p.y, crs.name()))
+        .help("check that the coordinates are in the CRS that the file states: metres may stand under a CRS in degrees")
+}
+
+fn metres_per_degree_at(crs: &Crs, lat: f64) -> DVec2 {
+    let phi = lat.to_radians();
+    DVec2::new(
+        (crs.ellipsoid.prime_vertical(phi) * cos(phi)).to_radians(),
+        crs.ellipsoid.meridian(phi).to_radians(),
+    )
+}
+
+impl PlanFrom {
+    /// The map as shift and scale, where it is one (so that a grid stays a grid). For the local plane this holds for
+    /// longitudes within half a turn of the centre.
+    pub fn affine(&self) -> Option<Affine> {
+        self.same.then(|| self.plan.affine())
+    }
+
+    /// Whether plan coordinates are the file's, bit for bit.
+    pub fn is_identity(&self) -> bool {
+        self.affine()
+            .is_some_and(|a| a.origin == DVec2::ZERO && a.scale == DVec2::ONE)
+    }
+
+    /// The plan point of a point in the file's CRS.
+    ///
+    /// # Errors
+    /// When the point lies outside the domain of either CRS or is not finite.
+    pub fn apply(&self, p: DVec2) -> Result<DVec2> {
+        if self.same {
+            return self.plan.plan_from_native(p);
+        }
+        let to = self.plan.crs();
+        let there = if self.file.has_datum_of(to) {
+            to.project(self.file.own_geographic(p)?)?
+        } else {
+            to.native_from_geographic(self.file.geographic_from_native(p)?)?
+        };
+        self.plan.plan_from_native(there)
+    }
+
+    /// The point in the file's CRS of a plan point: the inverse of [`Self::apply`].
+    ///
+    /// # Errors
+    /// When the point lies outside the domain of either CRS or is not finite.
+    pub fn invert(&self, p: DVec2) -> Result<DVec2> {
+        let there = self.plan.native_from_plan(p)?;
+        if self.same {
+            return Ok(there);
+        }
+        let from = self.plan.crs();
+        if self.file.has_datum_of(from) {
+            self.file.project(from.own_geographic(there)?)
+        } else {
+            self.file
+                .native_from_geographic(from.geographic_from_native(there)?)
+        }
+    }
+}

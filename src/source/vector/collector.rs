@@ -1,0 +1,140 @@
+//! Gathers the features of a file under the rules that all formats share.
+
+use super::VectorFile;
+use crate::crs::Crs;
+use crate::error::{Error, Result};
+use crate::scene::{Feature, Shape};
+use crate::space::Plan;
+
+/// Features so far, and counts of what was left out.
+#[derive(Debug, Default)]
+pub(super) struct Collector {
+    pub(super) features: Vec<Feature>,
+    pub(super) crs: Option<Crs>,
+    pub(super) notes: Vec<String>,
+    /// Features seen in the file, with those left out.
+    pub(super) seen: usize,
+    /// Coordinates of polygons and lines stored in the file, closing vertices counted.
+    pub(super) stored_vertices: usize,
+    points: usize,
+    empty: usize,
+}
+
+impl Collector {
+    /// The number in the file of the feature that is being read.
+    pub(super) fn current(&self) -> usize {
+        self.seen
+    }
+
+    /// Ends the current feature.
+    pub(super) fn next_feature(&mut self) {
+        self.seen += 1;
+    }
+
+    /// Counts points of the current feature, which are not drawn.
+    pub(super) fn leave_out_points(&mut self, count: usize) {
+        self.points += count;
+    }
+
+    /// Counts a geometry without coordinates.
+    pub(super) fn leave_out_empty(&mut self) {
+        self.empty += 1;
+    }
+
+    /// Adds a (multi-)polygon of the current feature; closing vertices are taken off.
+    pub(super) fn add_polygon(&mut self, mut rings: Vec<Vec<Plan>>) -> Result<()> {
+        self.admit(&mut rings)?;
+        for ring in &mut rings {
+            if ring.len() > 1 && ring.first() == ring.last() {
+                ring.pop();
+            }
+        }
+        self.push(rings, Shape::Polygon);
+        Ok(())
+    }
+
+    /// Adds a (multi-)line of the current feature.
+    pub(super) fn add_line(&mut self, mut parts: Vec<Vec<Plan>>) -> Result<()> {
+        self.admit(&mut parts)?;
+        self.push(parts, Shape::Line);
+        Ok(())
+    }
+
+    /// Refuse what is not finite, drop empty parts, and count.
+    fn admit(&mut self, parts: &mut Vec<Vec<Plan>>) -> Result<()> {
+        if let Some(p) = parts.iter().flatten().find(|p| !p.is_finite()) {
+            return Err(Error::new(format!("the vertex ({}, {}) is not finite", p.x, p.y))
+                .help("repair or delete the feature")
+                .in_feature(self.current()));
+        }
+        parts.retain(|part| !part.is_empty());
+        self.stored_vertices += parts.iter().map(Vec::len).sum::<usize>();
+        Ok(())
+    }
+
+    fn push(&mut self, parts: Vec<Vec<Plan>>, shape: fn(Vec<Vec<Plan>>) -> Shape) {
+        if parts.is_empty() {
+            return self.leave_out_empty();
+        }
+        self.features.push(Feature {
+            index: self.current(),
+            shape: shape(parts),
+        });
+    }
+
+    /// Says what was left out and what looks wrong.
+    pub(super) fn finish(&mut self) {
+        self.note_count(self.points, "point", "left out: points are not drawn");
+        self.note_count(self.empty, "geometry", "without coordinates left out");
+        if let Some(note) = self.crs.as_ref().and_then(Crs::note) {
+            self.notes.push(note);
+        }
+        self.note_metres_under_degrees();
+    }
+
+    fn note_count(&mut self, count: usize, what: &str, fate: &str) {
+        let plural = match (count, what) {
+            (1, what) => what.to_owned(),
+            (_, "geometry") => "geometries".to_owned(),
+            (_, what) => format!("{what}s"),
+        };
+        if count > 0 {
+            self.notes.push(format!("{count} {plural} {fate}"));
+        }
+    }
+
+    fn note_metres_under_degrees(&mut self) {
+        if !self.crs.as_ref().is_some_and(Crs::is_geographic) {
+            return;
+        }
+        let off = |p: &Plan| p.x.abs() > 540.0 || p.y.abs() > 90.0;
+        let wrong: Vec<usize> = self
+            .features
+            .iter()
+            .filter(|f| parts_of(&f.shape).iter().flatten().any(off))
+            .map(|f| f.index)
+            .collect();
+        if let Some(first) = wrong.first() {
+            self.notes.push(format!(
+                "the CRS is in degrees but {} of {} features (the first is feature {first}) are off the globe: metres, perhaps",
+                wrong.len(),
+                self.features.len()
+            ));
+        }
+    }
+
+    pub(super) fn into_file(self) -> VectorFile {
+        VectorFile {
+            features: self.features,
+            crs: self.crs,
+            notes: self.notes,
+        }
+    }
+}
+
+/// The rings or polylines of a shape.
+pub(super) fn parts_of(shape: &Shape) -> &[Vec<Plan>] {
+    match shape {
+        Shape::Polygon(parts) | Shape::Line(parts) => parts,
+    }
+}

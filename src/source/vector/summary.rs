@@ -1,0 +1,85 @@
+//! What a vector file holds, for people.
+
+use super::collector::{Collector, parts_of};
+use super::{VectorFormat, geopackage, read_collected};
+use crate::crs::Crs;
+use crate::error::Result;
+use crate::scene::Shape;
+use crate::space::PlanBox;
+use std::path::Path;
+
+/// What a vector file, or one layer of it, holds.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct VectorSummary {
+    /// The format.
+    pub format: VectorFormat,
+    /// The layer's name, in a GeoPackage.
+    pub layer: Option<String>,
+    /// All layers with polygons or lines, in a GeoPackage.
+    pub layers: Vec<String>,
+    /// Features in the file, with those that are not drawn.
+    pub features: usize,
+    /// (Multi-)polygons.
+    pub polygons: usize,
+    /// (Multi-)lines.
+    pub lines: usize,
+    /// Rings of polygons and parts of lines.
+    pub parts: usize,
+    /// Coordinates of polygons and lines as stored, closing vertices counted.
+    pub vertices: usize,
+    /// The box around polygons and lines, in the file's coordinates.
+    pub bounds: PlanBox,
+    /// The CRS the file states.
+    pub crs: Option<Crs>,
+    /// What the user should know.
+    pub notes: Vec<String>,
+}
+
+/// What a vector file holds: one summary, or one for each layer of a GeoPackage.
+///
+/// # Errors
+/// As [`super::read`].
+pub fn describe(path: &Path) -> Result<Vec<VectorSummary>> {
+    describe_layers(path).map_err(|e| e.in_file(path))
+}
+
+fn describe_layers(path: &Path) -> Result<Vec<VectorSummary>> {
+    if super::format_of(path)? != VectorFormat::GeoPackage {
+        let (format, found) = read_collected(path, None)?;
+        return Ok(vec![summary(format, None, &[], found)]);
+    }
+    let layers = geopackage::layer_names(path)?;
+    let one = |layer: &String| {
+        let (format, found) = read_collected(path, Some(layer))?;
+        Ok(summary(format, Some(layer.clone()), &layers, found))
+    };
+    layers.iter().map(one).collect()
+}
+
+fn summary(
+    format: VectorFormat,
+    layer: Option<String>,
+    layers: &[String],
+    found: Collector,
+) -> VectorSummary {
+    let polygons = found
+        .features
+        .iter()
+        .filter(|f| matches!(f.shape, Shape::Polygon(_)))
+        .count();
+    let parts = || found.features.iter().flat_map(|f| parts_of(&f.shape));
+    VectorSummary {
+        format,
+        layer,
+        layers: layers.to_vec(),
+        features: found.seen,
+        polygons,
+        lines: found.features.len() - polygons,
+        parts: parts().count(),
+        vertices: found.stored_vertices,
+        bounds: PlanBox::around(parts().flatten().copied()),
+        crs: found.crs,
+        notes: found.notes,
+    }
+}

@@ -1,0 +1,462 @@
+use super::*;
+use crate::scene::Shape;
+use crate::space::Plan;
+use proptest::prelude::*;
+use std::path::PathBuf;
+
+/// A file with these bytes, in a folder that goes when it is dropped.
+fn file(name: &str, bytes: &[u8]) -> (tempfile::TempDir, PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(name);
+    std::fs::write(&path, bytes).unwrap();
+    (folder, path)
+}
+
+fn read_bytes(name: &str, bytes: &[u8]) -> Result<VectorFile> {
+    let (_folder, path) = file(name, bytes);
+    read(&path, None)
+}
+
+fn refusal(name: &str, bytes: &[u8]) -> String {
+    let error = read_bytes(name, bytes).expect_err("must be refused");
+    assert!(error.path().is_some() && !error.is_internal(), "{error}");
+    assert!(error.help_text().is_some(), "{error}");
+    error.to_string()
+}
+
+const SQUARE: [(f64, f64); 5] = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0), (0.0, 0.0)];
+
+/// A shapefile of one kind with the given contents of records.
+pub(super) fn shp(kind: u32, records: &[Vec<u8>]) -> Vec<u8> {
+    let body: usize = records.iter().map(|r| r.len() + 8).sum();
+    let mut out = vec![0; 100];
+    out[..4].copy_from_slice(&9994_u32.to_be_bytes());
+    out[24..28].copy_from_slice(&((body as u32 + 100) / 2).to_be_bytes());
+    out[28..32].copy_from_slice(&1000_u32.to_le_bytes());
+    out[32..36].copy_from_slice(&kind.to_le_bytes());
+    for (i, record) in records.iter().enumerate() {
+        out.extend((i as u32 + 1).to_be_bytes());
+        out.extend((record.len() as u32 / 2).to_be_bytes());
+        out.extend(record);
+    }
+    out
+}
+
+fn shp_parts(kind: u32, parts: &[&[(f64, f64)]]) -> Vec<u8> {
+    let mut out = kind.to_le_bytes().to_vec();
+    out.extend([0; 32]);
+    let points: usize = parts.iter().map(|p| p.len()).sum();
+    out.extend((parts.len() as u32).to_le_bytes());
+    out.extend((points as u32).to_le_bytes());
+    let mut start = 0_u32;
+    for part in parts {
+        out.extend(start.to_le_bytes());
+        start += part.len() as u32;
+    }
+    for (x, y) in parts.iter().copied().flatten() {
+        out.extend(x.to_le_bytes());
+        out.extend(y.to_le_bytes());
+    }
+    out
+}
+
+fn wkb_polygon() -> Vec<u8> {
+    let mut out = vec![b'G', b'P', 0, 1, 0, 0, 0, 0];
+    out.extend([1]);
+    out.extend(3_u32.to_le_bytes());
+    out.extend(1_u32.to_le_bytes());
+    out.extend(5_u32.to_le_bytes());
+    for (x, y) in SQUARE {
+        out.extend(x.to_le_bytes());
+        out.extend(y.to_le_bytes());
+    }
+    out
+}
+
+/// A GeoPackage with these layers, each with one geometry.
+fn gpkg(layers: &[&str], blob: &[u8]) -> Vec<u8> {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("made.gpkg");
+    let db = rusqlite::Connection::open(&path).unwrap();
+    db.execute_batch(
+        "CREATE TABLE gpkg_contents (table_name TEXT, data_type TEXT);
+         CREATE TABLE gpkg_geometry_columns (table_name TEXT, column_name TEXT, srs_id INTEGER);
+         CREATE TABLE gpkg_spatial_ref_sys (srs_id INTEGER, organization TEXT, organization_coordsys_id INTEGER, definition TEXT);
+         INSERT INTO gpkg_spatial_ref_sys VALUES (32733, 'EPSG', 32733, '');",
+    )
+    .unwrap();
+    for layer in layers {
+        let double = layer.replace('"', "\"\"");
+        db.execute_batch(&format!(
+            "CREATE TABLE \"{double}\" (fid INTEGER PRIMARY KEY, geom BLOB);
+             INSERT INTO gpkg_contents VALUES ('{layer}', 'features');
+             INSERT INTO gpkg_geometry_columns VALUES ('{layer}', 'geom', 32733);"
+        ))
+        .unwrap();
+        db.execute(&format!("INSERT INTO \"{double}\" (geom) VALUES (?1)"), [blob])
+            .unwrap();
+    }
+    drop(db);
+    std::fs::read(&path).unwrap()
+}
+
+fn fgb() -> Vec<u8> {
+    use ::flatgeobuf::{FgbCrs, FgbWriter, FgbWriterOptions, GeometryType};
+    let options = FgbWriterOptions {
+        crs: FgbCrs {
+            code: 32733,
+            ..Default::default()
+        },
+        ..Default::default()
+    };
+    let mut writer = FgbWriter::create_with_options("made", GeometryType::Polygon, options).unwrap();
+    for shift in [0.0, 10.0, 20.0] {
+        let rings = SQUARE.map(|(x, y)| format!("[{},{}]", x + shift, y)).join(",");
+        let json = format!(r#"{{"type":"Polygon","coordinates":[[{rings}]]}}"#);
+        add_json(&mut writer, &json);
+    }
+    let mut out = Vec::new();
+    writer.write(&mut out).unwrap();
+    out
+}
+
+/// Draws a polygon's ring into a writer by hand: the feature that reads GeoJSON is off.
+fn add_json(writer: &mut ::flatgeobuf::FgbWriter<'_>, json: &str) {
+    let value: serde_json::Value = serde_json::from_str(json).unwrap();
+    let ring: Vec<(f64, f64)> = value["coordinates"][0]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|p| (p[0].as_f64().unwrap(), p[1].as_f64().unwrap()))
+        .collect();
+    let mut wkb = vec![1];
+    wkb.extend(3_u32.to_le_bytes());
+    wkb.extend(1_u32.to_le_bytes());
+    wkb.extend((ring.len() as u32).to_le_bytes());
+    for (x, y) in ring {
+        wkb.extend(x.to_le_bytes());
+        wkb.extend(y.to_le_bytes());
+    }
+    writer.add_feature_geom(geozero::wkb::Wkb(wkb), |_| {}).unwrap();
+}
+
+const JSON: &str = r#"{"bbox":[0,0,1,1],"type":"FeatureCollection","features":[
+ {"type":"Feature","properties":{"a":[1,{"b":2}]},"geometry":{"type":"Polygon","coordinates":[[[0,0,9],[4,0,9],[4,4,9],[0,0,9]],[[1,1],[2,1],[2,2],[1,1]]]}},
+ {"type":"Feature","geometry":{"coordinates":[1,2],"type":"Point"},"properties":null},
+ {"type":"Feature","geometry":null,"properties":{}},
+ {"type":"Feature","geometry":{"type":"GeometryCollection","geometries":[
+   {"type":"LineString","coordinates":[[0,0],[1,1]]},{"type":"MultiPolygon","coordinates":[[[[0,0],[1,0],[0,1],[0,0]]],[[[5,5],[6,5],[5,6],[5,5]]]]}]}}
+]}"#;
+
+fn polygon_of(file: &VectorFile, at: usize) -> &[Vec<Plan>] {
+    match &file.features[at].shape {
+        Shape::Polygon(rings) => rings,
+        Shape::Line(_) => panic!("a line"),
+    }
+}
+
+#[test]
+fn geojson_keeps_order_and_indices_and_tells_what_it_leaves_out() {
+    let read = read_bytes("a.geojson", JSON.as_bytes()).unwrap();
+    let indices: Vec<usize> = read.features.iter().map(|f| f.index).collect();
+    assert_eq!(indices, [0, 3, 3]);
+    assert_eq!(
+        polygon_of(&read, 0).iter().map(Vec::len).collect::<Vec<_>>(),
+        [3, 3]
+    );
+    assert_eq!(polygon_of(&read, 2).len(), 2);
+    assert!(matches!(&read.features[1].shape, Shape::Line(parts) if parts[0].len() == 2));
+    assert_eq!(
+        read.notes,
+        [
+            "1 point left out: points are not drawn",
+            "1 geometry without coordinates left out"
+        ]
+    );
+    assert!(read.crs.unwrap().is_geographic());
+}
+
+#[test]
+fn geojson_may_be_a_feature_or_a_bare_geometry() {
+    for text in [
+        r#"{"type":"Feature","geometry":{"type":"LineString","coordinates":[[0,0],[1,1e0]]}}"#,
+        "\u{feff}{\"coordinates\":[[0,0],[1,1]],\"type\":\"LineString\"}",
+        r#"{"type":"GeometryCollection","geometries":[{"type":"MultiLineString","coordinates":[[],[[0,0],[1,1]]]}]}"#,
+    ] {
+        let read = read_bytes("a.json", text.as_bytes()).unwrap();
+        assert_eq!(read.features.len(), 1, "{text}");
+    }
+}
+
+#[test]
+fn geojson_honours_the_old_crs_member_wherever_it_stands() {
+    for (crs, expected) in [
+        (
+            r#"{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32733"}}"#,
+            Some("EPSG:32733 (WGS 84 / UTM zone 33S)"),
+        ),
+        ("null", None),
+    ] {
+        let text = format!(r#"{{"type":"FeatureCollection","features":[],"crs":{crs}}}"#);
+        let read = read_bytes("a.json", text.as_bytes()).unwrap();
+        assert_eq!(read.crs.as_ref().map(Crs::name), expected);
+    }
+}
+
+#[test]
+fn geojson_errors_tell_line_and_feature() {
+    let text = JSON.replace("[4,0,9]", "[4,NaN]");
+    let refused = refusal("a.geojson", text.as_bytes());
+    assert!(
+        refused.contains("a.geojson:2:") && refused.contains("feature 0"),
+        "{refused}"
+    );
+    let refused = refusal(
+        "a.geojson",
+        JSON.replace("[[0,0],[1,1]]", "[[[0,0],[1,1]]]").as_bytes(),
+    );
+    assert!(refused.contains("feature 3"), "{refused}");
+    for bad in [
+        r#"{"type":"Topology"}"#,
+        r#"{"type":"FeatureCollection"}"#,
+        "{",
+        r#"{"type":"Polygon","coordinates":[[[0,0],[1,1e999]]]}"#,
+        r#"{"type":"LineString","coordinates":[[0,0],[1]]}"#,
+        r#"{"type":"Circle"}"#,
+        r#"{"type":"LineString","coordinates":[[0,0],null]}"#,
+    ] {
+        let _ = refusal("a.json", bad.as_bytes());
+    }
+}
+
+#[test]
+fn json_nested_ten_thousand_deep_is_refused() {
+    let deep = format!("{{\"type\":\"Polygon\",\"coordinates\":{}", "[".repeat(10_000));
+    let _ = refusal("a.json", deep.as_bytes());
+    let deep = format!("{{\"x\":{}", "{\"x\":".repeat(10_000));
+    let _ = refusal("a.json", deep.as_bytes());
+    let deep = r#"{"type":"GeometryCollection","geometries":["#.repeat(10_000);
+    let _ = refusal("a.json", deep.as_bytes());
+}
+
+#[test]
+fn shapefile_parts_become_rings_without_closing_vertices() {
+    let bytes = shp(
+        5,
+        &[
+            shp_parts(5, &[&SQUARE, &[(1.0, 1.0), (2.0, 1.0), (1.0, 1.0)]]),
+            0_u32.to_le_bytes().to_vec(),
+        ],
+    );
+    let read = read_bytes("a.shp", &bytes).unwrap();
+    assert_eq!(
+        polygon_of(&read, 0).iter().map(Vec::len).collect::<Vec<_>>(),
+        [4, 2]
+    );
+    assert_eq!(
+        read.notes,
+        [
+            "there is no .prj beside the file, so its CRS is not known",
+            "1 geometry without coordinates left out",
+        ]
+    );
+}
+
+#[test]
+fn shapefiles_with_absurd_counts_are_refused_by_feature() {
+    let good = shp_parts(5, &[&SQUARE]);
+    for at in [36, 40, 44] {
+        let mut bad = good.clone();
+        bad[at..at + 4].copy_from_slice(&u32::MAX.to_le_bytes());
+        let refused = refusal("a.shp", &shp(5, &[good.clone(), bad]));
+        assert!(refused.contains("feature 1"), "{refused}");
+    }
+    let mut nan = good.clone();
+    let end = nan.len();
+    nan[end - 8..].copy_from_slice(&f64::NAN.to_le_bytes());
+    assert!(refusal("a.shp", &shp(5, &[nan])).contains("feature 0"));
+    assert!(refusal("a.shp", &shp(31, &[31_u32.to_le_bytes().to_vec()])).contains("multipatch"));
+    let whole = shp(5, &[good.clone(), good]);
+    for cut in 0..whole.len() {
+        let _ = refusal("a.shp", &whole[..cut]);
+    }
+}
+
+#[test]
+fn a_shapefile_index_that_points_elsewhere_is_noted_by_feature() {
+    let (_folder, path) = file(
+        "a.shp",
+        &shp(5, &[shp_parts(5, &[&SQUARE]), shp_parts(5, &[&SQUARE])]),
+    );
+    let mut index = vec![0; 100];
+    for words in [50_u32, 64, 118, 64] {
+        index.extend(words.to_be_bytes());
+    }
+    for (index, wrong_from) in [(&index, None), (&index[..108].to_vec(), Some("feature 1 on"))] {
+        std::fs::write(path.with_extension("shx"), index).unwrap();
+        let notes = super::read(&path, None).unwrap().notes;
+        assert_eq!(
+            wrong_from.is_some(),
+            notes.iter().any(|n| n.contains(wrong_from.unwrap_or(".shx"))),
+            "{notes:?}"
+        );
+    }
+}
+
+#[test]
+fn flatgeobuf_is_read_with_its_crs() {
+    let read = read_bytes("a.fgb", &fgb()).unwrap();
+    assert_eq!(read.features.len(), 3);
+    assert_eq!(polygon_of(&read, 0)[0].len(), 4);
+    assert_eq!(read.crs.unwrap().epsg(), Some(32733));
+}
+
+#[test]
+fn a_truncated_flatgeobuf_is_refused() {
+    let whole = fgb();
+    for cut in 0..whole.len() {
+        let _ = refusal("a.fgb", &whole[..cut]);
+    }
+}
+
+#[test]
+fn geopackage_reads_its_only_layer_and_asks_which_of_several() {
+    let one = gpkg(&["lakes"], &wkb_polygon());
+    let read = read_bytes("a b#?%.gpkg", &one).unwrap();
+    assert_eq!(polygon_of(&read, 0)[0].len(), 4);
+    assert_eq!(read.crs.unwrap().epsg(), Some(32733));
+    let (folder, path) = file("two.gpkg", &gpkg(&["a\"b", "lakes"], &wkb_polygon()));
+    let refused = super::read(&path, None).unwrap_err().to_string();
+    assert!(
+        refused.contains("'lakes'") && refused.contains("several"),
+        "{refused}"
+    );
+    assert!(
+        super::read(&path, Some("rivers"))
+            .unwrap_err()
+            .to_string()
+            .contains("'lakes'")
+    );
+    assert_eq!(super::read(&path, Some("a\"b")).unwrap().features.len(), 1);
+    assert_eq!(
+        std::fs::read_dir(folder.path()).unwrap().count(),
+        1,
+        "nothing is written beside the data"
+    );
+    assert_eq!(describe(&path).unwrap().len(), 2);
+}
+
+#[test]
+fn damaged_geometries_in_a_geopackage_are_refused_by_feature() {
+    let good = wkb_polygon();
+    for cut in 0..good.len() {
+        let refused = refusal("a.gpkg", &gpkg(&["x"], &good[..cut]));
+        assert!(refused.contains("feature 0"), "{refused}");
+        if cut > 20 {
+            break;
+        }
+    }
+    let mut absurd = good.clone();
+    absurd[17..21].copy_from_slice(&u32::MAX.to_le_bytes());
+    let _ = refusal("a.gpkg", &gpkg(&["x"], &absurd));
+    let mut deep = vec![b'G', b'P', 0, 1, 0, 0, 0, 0];
+    for _ in 0..5000 {
+        deep.extend([1, 7, 0, 0, 0, 1, 0, 0, 0]);
+    }
+    assert!(refusal("a.gpkg", &gpkg(&["x"], &deep)).contains("deep"));
+}
+
+#[test]
+fn what_is_no_vector_file_is_refused_in_words() {
+    for name in ["a.geojson", "a.json", "a.shp", "a.fgb", "a.gpkg", "a.txt", "a"] {
+        assert!(refusal(name, b"").contains("empty"));
+        let _ = refusal(name, b"hello");
+        let _ = refusal(name, &[0; 1000]);
+    }
+    assert!(refusal("a.shp", JSON.as_bytes()).contains("GeoJSON"));
+    assert!(
+        read(Path::new("/no/such.shp"), None)
+            .unwrap_err()
+            .to_string()
+            .contains("such.shp")
+    );
+    assert!(
+        read(tempfile::tempdir().unwrap().path(), None)
+            .unwrap_err()
+            .to_string()
+            .contains("folder")
+    );
+    let (_folder, path) = file("a.geojson", JSON.as_bytes());
+    assert!(read(&path, Some("lakes")).is_err());
+}
+
+#[test]
+fn the_content_tells_the_format_where_the_name_does_not() {
+    assert_eq!(read_bytes("noname", JSON.as_bytes()).unwrap().features.len(), 3);
+    assert_eq!(read_bytes("noname", &fgb()).unwrap().features.len(), 3);
+}
+
+#[test]
+fn a_description_counts_as_the_file_stores() {
+    let (_folder, path) = file("a.geojson", JSON.as_bytes());
+    let all = describe(&path).unwrap();
+    let [one] = all.as_slice() else {
+        panic!("one layer")
+    };
+    assert_eq!(
+        (one.features, one.polygons, one.lines, one.parts, one.vertices),
+        (4, 2, 1, 5, 18)
+    );
+    assert_eq!(one.bounds.max, Plan::new(6.0, 6.0));
+    assert_eq!(one.format.to_string(), "GeoJSON");
+}
+
+/// Changes, cuts or repeats some bytes.
+fn mutated(mut bytes: Vec<u8>, changes: &[(usize, u8)], cut: usize) -> Vec<u8> {
+    for (at, value) in changes {
+        let at = at % bytes.len();
+        bytes[at] = *value;
+    }
+    bytes.truncate(bytes.len() - cut % bytes.len());
+    bytes
+}
+
+fn changes() -> impl Strategy<Value = (Vec<(usize, u8)>, usize)> {
+    let value = prop_oneof![any::<u8>(), Just(0), Just(255), Just(127), Just(128)];
+    let cut = prop_oneof![3 => Just(0_usize), 1 => any::<usize>()];
+    (prop::collection::vec((any::<usize>(), value), 0..12), cut)
+}
+
+fn samples() -> &'static [(&'static str, Vec<u8>)] {
+    static ALL: std::sync::OnceLock<Vec<(&'static str, Vec<u8>)>> = std::sync::OnceLock::new();
+    ALL.get_or_init(|| {
+        vec![
+            ("a.geojson", JSON.as_bytes().to_vec()),
+            (
+                "a.shp",
+                shp(5, &[shp_parts(5, &[&SQUARE]), shp_parts(3, &[&SQUARE, &SQUARE])]),
+            ),
+            ("a.fgb", fgb()),
+            ("a.gpkg", gpkg(&["lakes"], &wkb_polygon())),
+        ]
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(1000))]
+
+    #[test]
+    fn any_damage_gives_features_or_words(sample in 0_usize..4, (changes, cut) in changes()) {
+        let (name, bytes) = &samples()[sample];
+        if let Ok(read) = read_bytes(name, &mutated(bytes.clone(), &changes, cut)) {
+            prop_assert!(read.features.iter().flat_map(|f| collector::parts_of(&f.shape)).flatten().all(|p| p.is_finite()));
+        }
+    }
+
+    #[test]
+    fn any_bytes_after_a_magic_give_features_or_words(sample in 0_usize..4, tail in prop::collection::vec(any::<u8>(), 0..400)) {
+        let (name, bytes) = &samples()[sample];
+        let magic = [1, 36, 12, 100][sample];
+        let _ = read_bytes(name, &[&bytes[..magic], &tail].concat());
+    }
+}
