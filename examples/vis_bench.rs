@@ -20,7 +20,7 @@ fn main() {
         let s = 1.0 / (n - 1) as f64;
         let posts = Posts::new((n, n), Plan::new(0.0, 0.0), (DVec2::X * s, DVec2::Y * s), heights).unwrap();
         let t = std::time::Instant::now();
-        let mesh = Mesh::new(&Surface::Grid(posts), Diagonal::NwSe).unwrap();
+        let mesh = Mesh::new(Surface::Grid(posts), Diagonal::NwSe).unwrap();
         let prep = t.elapsed();
         let view = Viewpoint {
             eye: World::new(0.5, -0.3, 0.42),

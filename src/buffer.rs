@@ -125,3 +125,56 @@ impl<T: PixelBytes> Buffer<T> {
         hasher.finalize().to_hex().to_string()
     }
 }
+
+/// A named buffer of numbers, as `--buffers` writes it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plane {
+    /// Its name in the contract (`depth`, `class`, ...).
+    pub name: &'static str,
+    /// Pixels a row.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    /// Numbers a pixel.
+    pub components: usize,
+    /// All numbers: rows from the top, then columns, then components.
+    pub values: Values,
+}
+
+/// Numbers of one kind.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Values {
+    /// Doubles.
+    F64(Vec<f64>),
+    /// Singles.
+    F32(Vec<f32>),
+    /// 32-bit counts and numbers.
+    U32(Vec<u32>),
+    /// 16-bit counts.
+    U16(Vec<u16>),
+    /// Classes and bytes.
+    U8(Vec<u8>),
+}
+
+impl Plane {
+    /// BLAKE3 over the values in order (little-endian), in hexadecimal.
+    pub fn hash(&self) -> String {
+        fn of<T: PixelBytes>(values: &[T]) -> String {
+            let mut hasher = blake3::Hasher::new();
+            let mut bytes = Vec::new();
+            for chunk in values.chunks(4096) {
+                bytes.clear();
+                chunk.iter().for_each(|v| v.push_bytes(&mut bytes));
+                hasher.update(&bytes);
+            }
+            hasher.finalize().to_hex().to_string()
+        }
+        match &self.values {
+            Values::F64(v) => of(v),
+            Values::F32(v) => of(v),
+            Values::U32(v) => of(v),
+            Values::U16(v) => of(v),
+            Values::U8(v) => of(v),
+        }
+    }
+}

@@ -11,6 +11,7 @@ pub mod raster;
 pub mod scene;
 pub mod source;
 pub mod space;
+pub mod technique;
 pub mod terrain;
 pub mod visibility;
 

@@ -118,7 +118,7 @@ fn grid(n: usize, diagonal: Diagonal, heights: &[f64]) -> Mesh {
     let heights: Vec<f64> = heights.iter().copied().cycle().take(n * n).collect();
     let first = Plan::new(-((n - 1) as f64) / 2.0, -((n - 1) as f64) / 2.0);
     Mesh::new(
-        &Surface::Grid(Posts::new((n, n), first, (DVec2::X, DVec2::Y), heights).unwrap()),
+        Surface::Grid(Posts::new((n, n), first, (DVec2::X, DVec2::Y), heights).unwrap()),
         diagonal,
     )
     .unwrap()

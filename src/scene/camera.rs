@@ -1,6 +1,8 @@
 //! The camera as the scene states it.
 
-use crate::space::World;
+use super::ImageSettings;
+use crate::error::Result;
+use crate::space::{ViewFrame, Viewpoint, World};
 use glam::DVec3;
 
 /// From where and how the terrain is seen (scene-local coordinates).
@@ -18,6 +20,28 @@ pub struct Camera {
     pub near_m: f64,
     /// Nothing farther than this is seen; `None`: no limit.
     pub far_m: Option<f64>,
+}
+
+impl Camera {
+    /// The view of this camera on a picture.
+    ///
+    /// # Errors
+    /// When the camera shows nothing (eye = target, `up` along the view, an angle out of range).
+    pub fn view(&self, image: &ImageSettings) -> Result<ViewFrame> {
+        let far = self.far_m.unwrap_or(f64::INFINITY);
+        let point = Viewpoint {
+            eye: self.eye,
+            target: self.target,
+            up: self.up,
+            near: self.near_m,
+            far,
+        };
+        let size = (image.width, image.height);
+        match self.projection {
+            Projection::Perspective { fov_y_deg } => ViewFrame::perspective(&point, fov_y_deg, size),
+            Projection::Orthographic { height_m } => ViewFrame::orthographic(&point, height_m, size),
+        }
+    }
 }
 
 /// The kind of projection.

@@ -18,7 +18,8 @@ pub use settings::{
 use crate::space::{Plan, World};
 use glam::DVec2;
 
-/// Everything a picture depends on, in memory, in scene-local coordinates.
+/// Everything a picture depends on but the terrain's heights (a [`Surface`], which becomes the mesh), in memory, in
+/// scene-local coordinates.
 #[derive(Debug, Clone)]
 pub struct Scene {
     /// The scene's name.
@@ -31,8 +32,6 @@ pub struct Scene {
     pub image: ImageSettings,
     /// From where it is seen.
     pub camera: Camera,
-    /// The terrain's heights.
-    pub surface: Surface,
     /// How cells of a grid are split.
     pub diagonal: Diagonal,
     /// The terrain's own colour.

@@ -55,9 +55,9 @@ impl Mesh {
     ///
     /// # Errors
     /// When there are too many triangles to number, or none.
-    pub fn new(surface: &Surface, diagonal: Diagonal) -> Result<Self> {
+    pub fn new(surface: Surface, diagonal: Diagonal) -> Result<Self> {
         match surface {
-            Surface::Grid(posts) => Ok(Self::Grid(Grid::new(posts.clone(), diagonal)?)),
+            Surface::Grid(posts) => Ok(Self::Grid(Grid::new(posts, diagonal)?)),
             Surface::Points(points) => Ok(Self::Tin(Tin::new(points)?)),
         }
     }

@@ -41,7 +41,7 @@ impl Tin {
     ///
     /// # Errors
     /// When a coordinate is out of range, or the points span no triangle.
-    pub fn new(points: &[World]) -> Result<Self> {
+    pub fn new(points: Vec<World>) -> Result<Self> {
         if points.len() >= u32::MAX as usize / 2 {
             return Err(
                 Error::new("more points than this program can number").help("give the terrain a `window`")
@@ -63,10 +63,10 @@ impl Tin {
             return Err(Error::new("the points span no triangle")
                 .help("at least three points off one line are needed"));
         }
-        order_by_place(points, &mut triangles);
-        let levels = hierarchy(points, &triangles);
+        order_by_place(&points, &mut triangles);
+        let levels = hierarchy(&points, &triangles);
         Ok(Self {
-            vertices: points.to_vec(),
+            vertices: points,
             triangles,
             levels,
         })
@@ -188,7 +188,14 @@ mod tests {
     #[test]
     fn four_corners_and_a_middle_make_four_triangles() {
         let p = |x: f64, y: f64| World::new(x, y, x + y);
-        let tin = Tin::new(&[p(0.0, 0.0), p(4.0, 0.0), p(4.0, 4.0), p(0.0, 4.0), p(2.0, 2.0)]).unwrap();
+        let tin = Tin::new(vec![
+            p(0.0, 0.0),
+            p(4.0, 0.0),
+            p(4.0, 4.0),
+            p(0.0, 4.0),
+            p(2.0, 2.0),
+        ])
+        .unwrap();
         assert_eq!(tin.triangles().len(), 4);
         for t in 0..4 {
             let [a, b, c] = tin.triangle(t);
@@ -199,6 +206,6 @@ mod tests {
     #[test]
     fn points_on_one_line_are_refused() {
         let line: Vec<_> = (0..5).map(|k| World::new(f64::from(k), 0.0, 0.0)).collect();
-        assert!(Tin::new(&line).unwrap_err().to_string().contains("no triangle"));
+        assert!(Tin::new(line).unwrap_err().to_string().contains("no triangle"));
     }
 }

@@ -1,0 +1,93 @@
+//! The techniques, each beside its paper, and what they have in common.
+//!
+//! Input: a [`Stage`]. Output: a [`Frame`]: the picture, the buffers that were asked for, and counts. A technique is
+//! prepared once (structures that do not depend on the camera) and then draws frames; neither step looks at a clock,
+//! at the number of threads or at another technique. Refuses: scenes that the technique's paper does not cover, with the reason.
+
+use crate::buffer::{Buffer, Plane};
+use crate::error::Result;
+use crate::scene::{Scene, Surface};
+use crate::space::ViewFrame;
+use crate::terrain::Mesh;
+
+/// A scene ready to be drawn: its terrain as a mesh, its camera as a view.
+#[derive(Debug)]
+pub struct Stage {
+    /// The scene.
+    pub scene: Scene,
+    /// The terrain.
+    pub mesh: Mesh,
+    /// The view.
+    pub view: ViewFrame,
+}
+
+impl Stage {
+    /// Triangulates the terrain and sets up the view.
+    ///
+    /// # Errors
+    /// When the surface has no triangle or the camera no view.
+    pub fn new(scene: Scene, surface: Surface) -> Result<Self> {
+        let mesh = Mesh::new(surface, scene.diagonal)?;
+        let view = scene.camera.view(&scene.image)?;
+        Ok(Self { scene, mesh, view })
+    }
+}
+
+/// A technique's name in the contract.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Kind {
+    /// She 2016.
+    InverseProjection,
+}
+
+impl Kind {
+    /// Every technique that is built.
+    pub const ALL: [Self; 1] = [Self::InverseProjection];
+
+    /// The name on the command line and in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::InverseProjection => "inverse-projection",
+        }
+    }
+}
+
+/// How a frame is drawn; nothing here changes a pixel.
+#[derive(Clone, Copy)]
+pub struct FrameOptions<'a> {
+    /// Side of a tile in pixels.
+    pub tile: usize,
+    /// The names of the buffers that are wanted.
+    pub buffers: &'a [String],
+    /// Called with the share of the frame that is done (0..=1), from any thread.
+    pub progress: &'a (dyn Fn(f64) + Sync),
+}
+
+/// What a technique draws.
+#[derive(Debug)]
+pub struct Frame {
+    /// The picture: RGBA, straight alpha, 8-bit code values.
+    pub image: Buffer<[u8; 4]>,
+    /// The buffers that were asked for and exist. Coordinates in them are scene-local.
+    pub planes: Vec<Plane>,
+    /// What was counted, by name.
+    pub counts: Vec<(&'static str, u64)>,
+}
+
+/// A technique with its structures built.
+pub trait Prepared: Sync {
+    /// Draws a frame.
+    ///
+    /// # Errors
+    /// When a buffer that is asked for cannot be made.
+    fn frame(&self, options: &FrameOptions) -> Result<Frame>;
+
+    /// Bytes of the structures that the technique built (without the terrain's).
+    fn structure_bytes(&self) -> usize;
+
+    /// The parameters in use, by their names in the scene file.
+    fn parameters(&self) -> Vec<(&'static str, String)>;
+
+    /// The buffers that can be asked for.
+    fn buffer_names(&self) -> &'static [&'static str];
+}
