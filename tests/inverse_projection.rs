@@ -321,6 +321,7 @@ fn a_silhouette_is_refused_and_not_smeared() {
     );
     let across = line(&[(-500.0, 40.0), (500.0, 40.0)], 16.0);
     let settings = |silhouette| InverseProjection {
+        samples: 5,
         silhouette,
         ..InverseProjection::default()
     };
