@@ -1,0 +1,111 @@
+//! What a technique sees, whichever machine is imitated.
+
+use super::{Hit, Machine, Visible, hit};
+use crate::buffer::{Plane, Values};
+use crate::parallel;
+use crate::raster::{Counts, Lattice};
+use crate::scene::Device;
+use crate::space::ViewFrame;
+use crate::terrain::{Mesh, SKY};
+
+/// The triangle and the surface point of each sample of a lattice: exact, or as a [`Device`] finds them.
+///
+/// ```
+/// # use drapery::{raster::Lattice, scene::{Device, Precision}, space::ViewFrame, terrain::Mesh, visibility::Sight};
+/// fn heights(frame: &ViewFrame, mesh: &Mesh, device: &Device) -> Vec<Option<f64>> {
+///     let lattice = Lattice::centres(frame, 0);
+///     let mut sight = Sight::new(frame, mesh, device, lattice, 128);
+///     sight.see();
+///     (0..lattice.columns).map(|c| sight.hit(c, 0).map(|hit| hit.height)).collect()
+/// }
+/// ```
+#[derive(Debug)]
+pub struct Sight<'a> {
+    frame: &'a ViewFrame,
+    mesh: &'a Mesh,
+    /// `None`: exact.
+    machine: Option<Machine>,
+    visible: Visible,
+    /// Triangles of all samples, rows from the top: what every pixel asks for lies in one place.
+    ids: Vec<u32>,
+    /// The depth buffer's content, where there is a machine.
+    stored: Vec<f32>,
+}
+
+impl<'a> Sight<'a> {
+    /// Room for a lattice, in tiles of `tile` samples a side; all is sky until [`Sight::see`].
+    pub fn new(frame: &'a ViewFrame, mesh: &'a Mesh, device: &Device, lattice: Lattice, tile: usize) -> Self {
+        Self {
+            frame,
+            mesh,
+            machine: (!device.is_exact()).then(|| Machine::new(frame, mesh, device)),
+            visible: Visible::new(&lattice, tile),
+            ids: vec![SKY; lattice.columns * lattice.rows],
+            stored: Vec::new(),
+        }
+    }
+
+    /// Finds what each sample sees.
+    pub fn see(&mut self) {
+        if let Some(machine) = &self.machine {
+            machine.see(&mut self.visible, self.mesh);
+            self.stored = self.visible.keys();
+        } else {
+            self.visible.see(self.frame, self.mesh);
+        }
+        self.ids = self.visible.triangles();
+    }
+
+    /// The lattice.
+    pub fn lattice(&self) -> &Lattice {
+        &self.visible.lattice
+    }
+
+    /// The triangle of a sample, [`SKY`] for none.
+    #[inline(always)]
+    pub fn triangle(&self, column: usize, row: usize) -> u32 {
+        self.ids[row * self.visible.lattice.columns + column]
+    }
+
+    /// The triangles of all samples, rows from the top.
+    pub fn triangles(&self) -> &[u32] {
+        &self.ids
+    }
+
+    /// The surface point of a sample; `None`: sky, or a depth that means no point before the eye.
+    #[inline]
+    pub fn hit(&self, column: usize, row: usize) -> Option<Hit> {
+        let id = self.triangle(column, row);
+        if id == SKY {
+            return None;
+        }
+        let at = self.visible.lattice.at(column, row);
+        match &self.machine {
+            None => Some(hit(self.frame, &self.frame.ray(at), &self.mesh.triangle(id)?)),
+            Some(machine) => machine.hit(at, self.stored[row * self.visible.lattice.columns + column]),
+        }
+    }
+
+    /// The view depth of each sample in metres, +inf for sky, as the buffer `depth`.
+    pub fn depth_plane(&self) -> Plane {
+        let Lattice { columns, rows, .. } = self.visible.lattice;
+        let mut values = vec![f64::INFINITY; columns * rows];
+        parallel::for_each_chunk(&mut values, columns.max(1), |row, depths| {
+            for (column, depth) in depths.iter_mut().enumerate() {
+                *depth = self.hit(column, row).map_or(f64::INFINITY, |hit| hit.depth);
+            }
+        });
+        Plane {
+            name: "depth",
+            width: columns,
+            height: rows,
+            components: 1,
+            values: Values::F64(values),
+        }
+    }
+
+    /// What was done.
+    pub fn counts(&self) -> Counts {
+        self.visible.counts()
+    }
+}
