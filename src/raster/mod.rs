@@ -6,6 +6,7 @@
 //! neither the order of the triangles nor the cut into tiles. Refuses: nothing; a triangle that is seen edge-on covers
 //! no sample, one behind the near plane is not seen.
 
+pub mod device;
 mod facet;
 mod lattice;
 mod strip;

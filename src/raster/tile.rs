@@ -70,7 +70,7 @@ pub struct Samples {
 
 impl Samples {
     /// Forgets everything and takes the size of a tile.
-    fn reset(&mut self, width: usize, height: usize) {
+    pub(super) fn reset(&mut self, width: usize, height: usize) {
         self.stride = width.div_ceil(PAD) * PAD;
         self.blocks_a_row = width.div_ceil(BLOCK);
         refill(&mut self.keys, self.stride * height, f32::NEG_INFINITY);

@@ -3,11 +3,13 @@
 //! Input: a [`ViewFrame`], a [`Mesh`], a [`Lattice`] of samples. Output: [`Visible`]: the triangle of each sample and a depth
 //! key; [`Hit`]: the exact plan point and view depth of a sample. Tiles are drawn in parallel, each from the nearest node of
 //! the terrain's hierarchy to the farthest, leaving out what lies outside the tile or behind what has been drawn, so that
-//! the cost follows what is seen. Refuses: nothing; a sample that sees no terrain has triangle [`SKY`].
+//! the cost follows what is seen. [`Sight`] hides whether that or an imitated machine ([`Machine`]) found it. Refuses: nothing; a sample that sees no terrain has triangle [`SKY`].
 
+mod device;
 mod hit;
 mod sight;
 
+pub use device::{Machine, see_on_device};
 pub use hit::{Hit, hit};
 pub use sight::Sight;
 

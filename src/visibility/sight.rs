@@ -1,56 +1,91 @@
-//! What a lattice of samples sees, exactly or as a machine would.
+//! What a technique sees, whichever machine is imitated.
 
-use super::{Hit, Visible, hit};
-use crate::raster::Lattice;
+use super::{Hit, Machine, Visible, hit};
+use crate::raster::{Counts, Lattice};
 use crate::scene::Device;
 use crate::space::ViewFrame;
 use crate::terrain::{Mesh, SKY};
 
-/// A view of the terrain through a lattice of samples.
+/// The triangle and the surface point of each sample of a lattice: exact, or as a [`Device`] finds them.
+///
+/// ```
+/// # use drapery::{raster::Lattice, scene::{Device, Precision}, space::ViewFrame, terrain::Mesh, visibility::Sight};
+/// fn heights(frame: &ViewFrame, mesh: &Mesh, device: &Device) -> Vec<Option<f64>> {
+///     let lattice = Lattice::centres(frame, 0);
+///     let mut sight = Sight::new(frame, mesh, device, lattice, 128);
+///     sight.see();
+///     (0..lattice.columns).map(|c| sight.hit(c, 0).map(|hit| hit.height)).collect()
+/// }
+/// ```
 #[derive(Debug)]
 pub struct Sight<'a> {
     frame: &'a ViewFrame,
     mesh: &'a Mesh,
+    /// `None`: exact.
+    machine: Option<Machine>,
     visible: Visible,
+    /// Triangles of all samples, rows from the top: what every pixel asks for lies in one place.
+    ids: Vec<u32>,
+    /// The depth buffer's content, where there is a machine.
+    stored: Vec<f32>,
 }
 
 impl<'a> Sight<'a> {
-    /// Room for a view; nothing has been seen yet.
-    pub fn new(
-        frame: &'a ViewFrame,
-        mesh: &'a Mesh,
-        _device: &Device,
-        lattice: &Lattice,
-        tile: usize,
-    ) -> Self {
+    /// Room for a lattice, in tiles of `tile` samples a side; all is sky until [`Sight::see`].
+    pub fn new(frame: &'a ViewFrame, mesh: &'a Mesh, device: &Device, lattice: Lattice, tile: usize) -> Self {
         Self {
             frame,
             mesh,
-            visible: Visible::new(lattice, tile),
+            machine: (!device.is_exact()).then(|| Machine::new(frame, mesh, device)),
+            visible: Visible::new(&lattice, tile),
+            ids: vec![SKY; lattice.columns * lattice.rows],
+            stored: Vec::new(),
         }
     }
 
     /// Finds what each sample sees.
     pub fn see(&mut self) {
-        self.visible.see(self.frame, self.mesh);
+        if let Some(machine) = &self.machine {
+            machine.see(&mut self.visible, self.mesh);
+            self.stored = self.visible.keys();
+        } else {
+            self.visible.see(self.frame, self.mesh);
+        }
+        self.ids = self.visible.triangles();
     }
 
-    /// The triangle that a sample sees, [`SKY`] for none.
-    #[inline]
+    /// The lattice.
+    pub fn lattice(&self) -> &Lattice {
+        &self.visible.lattice
+    }
+
+    /// The triangle of a sample, [`SKY`] for none.
+    #[inline(always)]
     pub fn triangle(&self, column: usize, row: usize) -> u32 {
-        self.visible.triangle(column, row)
+        self.ids[row * self.visible.lattice.columns + column]
     }
 
-    /// Where a sample's ray meets the terrain.
+    /// The triangles of all samples, rows from the top.
+    pub fn triangles(&self) -> &[u32] {
+        &self.ids
+    }
+
+    /// The surface point of a sample; `None`: sky, or a depth that means no point before the eye.
     #[inline]
     pub fn hit(&self, column: usize, row: usize) -> Option<Hit> {
         let id = self.triangle(column, row);
         if id == SKY {
             return None;
         }
-        let ray = self.frame.ray(self.visible.lattice.at(column, row));
-        self.mesh
-            .triangle(id)
-            .map(|triangle| hit(self.frame, &ray, &triangle))
+        let at = self.visible.lattice.at(column, row);
+        match &self.machine {
+            None => Some(hit(self.frame, &self.frame.ray(at), &self.mesh.triangle(id)?)),
+            Some(machine) => machine.hit(at, self.stored[row * self.visible.lattice.columns + column]),
+        }
+    }
+
+    /// What was done.
+    pub fn counts(&self) -> Counts {
+        self.visible.counts()
     }
 }

@@ -119,7 +119,7 @@ struct Involved {
 
 impl<'a> Seen<'a> {
     fn new(stage: &'a Stage, lattice: &Lattice, tile: usize) -> Self {
-        let mut sight = Sight::new(&stage.view, &stage.mesh, &stage.scene.device, lattice, tile);
+        let mut sight = Sight::new(&stage.view, &stage.mesh, &stage.scene.device, *lattice, tile);
         sight.see();
         let mut plan = vec![Plan::new(f64::INFINITY, f64::INFINITY); lattice.columns * lattice.rows];
         parallel::for_each_chunk(&mut plan, lattice.columns, |row, points| {

@@ -1,0 +1,164 @@
+//! The imitated machine's path from a triangle of the world to triangles of the screen.
+//!
+//! Input: triangles of a [`Mesh`] by number, a [`ViewFrame`], a [`Device`]. Output: [`Primitive`]s: snapped screen triangles
+//! with depth, and [`Pipeline::draw`], which draws them into [`Samples`]. What a graphics processor leaves open is
+//! chosen here, once:
+//! - one matrix takes scene-local points to clip space; it is composed in double precision and rounded to the device's;
+//!   products are summed from left to right, without fused operations;
+//! - clip space is that of zero-to-one depth (0 <= z <= w); an infinite far plane clips nothing, depth is clamped;
+//! - beyond the near and the far plane a guard band of 2^16 pixels (or twice the picture's size) clips, so that all
+//!   numbers stay in range; the crossing of a shared edge is the same for both of its triangles;
+//! - vertices are snapped in *pixels of the screen*, to the nearest multiple of 2^-bits, ties to even, whatever the lattice:
+//!   a finer lattice is more samples of the same picture; a sample lies at the nearest multiple of 2^-12 pixels;
+//! - depth is a mean of the corners' weighted by the edge functions, so that it never leaves their range.
+//!
+//! Refuses: nothing; a triangle whose numbers leave the range of the device's arithmetic is not drawn, so that neither
+//! NaN nor infinity reaches a buffer.
+
+mod clip;
+mod depth;
+mod matrix;
+mod number;
+mod scan;
+
+pub use depth::DepthBuffer;
+pub use number::Real;
+pub use scan::{Primitive, Window};
+
+use super::{Lattice, Samples};
+use crate::scene::Device;
+use crate::space::{Lens, Screen, ViewFrame, World};
+use crate::terrain::Mesh;
+use clip::{Clip, Volume};
+use matrix::{Matrix, Projection};
+use std::ops::Range;
+
+/// Snapped coordinates are counted in units of 2^-12 pixels.
+const GRID_BITS: u32 = 12;
+
+/// The machine with its matrices, in one precision.
+#[derive(Debug, Clone)]
+pub struct Pipeline<T> {
+    clip_from_world: Matrix<T>,
+    world_from_clip: Matrix<T>,
+    projection: Projection,
+    volume: Volume<T>,
+    /// Half the picture's width and height.
+    half: [T; 2],
+    depth: DepthBuffer,
+    subpixel_bits: u32,
+    is_parallel: bool,
+}
+
+impl<T: Real> Pipeline<T> {
+    /// The machine for a view of a terrain.
+    ///
+    /// A parallel lens has no linear depth up to infinity: an infinite far plane lies a little beyond the terrain then.
+    pub fn new(frame: &ViewFrame, mesh: &Mesh, device: &Device) -> Self {
+        let depth = DepthBuffer(device.depth);
+        let projection = Projection::new(frame, far_plane(frame, mesh), depth.is_reversed());
+        Self {
+            clip_from_world: projection.clip_from_world(frame),
+            world_from_clip: projection.world_from_clip(frame),
+            projection,
+            volume: Volume::new(frame, depth.is_reversed()),
+            half: [frame.width(), frame.height()].map(|size| T::of(size as f64 / 2.0)),
+            depth,
+            subpixel_bits: device.subpixel_bits.min(GRID_BITS),
+            is_parallel: matches!(frame.lens(), Lens::Parallel { .. }),
+        }
+    }
+
+    /// The screen triangles, in order, of those of `ids` whose box holds a sample of the lattice.
+    pub fn primitives(&self, mesh: &Mesh, ids: Range<u32>, lattice: &Lattice) -> Vec<Primitive<T>> {
+        let mut out = Vec::new();
+        for id in ids {
+            let Some(corners) = mesh.triangle(id) else {
+                continue;
+            };
+            let corners = corners.map(|p| self.clip_from_world.times(homogeneous(p)));
+            self.volume.clip(&corners, |triangle| {
+                let primitive = Primitive {
+                    id,
+                    corners: triangle.map(|c| self.screen_from_clip(c)),
+                };
+                if primitive.window(lattice).is_some() {
+                    out.push(primitive);
+                }
+            });
+        }
+        out
+    }
+
+    /// Perspective division, viewport transform and snapping; depth stays as the division left it, within 0..=1.
+    fn screen_from_clip(&self, [x, y, z, w]: Clip<T>) -> [T; 3] {
+        let [half_width, half_height] = self.half;
+        [
+            self.snapped(half_width + x / w * half_width),
+            self.snapped(half_height - y / w * half_height),
+            number::clamp_to_unit(z / w),
+        ]
+    }
+
+    fn snapped(&self, pixels: T) -> T {
+        if self.subpixel_bits == 0 {
+            return pixels;
+        }
+        let units = f64::from(1u32 << self.subpixel_bits);
+        T::of((pixels.get() * units).round_ties_even() / units)
+    }
+
+    /// Forgets what the samples saw.
+    pub fn clear(&self, samples: &mut Samples, (width, height): (usize, usize)) {
+        samples.reset(width, height);
+        samples.keys.fill(self.depth.cleared());
+    }
+
+    /// Draws primitives in order into the samples of a window.
+    pub fn draw<'p>(
+        &self,
+        primitives: impl Iterator<Item = &'p Primitive<T>>,
+        (lattice, window): (&Lattice, &Window),
+        samples: &mut Samples,
+    ) {
+        if self.subpixel_bits > 0 {
+            scan::draw::<T, i128>(primitives, (lattice, window), self.depth, samples);
+        } else {
+            scan::draw::<T, T>(primitives, (lattice, window), self.depth, samples);
+        }
+    }
+
+    /// The world point and its view depth that the depth buffer's content means at a screen point (She 3.2); `None`
+    /// where the machine's arithmetic finds none.
+    pub fn unproject(&self, at: Screen, stored: f32) -> Option<(World, f64)> {
+        let one = T::of(1.0);
+        let [half_width, half_height] = self.half;
+        let z = self.depth.load(stored);
+        let ndc = [
+            T::of(at.x) / half_width - one,
+            one - T::of(at.y) / half_height,
+            z,
+            one,
+        ];
+        let [x, y, up, w] = self.world_from_clip.times(ndc);
+        let point = World::new((x / w).get(), (y / w).get(), (up / w).get());
+        let depth = self.projection.view_depth(z, self.is_parallel).get();
+        (point.is_finite() && depth.is_finite() && depth > 0.0).then_some((point, depth))
+    }
+}
+
+fn homogeneous<T: Real>(p: World) -> Clip<T> {
+    [T::of(p.x), T::of(p.y), T::of(p.z), T::of(1.0)]
+}
+
+/// The far plane that the projection is made for.
+fn far_plane(frame: &ViewFrame, mesh: &Mesh) -> f64 {
+    if frame.far().is_finite() || matches!(frame.lens(), Lens::Central { .. }) {
+        return frame.far();
+    }
+    let farthest = mesh.bounds(mesh.root()).map_or(0.0, |b| {
+        let spread: f64 = b.axes.iter().map(|a| frame.forward().dot(*a).abs()).sum();
+        frame.depth(b.center) + spread
+    });
+    crate::math::max(2.0 * frame.near(), farthest * (1.0 + 1.0 / 1024.0))
+}

@@ -1,0 +1,112 @@
+//! What the imitated machine sees (see [`crate::raster::device`]), and what its depth buffer says where that is.
+//!
+//! Input: a view, a terrain, a [`Device`]. Output: the tiles of [`Visible`], whose keys hold the *depth buffer's content*
+//! here: the depth (f32 formats) or the integer (fixed-point formats); the far plane's where nothing was drawn. Every
+//! triangle passes through the machine, in order of its number, and only a strictly nearer one replaces another.
+
+use super::{Hit, Visible, VisibleTile};
+use crate::parallel;
+use crate::raster::device::{Pipeline, Primitive, Real, Window};
+use crate::raster::{Counts, Lattice};
+use crate::scene::{Device, Precision};
+use crate::space::{Screen, ViewFrame};
+use crate::terrain::Mesh;
+
+/// Triangles that are transformed at a time.
+const CHUNK: u32 = 4096;
+
+/// The machine of a [`Device`], set up for a view of a terrain.
+#[derive(Debug, Clone)]
+pub enum Machine {
+    /// It calculates in single precision.
+    Single(Pipeline<f32>),
+    /// It calculates in double precision.
+    Double(Pipeline<f64>),
+}
+
+impl Machine {
+    /// Sets the machine up.
+    pub fn new(frame: &ViewFrame, mesh: &Mesh, device: &Device) -> Self {
+        match device.precision {
+            Precision::F32 => Self::Single(Pipeline::new(frame, mesh, device)),
+            Precision::F64 => Self::Double(Pipeline::new(frame, mesh, device)),
+        }
+    }
+
+    /// Finds what each sample sees.
+    pub fn see(&self, visible: &mut Visible, mesh: &Mesh) {
+        match self {
+            Self::Single(pipeline) => see_through(pipeline, visible, mesh),
+            Self::Double(pipeline) => see_through(pipeline, visible, mesh),
+        }
+    }
+
+    /// The surface point that the depth buffer's content means at a screen point where a triangle was drawn, by the inverse
+    /// matrix (She 3.2); `None` where the machine's arithmetic finds no point before the eye.
+    pub fn hit(&self, at: Screen, stored: f32) -> Option<Hit> {
+        let (point, depth) = match self {
+            Self::Single(pipeline) => pipeline.unproject(at, stored)?,
+            Self::Double(pipeline) => pipeline.unproject(at, stored)?,
+        };
+        Some(Hit {
+            plan: point.plan(),
+            height: point.z,
+            depth,
+        })
+    }
+}
+
+/// Finds what each sample sees on a machine that is used once.
+pub fn see_on_device(visible: &mut Visible, frame: &ViewFrame, mesh: &Mesh, device: &Device) {
+    Machine::new(frame, mesh, device).see(visible, mesh);
+}
+
+fn see_through<T: Real>(pipeline: &Pipeline<T>, visible: &mut Visible, mesh: &Mesh) {
+    let lattice = visible.lattice;
+    let primitives = primitives(pipeline, mesh, &lattice);
+    let bins = bins(&primitives, &lattice, visible.tile);
+    let mut work: Vec<_> = visible.tiles.iter_mut().zip(&bins).collect();
+    parallel::for_each(&mut work, |(tile, bin)| {
+        pipeline.clear(&mut tile.samples, (tile.width, tile.height));
+        let in_tile = bin.iter().map(|&k| &primitives[k as usize]);
+        pipeline.draw(in_tile, (&lattice, &window(tile)), &mut tile.samples);
+        tile.counts = Counts {
+            triangles: bin.len() as u64,
+            ..Counts::default()
+        };
+    });
+}
+
+/// All screen triangles in order of their numbers.
+fn primitives<T: Real>(pipeline: &Pipeline<T>, mesh: &Mesh, lattice: &Lattice) -> Vec<Primitive<T>> {
+    let count = mesh.triangle_ids();
+    let chunks = parallel::map_indices(count.div_ceil(CHUNK) as usize, |k| {
+        let first = k as u32 * CHUNK;
+        pipeline.primitives(mesh, first..count.min(first.saturating_add(CHUNK)), lattice)
+    });
+    chunks.concat()
+}
+
+/// The numbers of the primitives that may cover a sample of each tile, in order.
+fn bins<T: Real>(primitives: &[Primitive<T>], lattice: &Lattice, size: usize) -> Vec<Vec<u32>> {
+    let (columns, rows) = (lattice.columns.div_ceil(size), lattice.rows.div_ceil(size));
+    let mut bins = vec![Vec::new(); columns * rows];
+    for (k, primitive) in primitives.iter().enumerate() {
+        let Some(window) = primitive.window(lattice) else {
+            continue;
+        };
+        for y in window.rows.start / size..window.rows.end.div_ceil(size) {
+            for x in window.columns.start / size..window.columns.end.div_ceil(size) {
+                bins[y * columns + x].push(k as u32);
+            }
+        }
+    }
+    bins
+}
+
+fn window(tile: &VisibleTile) -> Window {
+    Window {
+        columns: tile.column..tile.column + tile.width,
+        rows: tile.row..tile.row + tile.height,
+    }
+}
