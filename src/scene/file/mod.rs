@@ -38,6 +38,7 @@ mod tests;
 mod tree;
 
 pub use keys::SCHEMA;
+pub use names::Named;
 pub use overrides::Override;
 pub use schema::schema;
 pub use spec::{

@@ -7,7 +7,7 @@ use crate::scene::{
 };
 
 /// A setting that is written as one of some words.
-pub(super) trait Named: Copy + 'static {
+pub trait Named: Copy + PartialEq + 'static {
     /// Each word and what it stands for.
     const NAMES: &'static [(&'static str, Self)];
 
@@ -17,6 +17,14 @@ pub(super) trait Named: Copy + 'static {
             .iter()
             .find(|(known, _)| *known == name)
             .map(|(_, value)| *value)
+    }
+
+    /// The word for it.
+    fn word(self) -> &'static str {
+        Self::NAMES
+            .iter()
+            .find(|(_, value)| *value == self)
+            .map_or("", |(word, _)| word)
     }
 }
 
