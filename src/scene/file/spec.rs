@@ -28,6 +28,10 @@ pub struct SceneFile {
     pub device: Device,
     /// Parameters of the techniques.
     pub technique: TechniqueSettings,
+    /// BLAKE3 of what the file says, overrides made: of its keys and values in a fixed order and spelling, so that
+    /// comments, layout, names and the file's own place do not matter. A default that is written out does, and so do
+    /// paths as they are written; what the files there hold does not.
+    pub hash: String,
 }
 
 /// A data file that the scene names.

@@ -33,6 +33,8 @@ pub(super) fn scene(origin: &Origin<'_>, root: Node) -> Result<SceneFile> {
             compositing: Section::read(origin, child(root, "compositing"), compositing)?,
             device: Section::read(origin, child(root, "device"), device)?,
             technique: Section::read(origin, child(root, "technique"), technique)?,
+            // Of the whole tree, which is being taken apart here.
+            hash: String::new(),
         })
     })
 }
