@@ -8,6 +8,7 @@ pub mod output;
 pub mod parallel;
 pub mod predicate;
 pub mod raster;
+pub mod resolve;
 pub mod scene;
 pub mod source;
 pub mod space;

@@ -157,47 +157,27 @@ impl Patch {
     pub fn draw_grid(&self, tile: &mut Tile, grid: &Grid, node: Node) {
         let arch = pulp::Arch::new();
         let (columns, rows) = grid.cells(node);
-        let lines = GridLines::new(&tile.view, grid, columns.start);
-        let (mut south, mut sorted) = (Points::NONE, Sorted::NOTHING);
-        for j in rows.start..=rows.end {
-            let heights = lines.heights(grid, columns.start..columns.end + 1, j);
-            let line = lines.line(j);
-            let mut north = Points::NONE;
-            arch.dispatch(Project {
-                line: &line,
-                heights: &heights,
-                to: &mut north,
-            });
-            if j > rows.start {
-                let first = grid.first_triangle(columns.start, j - 1);
-                let (sw, se, nw, ne) = (
-                    south.from::<0>(),
-                    south.from::<1>(),
-                    north.from::<0>(),
-                    north.from::<1>(),
-                );
-                let own;
-                let halves = match grid.diagonal() {
-                    Diagonal::SwNe => [[sw, se, ne], [sw, ne, nw]],
-                    Diagonal::NwSe => [[sw, se, nw], [se, ne, nw]],
-                    Diagonal::Alternating => {
-                        own = alternating_corners(grid, (columns.start, j - 1), &south, &north);
-                        [[sw, se, own[0].from::<0>()], [own[1].from::<0>(), ne, nw]]
-                    }
-                };
-                for (half, corners) in halves.iter().enumerate() {
-                    arch.dispatch(Sort {
-                        patch: self,
-                        view: &tile.view,
-                        corners,
-                        sorted: &mut sorted,
-                    });
-                    self.settle(tile, &sorted, corners, |lane| {
-                        first + 2 * lane as u32 + half as u32
-                    });
+        let mut posts = [Points::NONE; LANES];
+        arch.dispatch(Project { view: &tile.view, grid, node, to: &mut posts });
+        let mut sorted = Sorted::NOTHING;
+        for j in rows.clone() {
+            let first = grid.first_triangle(columns.start, j);
+            let (south, north) = (&posts[j - rows.start], &posts[j - rows.start + 1]);
+            let (sw, se) = (south.from::<0>(), south.from::<1>());
+            let (nw, ne) = (north.from::<0>(), north.from::<1>());
+            let own;
+            let halves = match grid.diagonal() {
+                Diagonal::SwNe => [[sw, se, ne], [sw, ne, nw]],
+                Diagonal::NwSe => [[sw, se, nw], [se, ne, nw]],
+                Diagonal::Alternating => {
+                    own = alternating_corners(grid, (columns.start, j), south, north);
+                    [[sw, se, own[0].from::<0>()], [own[1].from::<0>(), ne, nw]]
                 }
+            };
+            for (half, corners) in halves.iter().enumerate() {
+                arch.dispatch(Sort { patch: self, view: &tile.view, corners, sorted: &mut sorted });
+                self.settle(tile, &sorted, corners, |lane| first + 2 * lane as u32 + half as u32);
             }
-            south = north;
         }
     }
 
@@ -359,11 +339,12 @@ fn alternating_corners(grid: &Grid, (i, j): (usize, usize), south: &Points, nort
     corners
 }
 
-/// [`Points::project`] compiled for the widest vectors of the machine at hand.
+/// Projects the posts of a node, row by row; compiled for the widest vectors of the machine at hand.
 struct Project<'a> {
-    line: &'a PostLine,
-    heights: &'a [f64; LANES],
-    to: &'a mut Points,
+    view: &'a TileView,
+    grid: &'a Grid,
+    node: Node,
+    to: &'a mut [Points; LANES],
 }
 
 impl pulp::WithSimd for Project<'_> {
@@ -371,7 +352,22 @@ impl pulp::WithSimd for Project<'_> {
 
     #[inline(always)]
     fn with_simd<S: pulp::Simd>(self, _: S) {
-        self.to.project(self.line, self.heights);
+        let (columns, rows) = self.grid.cells(self.node);
+        let posts = self.grid.posts();
+        let lines = GridLines::new(self.view, self.grid, columns.start);
+        for (points, j) in self.to.iter_mut().zip(rows.start..=rows.end) {
+            let row = &posts.heights()[j * posts.columns()..(j + 1) * posts.columns()];
+            let row = &row[columns.start..=columns.end];
+            let line = lines.line(j);
+            match row.first_chunk() {
+                Some(heights) => points.project(&line, heights),
+                None => {
+                    let mut heights = [f64::NAN; LANES];
+                    heights[..row.len()].copy_from_slice(row);
+                    points.project(&line, &heights);
+                }
+            }
+        }
     }
 }
 
@@ -441,14 +437,5 @@ impl GridLines {
             depth: self.depth + DVec3::X * (self.depth_next_row * j),
             is_parallel: self.is_parallel,
         }
-    }
-
-    #[inline(always)]
-    fn heights(&self, grid: &Grid, columns: std::ops::Range<usize>, j: usize) -> [f64; LANES] {
-        let start = j * grid.posts().columns();
-        let row = &grid.posts().heights()[start + columns.start..start + columns.end];
-        let mut heights = [f64::NAN; LANES];
-        heights[..row.len()].copy_from_slice(row);
-        heights
     }
 }

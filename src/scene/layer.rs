@@ -66,6 +66,17 @@ pub enum Rule {
     NonZero,
 }
 
+impl Rule {
+    /// Whether a point around which the rings turn so often is inside.
+    #[inline(always)]
+    pub fn contains(self, turns: i32) -> bool {
+        match self {
+            Self::EvenOdd => turns % 2 != 0,
+            Self::NonZero => turns != 0,
+        }
+    }
+}
+
 /// The border of polygons.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Outline {

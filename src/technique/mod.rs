@@ -4,6 +4,8 @@
 //! prepared once (structures that do not depend on the camera) and then draws frames; neither step looks at a clock,
 //! at the number of threads or at another technique. Refuses: scenes that the technique's paper does not cover, with the reason.
 
+pub mod inverse_projection;
+
 use crate::buffer::{Buffer, Plane};
 use crate::error::Result;
 use crate::scene::{Scene, Surface};
@@ -90,4 +92,24 @@ pub trait Prepared: Sync {
 
     /// The buffers that can be asked for.
     fn buffer_names(&self) -> &'static [&'static str];
+}
+
+/// Builds a technique's structures.
+///
+/// # Errors
+/// When the technique does not draw such a scene.
+pub fn prepare(kind: Kind, stage: &Stage) -> Result<Box<dyn Prepared + '_>> {
+    match kind {
+        Kind::InverseProjection => Ok(Box::new(inverse_projection::Prepare::new(stage)?)),
+    }
+}
+
+/// Whether a technique draws such a scene.
+///
+/// # Errors
+/// The reason why it does not.
+pub fn applies(kind: Kind, stage: &Stage) -> Result<()> {
+    match kind {
+        Kind::InverseProjection => inverse_projection::applies(stage),
+    }
 }

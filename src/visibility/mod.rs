@@ -6,8 +6,10 @@
 //! the cost follows what is seen. Refuses: nothing; a sample that sees no terrain has triangle [`SKY`].
 
 mod hit;
+mod sight;
 
 pub use hit::{Hit, hit};
+pub use sight::Sight;
 
 use crate::parallel;
 use crate::raster::{Counts, Facet, Lattice, Patch, Samples, Tile, TileView};

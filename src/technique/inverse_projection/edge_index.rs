@@ -1,0 +1,600 @@
+//! A uniform grid over the plan that finds the edges near a pixel and the windings of areas at a point (She 3.5: "only
+//! several lines are involved in the repeated calculation").
+//!
+//! Each cell lists the edges that meet it, and the areas that wind around its south-west corner. The winding of a point follows
+//! from the corner's by the edges that a path from the corner crosses: up along the cell's western side, then east.
+
+use super::expansion::{Area, Areas, Edge};
+use super::quadrilateral::Quadrilateral;
+use crate::math;
+use crate::parallel;
+use crate::predicate::orient2d;
+use crate::space::{Plan, PlanBox};
+use std::ops::Range;
+
+/// Most cells of the grid.
+const MAX_CELLS: f64 = (1u32 << 24) as f64;
+
+/// Areas, their edges, and the grid over them.
+#[derive(Debug)]
+pub struct EdgeIndex {
+    areas: Vec<Area>,
+    edges: Vec<Edge>,
+    origin: Plan,
+    cell: f64,
+    columns: usize,
+    rows: usize,
+    /// Where each cell's edges start in `members`; one more entry than cells.
+    member_starts: Vec<u32>,
+    members: Vec<u32>,
+    /// Where each cell's covering areas start in `covers`; one more entry than cells.
+    cover_starts: Vec<u32>,
+    covers: Vec<Winding>,
+    /// `sums[r * (columns + 1) + c]`: how many members the cells of rows below r and columns below c have.
+    sums: Vec<u64>,
+}
+
+/// How often an area winds around a point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Winding {
+    /// The area.
+    pub area: u32,
+    /// The number of turns, counter-clockwise positive.
+    pub turns: i32,
+}
+
+impl EdgeIndex {
+    /// Builds the grid over the part of the areas that lies in `bounds` (the terrain's rectangle).
+    pub fn new(areas: Areas, bounds: &PlanBox) -> Self {
+        let Areas { areas, mut edges } = areas;
+        let layout = Layout::new(&edges, bounds);
+        let mut index = Self {
+            origin: layout.origin,
+            cell: layout.cell,
+            columns: layout.columns,
+            rows: layout.rows,
+            member_starts: Vec::new(),
+            members: Vec::new(),
+            cover_starts: Vec::new(),
+            covers: Vec::new(),
+            sums: Vec::new(),
+            areas,
+            edges: Vec::new(),
+        };
+        // What neither meets the grid nor lies west of it can change nothing in it.
+        let (east, north) = (index.corner(index.columns, 0).x, index.corner(0, index.rows).y);
+        edges.retain(|e| {
+            math::min(e.a.x, e.b.x) <= east
+                && math::max(e.a.y, e.b.y) >= index.origin.y
+                && math::min(e.a.y, e.b.y) <= north
+        });
+        edges.shrink_to_fit();
+        index.edges = edges;
+        index.list_members();
+        index.list_covers();
+        index.find_outsides();
+        index
+    }
+
+    /// The areas in draw order.
+    pub fn areas(&self) -> &[Area] {
+        &self.areas
+    }
+
+    /// An edge.
+    #[inline(always)]
+    pub fn edge(&self, index: u32) -> &Edge {
+        &self.edges[index as usize]
+    }
+
+    /// Bytes held.
+    pub fn bytes(&self) -> usize {
+        size_of_val(&self.areas[..])
+            + size_of_val(&self.edges[..])
+            + 4 * (self.member_starts.len() + self.members.len() + self.cover_starts.len())
+            + size_of_val(&self.covers[..])
+            + size_of_val(&self.sums[..])
+    }
+
+    /// How many edges are in the grid.
+    pub fn edge_count(&self) -> usize {
+        self.edges.len()
+    }
+
+    /// The south-west corner of cell (column, row).
+    #[inline(always)]
+    fn corner(&self, column: usize, row: usize) -> Plan {
+        Plan::new(
+            self.origin.x + column as f64 * self.cell,
+            self.origin.y + row as f64 * self.cell,
+        )
+    }
+
+    /// The cell of a point; `None` outside the grid.
+    #[inline]
+    fn cell_of(&self, p: Plan) -> Option<(usize, usize)> {
+        let (x, y) = (
+            (p.x - self.origin.x) / self.cell,
+            (p.y - self.origin.y) / self.cell,
+        );
+        let inside = x >= 0.0 && y >= 0.0 && x < self.columns as f64 && y < self.rows as f64;
+        inside.then_some((x as usize, y as usize))
+    }
+
+    /// The columns or rows between two offsets from the origin, with a margin that covers rounding.
+    #[inline]
+    fn cells_between(&self, low: f64, high: f64, count: usize) -> Range<usize> {
+        const MARGIN: f64 = 1e-6;
+        let (low, high) = (low / self.cell - MARGIN, high / self.cell + MARGIN);
+        if high < 0.0 || low >= count as f64 {
+            return 0..0;
+        }
+        let first = if low > 0.0 { low as usize } else { 0 };
+        first..(high as usize + 1).min(count)
+    }
+
+    #[inline]
+    fn members_of(&self, column: usize, row: usize) -> &[u32] {
+        let cell = row * self.columns + column;
+        &self.members[self.member_starts[cell] as usize..self.member_starts[cell + 1] as usize]
+    }
+
+    #[inline]
+    fn covers_of(&self, column: usize, row: usize) -> &[Winding] {
+        let cell = row * self.columns + column;
+        &self.covers[self.cover_starts[cell] as usize..self.cover_starts[cell + 1] as usize]
+    }
+
+    /// Collects the edges in the cells that a quadrilateral touches, each once, in order.
+    pub fn edges_near(&self, quad: &Quadrilateral, found: &mut Vec<u32>) {
+        found.clear();
+        let bounds = quad.bounds();
+        let (low, high) = (bounds.min - self.origin, bounds.max - self.origin);
+        let columns = self.cells_between(low.x, high.x, self.columns);
+        let rows = self.cells_between(low.y, high.y, self.rows);
+        if columns.is_empty() || rows.is_empty() || self.members_in(&columns, &rows) == 0 {
+            return;
+        }
+        for row in rows {
+            let south = self.corner(0, row).y;
+            let Some((west, east)) = quad.span(south, south + self.cell) else {
+                continue;
+            };
+            for column in self.cells_between(west - self.origin.x, east - self.origin.x, self.columns) {
+                found.extend_from_slice(self.members_of(column, row));
+            }
+        }
+        found.sort_unstable();
+        found.dedup();
+    }
+
+    /// Whether any edge lies in the cells around a quadrilateral.
+    #[inline]
+    pub fn has_edges_near(&self, quad: &Quadrilateral) -> bool {
+        let bounds = quad.bounds();
+        let (low, high) = (bounds.min - self.origin, bounds.max - self.origin);
+        let columns = self.cells_between(low.x, high.x, self.columns);
+        let rows = self.cells_between(low.y, high.y, self.rows);
+        !columns.is_empty() && !rows.is_empty() && self.members_in(&columns, &rows) > 0
+    }
+
+    /// How many members a block of cells has.
+    #[inline]
+    fn members_in(&self, columns: &Range<usize>, rows: &Range<usize>) -> u64 {
+        let at = |c: usize, r: usize| self.sums[r * (self.columns + 1) + c];
+        at(columns.end, rows.end) + at(columns.start, rows.start)
+            - at(columns.end, rows.start)
+            - at(columns.start, rows.end)
+    }
+
+    /// Collects the windings of all areas around a point that differ from 0, in the areas' order.
+    pub fn windings_at(&self, p: Plan, found: &mut Vec<Winding>) {
+        found.clear();
+        let Some((column, row)) = self.cell_of(p) else {
+            return;
+        };
+        found.extend_from_slice(self.covers_of(column, row));
+        let corner = self.corner(column, row);
+        let mut changed = false;
+        for &member in self.members_of(column, row) {
+            let edge = self.edge(member);
+            let turns = turns_on_path(edge, corner, p);
+            if turns != 0 {
+                changed = true;
+                match found.binary_search_by_key(&edge.area, |w| w.area) {
+                    Ok(at) => found[at].turns += turns,
+                    Err(at) => found.insert(
+                        at,
+                        Winding {
+                            area: edge.area,
+                            turns,
+                        },
+                    ),
+                }
+            }
+        }
+        if changed {
+            found.retain(|w| w.turns != 0);
+        }
+    }
+
+    /// How often one area winds around a point.
+    pub fn winding_of(&self, area: u32, p: Plan) -> i32 {
+        let Some((column, row)) = self.cell_of(p) else {
+            return 0;
+        };
+        let covers = self.covers_of(column, row);
+        let start = covers
+            .binary_search_by_key(&area, |w| w.area)
+            .map_or(0, |at| covers[at].turns);
+        let corner = self.corner(column, row);
+        let members = self.members_of(column, row);
+        let first = members.partition_point(|&m| self.edge(m).area < area);
+        let own = members[first..]
+            .iter()
+            .map(|&m| self.edge(m))
+            .take_while(|e| e.area == area);
+        start + own.map(|e| turns_on_path(e, corner, p)).sum::<i32>()
+    }
+
+    /// Calls `visit` with each cell that an edge meets.
+    fn for_each_cell(&self, edge: &Edge, mut visit: impl FnMut(usize)) {
+        let (a, b) = if edge.a.y <= edge.b.y {
+            (edge.a, edge.b)
+        } else {
+            (edge.b, edge.a)
+        };
+        for row in self.cells_between(a.y - self.origin.y, b.y - self.origin.y, self.rows) {
+            // The part of the edge in a band slightly wider than the row.
+            let south = self.corner(0, row).y - self.cell * 1e-6;
+            let north = south + self.cell * (1.0 + 2e-6);
+            let x_at = |y: f64| {
+                if y <= a.y {
+                    a.x
+                } else if y >= b.y {
+                    b.x
+                } else {
+                    a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y))
+                }
+            };
+            let (p, q) = (x_at(south), x_at(north));
+            let (west, east) = if p < q { (p, q) } else { (q, p) };
+            for column in self.cells_between(west - self.origin.x, east - self.origin.x, self.columns) {
+                visit(row * self.columns + column);
+            }
+        }
+    }
+
+    fn list_members(&mut self) {
+        let cells = self.columns * self.rows;
+        let mut starts = vec![0u32; cells + 1];
+        for edge in &self.edges {
+            self.for_each_cell(edge, |cell| starts[cell + 1] += 1);
+        }
+        for cell in 0..cells {
+            starts[cell + 1] += starts[cell];
+        }
+        let mut next = starts.clone();
+        let mut members = vec![0u32; starts[cells] as usize];
+        for (index, edge) in self.edges.iter().enumerate() {
+            self.for_each_cell(edge, |cell| {
+                members[next[cell] as usize] = index as u32;
+                next[cell] += 1;
+            });
+        }
+        let stride = self.columns + 1;
+        let mut sums = vec![0u64; stride * (self.rows + 1)];
+        for row in 0..self.rows {
+            for column in 0..self.columns {
+                let cell = row * self.columns + column;
+                sums[(row + 1) * stride + column + 1] = u64::from(starts[cell + 1] - starts[cell])
+                    + sums[(row + 1) * stride + column]
+                    + sums[row * stride + column + 1]
+                    - sums[row * stride + column];
+            }
+        }
+        (self.member_starts, self.members, self.sums) = (starts, members, sums);
+    }
+
+    /// Finds the windings at the cells' corners, row by row: what an area winds around changes where one of its edges
+    /// crosses the row's line.
+    fn list_covers(&mut self) {
+        let mut crossings: Vec<Vec<u32>> = vec![Vec::new(); self.rows];
+        for (index, edge) in self.edges.iter().enumerate() {
+            for row in self.rows_crossed(edge) {
+                crossings[row].push(index as u32);
+            }
+        }
+        let rows = parallel::map_indices(self.rows, |row| self.covers_in_row(row, &crossings[row]));
+        self.cover_starts = Vec::with_capacity(self.columns * self.rows + 1);
+        self.cover_starts.push(0);
+        for (counts, covers) in rows {
+            for count in counts {
+                self.cover_starts
+                    .push(self.cover_starts[self.cover_starts.len() - 1] + count);
+            }
+            self.covers.extend(covers);
+        }
+    }
+
+    /// The rows whose southern line an edge crosses (half-open: a line through an end counts as just below it).
+    fn rows_crossed(&self, edge: &Edge) -> impl Iterator<Item = usize> {
+        let (low, high) = if edge.a.y < edge.b.y {
+            (edge.a.y, edge.b.y)
+        } else {
+            (edge.b.y, edge.a.y)
+        };
+        let candidates = self.cells_between(low - self.origin.y, high - self.origin.y, self.rows);
+        let (origin, cell) = (self.origin.y, self.cell);
+        candidates.filter(move |row| {
+            let y = origin + *row as f64 * cell;
+            low <= y && high > y
+        })
+    }
+
+    /// The number of covering areas of each cell of a row, and the areas, given the edges that cross the row's line.
+    fn covers_in_row(&self, row: usize, crossings: &[u32]) -> (Vec<u32>, Vec<Winding>) {
+        let mut changes: Vec<(u32, usize, i32)> = crossings
+            .iter()
+            .map(|&index| {
+                let edge = self.edge(index);
+                // Eastwards across an upward edge one leaves its left side.
+                (
+                    edge.area,
+                    self.first_column_beyond(edge, row),
+                    if edge.b.y > edge.a.y { -1 } else { 1 },
+                )
+            })
+            .collect();
+        changes.sort_unstable();
+        let mut runs: Vec<(Range<usize>, Winding)> = Vec::new();
+        let (mut area, mut turns, mut from) = (u32::MAX, 0, 0);
+        for (next_area, column, change) in changes.into_iter().chain([(u32::MAX, self.columns, 0)]) {
+            let until = if next_area == area { column } else { self.columns };
+            if turns != 0 && from < until {
+                runs.push((from..until, Winding { area, turns }));
+            }
+            turns = change + if next_area == area { turns } else { 0 };
+            (area, from) = (next_area, column);
+        }
+        self.spread(&runs)
+    }
+
+    /// Runs of covered cells (in the order of areas) as one list a cell.
+    fn spread(&self, runs: &[(Range<usize>, Winding)]) -> (Vec<u32>, Vec<Winding>) {
+        let mut counts = vec![0u32; self.columns];
+        for (columns, _) in runs {
+            counts[columns.clone()].iter_mut().for_each(|count| *count += 1);
+        }
+        let mut next = vec![0u32; self.columns];
+        for column in 1..self.columns {
+            next[column] = next[column - 1] + counts[column - 1];
+        }
+        let total = counts.iter().map(|c| *c as usize).sum();
+        let mut covers = vec![Winding { area: 0, turns: 0 }; total];
+        for (columns, winding) in runs {
+            for column in columns.clone() {
+                covers[next[column] as usize] = *winding;
+                next[column] += 1;
+            }
+        }
+        (counts, covers)
+    }
+
+    /// The first column whose corner on a row's line lies east of where an edge crosses the line.
+    fn first_column_beyond(&self, edge: &Edge, row: usize) -> usize {
+        let y = self.corner(0, row).y;
+        let x = edge.a.x + (edge.b.x - edge.a.x) * ((y - edge.a.y) / (edge.b.y - edge.a.y));
+        let guess = (x - self.origin.x) / self.cell;
+        let mut column = if guess > 0.0 {
+            (guess as usize).min(self.columns)
+        } else {
+            0
+        };
+        let upward = edge.b.y > edge.a.y;
+        let is_beyond = |column: usize| is_left(edge, self.corner(column, row)) != upward;
+        while column > 0 && is_beyond(column - 1) {
+            column -= 1;
+        }
+        while column < self.columns && !is_beyond(column) {
+            column += 1;
+        }
+        column
+    }
+
+    /// Finds on which side of each ring's edges the outside is.
+    fn find_outsides(&mut self) {
+        let outside: Vec<bool> = parallel::map_indices(self.edges.len(), |k| {
+            let edge = &self.edges[k];
+            let area = &self.areas[edge.area as usize];
+            area.is_rings && {
+                let middle = Plan::from((edge.a.to_vec() + edge.b.to_vec()) / 2.0);
+                area.rule.contains(self.winding_of(edge.area, middle)) != is_left(edge, middle)
+            }
+        });
+        for (edge, is_left) in self.edges.iter_mut().zip(outside) {
+            edge.outside_is_left = is_left;
+        }
+    }
+}
+
+/// Whether a point lies left of an edge. A point on it is moved a little east and a little less north, the same for all
+/// edges, so that areas that share an edge share no point and leave none out.
+#[inline]
+fn is_left(edge: &Edge, p: Plan) -> bool {
+    let side = orient2d(edge.a, edge.b, p);
+    if side != 0.0 {
+        return side > 0.0;
+    }
+    let along = edge.b - edge.a;
+    if along.y != 0.0 {
+        along.y < 0.0
+    } else {
+        along.x > 0.0
+    }
+}
+
+/// How an area's winding changes along the path from a cell's corner north to the height of `p` and east to `p`.
+#[inline]
+fn turns_on_path(edge: &Edge, corner: Plan, p: Plan) -> i32 {
+    let bend = Plan::new(corner.x, p.y);
+    let mut turns = 0;
+    if (edge.a.x > corner.x) != (edge.b.x > corner.x) {
+        turns += turns_between(edge, corner, bend);
+    }
+    if (edge.a.y > p.y) != (edge.b.y > p.y) {
+        turns += turns_between(edge, bend, p);
+    }
+    turns
+}
+
+#[inline]
+fn turns_between(edge: &Edge, from: Plan, to: Plan) -> i32 {
+    i32::from(is_left(edge, to)) - i32::from(is_left(edge, from))
+}
+
+/// Where the grid lies and how fine it is.
+struct Layout {
+    origin: Plan,
+    cell: f64,
+    columns: usize,
+    rows: usize,
+}
+
+impl Layout {
+    /// About one edge in two cells, but cells no smaller than a third of the mean edge.
+    fn new(edges: &[Edge], bounds: &PlanBox) -> Self {
+        let mut all = PlanBox::EMPTY;
+        let mut length = 0.0;
+        for edge in edges {
+            all.include(edge.a);
+            all.include(edge.b);
+            let extent = (edge.b - edge.a).abs();
+            length += extent.x + extent.y;
+        }
+        let min = Plan::new(
+            math::max(all.min.x, bounds.min.x),
+            math::max(all.min.y, bounds.min.y),
+        );
+        let max = Plan::new(
+            math::min(all.max.x, bounds.max.x),
+            math::min(all.max.y, bounds.max.y),
+        );
+        let size = max - min;
+        if !(size.x >= 0.0 && size.y >= 0.0) {
+            return Self {
+                origin: min,
+                cell: 1.0,
+                columns: 0,
+                rows: 0,
+            };
+        }
+        let count = edges.len() as f64;
+        let cells = math::min(2.0 * count, MAX_CELLS);
+        let longest = math::max(size.x, size.y);
+        let cell = math::max((size.x * size.y / cells).sqrt(), length / (3.0 * count));
+        // No more than MAX_CELLS even for a needle, no cell of size zero even for a point.
+        let cell = math::max(
+            math::max(cell, longest / cells),
+            math::max(f64::MIN_POSITIVE, longest * 1e-12),
+        );
+        let cell = if cell > 1e-9 { cell } else { 1e-9 };
+        let along = |extent: f64| (extent / cell) as usize + 1;
+        Self {
+            origin: min,
+            cell,
+            columns: along(size.x),
+            rows: along(size.y),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Rule;
+    use proptest::prelude::*;
+
+    fn index_of(rings: &[Vec<Plan>]) -> EdgeIndex {
+        let mut areas = Areas::default();
+        for (area, ring) in rings.iter().enumerate() {
+            let whole = Area {
+                layer: 0,
+                feature: area as u32,
+                color: None,
+                rule: Rule::EvenOdd,
+                cut: None,
+                is_rings: true,
+            };
+            areas.areas.push(whole);
+            for k in 0..ring.len() {
+                let (a, b) = (ring[k], ring[(k + 1) % ring.len()]);
+                if a != b {
+                    areas.edges.push(Edge {
+                        a,
+                        b,
+                        area: area as u32,
+                        outside_is_left: false,
+                    });
+                }
+            }
+        }
+        EdgeIndex::new(
+            areas,
+            &PlanBox {
+                min: Plan::new(-3.0, -3.0),
+                max: Plan::new(3.0, 3.0),
+            },
+        )
+    }
+
+    /// The winding number by the crossings of a ray to the west, half-open.
+    fn winding(ring: &[Plan], p: Plan) -> i32 {
+        (0..ring.len())
+            .map(|k| (ring[k], ring[(k + 1) % ring.len()]))
+            .filter(|(a, b)| (a.y > p.y) != (b.y > p.y))
+            .map(|(a, b)| {
+                let east_of_edge = if b.y > a.y {
+                    orient2d(a, b, p) <= 0.0
+                } else {
+                    orient2d(a, b, p) >= 0.0
+                };
+                if !east_of_edge {
+                    0
+                } else if b.y > a.y {
+                    -1
+                } else {
+                    1
+                }
+            })
+            .sum()
+    }
+
+    fn coordinate() -> impl Strategy<Value = f64> {
+        prop_oneof![(-8..9i32).prop_map(|k| f64::from(k) / 2.0), -4.0..4.0f64]
+    }
+
+    proptest! {
+        #[test]
+        fn windings_are_those_of_the_whole_ring_even_at_its_vertices_and_on_its_edges(
+            rings in prop::collection::vec(
+                prop::collection::vec((coordinate(), coordinate()).prop_map(|(x, y)| Plan::new(x, y)), 1..9), 1..5),
+            points in prop::collection::vec((coordinate(), coordinate()).prop_map(|(x, y)| Plan::new(x, y)), 40),
+        ) {
+            let index = index_of(&rings);
+            let mut found = Vec::new();
+            for p in points.iter().chain(rings.iter().flatten()) {
+                if index.cell_of(*p).is_none() {
+                    continue;
+                }
+                index.windings_at(*p, &mut found);
+                for (area, ring) in rings.iter().enumerate() {
+                    let expected = winding(ring, *p);
+                    let turns = found.iter().find(|w| w.area == area as u32).map_or(0, |w| w.turns);
+                    prop_assert_eq!(turns, expected, "area {} at {:?}", area, p);
+                    prop_assert_eq!(index.winding_of(area as u32, *p), expected);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,444 @@
+//! One frame: quadrilaterals, classes, samples, means.
+
+use super::SILHOUETTE_RATIO;
+use super::edge_index::{EdgeIndex, Winding};
+use super::judgment::Judge;
+use super::quadrilateral::Quadrilateral;
+use crate::buffer::{Buffer, Plane, Values};
+use crate::parallel;
+use crate::raster::Lattice;
+use crate::resolve::{Compositor, GroundPaint, Paint, code_values};
+use crate::scene::{Corners, InverseProjection, Silhouette};
+use crate::space::Plan;
+use crate::technique::{Frame, FrameOptions, Stage};
+use crate::terrain::SKY;
+use crate::visibility::{Hit, Sight};
+use std::ops::Range;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// The classes of pixels (She 3.3), as the `class` buffer holds them.
+const N: u8 = 0;
+const P: u8 = 1;
+const F: u8 = 2;
+
+/// Draws a frame.
+pub fn draw(stage: &Stage, settings: &InverseProjection, index: &EdgeIndex, options: &FrameOptions) -> Frame {
+    let centres = Seen::new(stage, &Lattice::centres(&stage.view, 1), options.tile);
+    let corners = match settings.corners {
+        Corners::Centres => None,
+        Corners::True => Some(Seen::new(stage, &Lattice::corners(&stage.view), options.tile)),
+    };
+    (options.progress)(0.5);
+    let compositor = Compositor::new(stage.scene.compositing);
+    let drawing = Drawing {
+        settings,
+        judge: Judge {
+            index,
+            rule: settings.point_in_polygon,
+        },
+        ground: GroundPaint::new(&stage.scene.ground, &stage.mesh, compositor),
+        paints: index
+            .areas()
+            .iter()
+            .map(|a| a.color.map(|c| compositor.paint(c)))
+            .collect(),
+        sky: compositor.paint(stage.scene.image.background),
+        compositor,
+        wants_quads: options.buffers.iter().any(|b| b == "quad"),
+        centres,
+        corners,
+    };
+    let (width, height) = (stage.view.width(), stage.view.height());
+    let done = AtomicUsize::new(0);
+    let rows = parallel::map_indices(height, |y| {
+        let row = drawing.row(y, width);
+        let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+        (options.progress)(0.5 + 0.5 * done as f64 / height as f64);
+        row
+    });
+    drawing.frame((width, height), rows, options)
+}
+
+/// Everything that pixels are made from.
+struct Drawing<'a> {
+    settings: &'a InverseProjection,
+    judge: Judge<'a>,
+    ground: GroundPaint<'a>,
+    /// What each area is painted with.
+    paints: Vec<Option<Paint>>,
+    sky: Paint,
+    compositor: Compositor,
+    wants_quads: bool,
+    /// What the pixels' centres see, and those of the pixels around the picture.
+    centres: Seen<'a>,
+    /// What the pixels' corners see, where those are asked for.
+    corners: Option<Seen<'a>>,
+}
+
+/// What a lattice sees, with the plan points at hand.
+struct Seen<'a> {
+    stage: &'a Stage,
+    lattice: Lattice,
+    sight: Sight<'a>,
+    /// Rows from the top; infinite where the sky is seen.
+    plan: Vec<Plan>,
+}
+
+/// A row of finished pixels.
+#[derive(Default)]
+struct Row {
+    colors: Vec<[f64; 4]>,
+    classes: Vec<u8>,
+    edges: Vec<u32>,
+    quads: Vec<f64>,
+    counts: Counts,
+}
+
+#[derive(Default, Clone, Copy)]
+struct Counts {
+    classes: [u64; 3],
+    refused: u64,
+    samples: u64,
+    edge_tests: u64,
+}
+
+/// Room for the lists of one pixel, used again from pixel to pixel.
+#[derive(Default)]
+struct Lists {
+    near: Vec<u32>,
+    windings: Vec<Winding>,
+    involved: Vec<Involved>,
+}
+
+/// An area that has a part in a pixel.
+struct Involved {
+    area: u32,
+    /// Its edges that meet the pixel, as a range of the list of near edges; empty: the whole pixel lies in the area.
+    near: Range<usize>,
+}
+
+impl<'a> Seen<'a> {
+    fn new(stage: &'a Stage, lattice: &Lattice, tile: usize) -> Self {
+        let mut sight = Sight::new(&stage.view, &stage.mesh, &stage.scene.device, lattice, tile);
+        sight.see();
+        let mut plan = vec![Plan::new(f64::INFINITY, f64::INFINITY); lattice.columns * lattice.rows];
+        parallel::for_each_chunk(&mut plan, lattice.columns, |row, points| {
+            for (column, point) in points.iter_mut().enumerate() {
+                if let Some(hit) = sight.hit(column, row) {
+                    *point = hit.plan;
+                }
+            }
+        });
+        Self {
+            stage,
+            lattice: *lattice,
+            sight,
+            plan,
+        }
+    }
+
+    #[inline(always)]
+    fn plan(&self, (column, row): (usize, usize)) -> Plan {
+        self.plan[row * self.lattice.columns + column]
+    }
+
+    /// Whether the side between two neighbours is too long for the planes that its ends lie on.
+    fn spans_silhouette(&self, from: (usize, usize), to: (usize, usize)) -> bool {
+        let ids = [from, to].map(|(column, row)| self.sight.triangle(column, row));
+        if ids[0] == ids[1] {
+            return false;
+        }
+        let length = (self.plan(to) - self.plan(from)).length_squared();
+        let limit = SILHOUETTE_RATIO * SILHOUETTE_RATIO;
+        let expected = |id: u32, at: (usize, usize), seen_from: (usize, usize)| {
+            let ray = self.stage.view.ray(self.lattice.at(seen_from.0, seen_from.1));
+            let hit: Option<Hit> = self
+                .stage
+                .mesh
+                .triangle(id)
+                .map(|t| crate::visibility::hit(&self.stage.view, &ray, &t));
+            // A plane that the neighbour's ray misses would reach to the horizon.
+            hit.filter(|h| h.depth > 0.0)
+                .map_or(f64::INFINITY, |h| (h.plan - self.plan(at)).length_squared())
+        };
+        length > limit * expected(ids[0], from, to) && length > limit * expected(ids[1], to, from)
+    }
+}
+
+impl Drawing<'_> {
+    fn row(&self, y: usize, width: usize) -> Row {
+        let mut row = Row::default();
+        let mut lists = Lists::default();
+        for x in 0..width {
+            let pixel = self.pixel((x, y), &mut lists, &mut row.counts);
+            row.colors.push(self.compositor.encoded(pixel.paint));
+            row.classes.push(pixel.class);
+            row.edges.push(pixel.edges);
+            row.counts.classes[pixel.class as usize] += 1;
+            if self.wants_quads {
+                row.quads.extend(pixel.quad.0.iter().flat_map(|p| [p.x, p.y]));
+            }
+        }
+        row
+    }
+
+    fn pixel(&self, at: (usize, usize), lists: &mut Lists, counts: &mut Counts) -> Pixel {
+        // The lattice of centres starts one pixel before the picture.
+        let centre = (at.0 + 1, at.1 + 1);
+        let plan = self.centres.plan(centre);
+        let none = Quadrilateral::point(Plan::default());
+        if !plan.is_finite() {
+            return Pixel {
+                paint: self.sky,
+                class: N,
+                edges: 0,
+                quad: none,
+            };
+        }
+        let ground = self
+            .ground
+            .at(self.centres.sight.triangle(centre.0, centre.1), plan);
+        let quad = self.range(at).filter(|quad| {
+            // Only where edges may be near does it matter whether the range means anything.
+            let matters = self.wants_quads || self.judge.index.has_edges_near(quad);
+            !matters || self.settings.silhouette == Silhouette::Smear || !self.spans_silhouette(at)
+        });
+        let Some(quad) = quad else {
+            counts.refused += 1;
+            return self.whole(Quadrilateral::point(plan), plan, ground, lists);
+        };
+        self.classify(&quad, lists);
+        if lists.near.is_empty() {
+            return self.whole(quad, plan, ground, lists);
+        }
+        counts.samples += u64::from(self.settings.samples * self.settings.samples);
+        counts.edge_tests +=
+            u64::from(self.settings.samples * self.settings.samples) * lists.near.len() as u64;
+        Pixel {
+            paint: self.mean(&quad, plan, ground, lists),
+            class: P,
+            edges: lists.near.len() as u32,
+            quad,
+        }
+    }
+
+    /// She 3.2, Fig. 6b: the quadrilateral of a pixel from the centres of itself and its right, upper right and upper
+    /// neighbours, or from its corners; `None` where one of them sees the sky.
+    fn range(&self, at: (usize, usize)) -> Option<Quadrilateral> {
+        let seen = self.corners.as_ref().unwrap_or(&self.centres);
+        let quad = Quadrilateral(self.corner_samples(at).map(|sample| seen.plan(sample)));
+        quad.0.iter().all(|p| p.is_finite()).then_some(quad)
+    }
+
+    /// The samples that make a pixel's quadrilateral, in the order of [`Quadrilateral`].
+    fn corner_samples(&self, (x, y): (usize, usize)) -> [(usize, usize); 4] {
+        match self.corners {
+            None => [(x + 1, y + 1), (x + 2, y + 1), (x + 2, y), (x + 1, y)],
+            Some(_) => [(x, y + 1), (x + 1, y + 1), (x + 1, y), (x, y)],
+        }
+    }
+
+    fn spans_silhouette(&self, at: (usize, usize)) -> bool {
+        let seen = self.corners.as_ref().unwrap_or(&self.centres);
+        let samples = self.corner_samples(at);
+        (0..4).any(|k| seen.spans_silhouette(samples[k], samples[(k + 1) % 4]))
+    }
+
+    /// She 3.3: finds the edges that meet the quadrilateral; none: the pixel is N or F.
+    fn classify(&self, quad: &Quadrilateral, lists: &mut Lists) {
+        self.judge.index.edges_near(quad, &mut lists.near);
+        lists.near.retain(|&e| {
+            let edge = self.judge.index.edge(e);
+            quad.meets(edge.a, edge.b)
+        });
+    }
+
+    /// A pixel without edges: N, or F in the areas around its centre.
+    fn whole(&self, quad: Quadrilateral, plan: Plan, ground: Paint, lists: &mut Lists) -> Pixel {
+        lists.near.clear();
+        self.involve(plan, lists);
+        let is_covered = lists
+            .involved
+            .iter()
+            .any(|i| self.paints[i.area as usize].is_some());
+        let paint = self.compose(plan, ground, lists);
+        Pixel {
+            paint,
+            class: if is_covered { F } else { N },
+            edges: 0,
+            quad,
+        }
+    }
+
+    /// She 3.5: the mean of the composed colours of the samples (3.4).
+    fn mean(&self, quad: &Quadrilateral, plan: Plan, ground: Paint, lists: &mut Lists) -> Paint {
+        self.involve(plan, lists);
+        let n = self.settings.samples;
+        let sum = quad
+            .samples(n)
+            .fold(Paint::CLEAR, |sum, s| sum.plus(self.compose(s, ground, lists)));
+        sum.divided_by(f64::from(n * n))
+    }
+
+    /// Lists the areas with a part in the pixel, in draw order: those whose edges meet it, and those that contain all of it.
+    fn involve(&self, plan: Plan, lists: &mut Lists) {
+        let index = self.judge.index;
+        index.windings_at(plan, &mut lists.windings);
+        lists.involved.clear();
+        let mut start = 0;
+        let mut windings = lists.windings.iter().peekable();
+        let mut take_whole_below = |limit: u32, involved: &mut Vec<Involved>| {
+            while let Some(w) = windings.next_if(|w| w.area <= limit) {
+                if w.area < limit && index.areas()[w.area as usize].rule.contains(w.turns) {
+                    involved.push(Involved {
+                        area: w.area,
+                        near: 0..0,
+                    });
+                }
+            }
+        };
+        while start < lists.near.len() {
+            let area = index.edge(lists.near[start]).area;
+            let end = start + lists.near[start..].partition_point(|&e| index.edge(e).area == area);
+            take_whole_below(area, &mut lists.involved);
+            lists.involved.push(Involved {
+                area,
+                near: start..end,
+            });
+            start = end;
+        }
+        take_whole_below(u32::MAX, &mut lists.involved);
+    }
+
+    /// The colour at one sample: the ground and every area that contains the sample, in draw order.
+    fn compose(&self, sample: Plan, ground: Paint, lists: &Lists) -> Paint {
+        let mut paint = ground;
+        for involved in &lists.involved {
+            let Some(source) = self.paints[involved.area as usize] else {
+                continue;
+            };
+            let cut = self.judge.index.areas()[involved.area as usize].cut;
+            let is_kept = |(area, wanted): (u32, bool)| {
+                let whole = lists.involved.binary_search_by_key(&area, |i| i.area);
+                whole.is_ok_and(|at| self.is_in(&lists.involved[at], sample, lists)) == wanted
+            };
+            if self.is_in(involved, sample, lists) && cut.is_none_or(is_kept) {
+                paint = self.compositor.over(paint, source);
+            }
+        }
+        paint
+    }
+
+    #[inline]
+    fn is_in(&self, involved: &Involved, sample: Plan, lists: &Lists) -> bool {
+        involved.near.is_empty()
+            || self
+                .judge
+                .contains(involved.area, &lists.near[involved.near.clone()], sample)
+    }
+
+    fn frame(&self, (width, height): (usize, usize), rows: Vec<Row>, options: &FrameOptions) -> Frame {
+        let colors = || rows.iter().flat_map(|r| r.colors.iter());
+        let image = Buffer::from_values(width, height, colors().map(|c| code_values(*c)).collect());
+        let wants = |name: &str| options.buffers.iter().any(|b| b == name);
+        let plane = |name, components, values| Plane {
+            name,
+            width,
+            height,
+            components,
+            values,
+        };
+        let mut planes = Vec::new();
+        if ["depth", "triangle", "plan"].into_iter().any(wants) {
+            planes.extend(
+                self.surface_planes((width, height))
+                    .into_iter()
+                    .filter(|p| wants(p.name)),
+            );
+        }
+        if wants("color") {
+            planes.push(plane(
+                "color",
+                4,
+                Values::F64(colors().flatten().copied().collect()),
+            ));
+        }
+        if wants("class") {
+            planes.push(plane(
+                "class",
+                1,
+                Values::U8(rows.iter().flat_map(|r| &r.classes).copied().collect()),
+            ));
+        }
+        if wants("quad") {
+            planes.push(plane(
+                "quad",
+                8,
+                Values::F64(rows.iter().flat_map(|r| &r.quads).copied().collect()),
+            ));
+        }
+        if wants("edges") {
+            planes.push(plane(
+                "edges",
+                1,
+                Values::U32(rows.iter().flat_map(|r| &r.edges).copied().collect()),
+            ));
+        }
+        Frame {
+            image,
+            planes,
+            counts: self.counts(&rows),
+        }
+    }
+
+    /// What the pixels' centres see: depth (infinite: sky), triangle, plan point (0, 0 in the sky).
+    fn surface_planes(&self, (width, height): (usize, usize)) -> [Plane; 3] {
+        let (mut depth, mut triangle, mut plan) = (Vec::new(), Vec::new(), Vec::new());
+        for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x + 1, y + 1))) {
+            let hit = self.centres.sight.hit(x, y);
+            depth.push(hit.map_or(f64::INFINITY, |h| h.depth));
+            triangle.push(if hit.is_some() {
+                self.centres.sight.triangle(x, y)
+            } else {
+                SKY
+            });
+            let at = hit.map_or(Plan::default(), |h| h.plan);
+            plan.extend([at.x, at.y]);
+        }
+        let plane = |name, components, values| Plane {
+            name,
+            width,
+            height,
+            components,
+            values,
+        };
+        [
+            plane("depth", 1, Values::F64(depth)),
+            plane("triangle", 1, Values::U32(triangle)),
+            plane("plan", 2, Values::F64(plan)),
+        ]
+    }
+
+    fn counts(&self, rows: &[Row]) -> Vec<(&'static str, u64)> {
+        let sum = |f: &dyn Fn(&Counts) -> u64| rows.iter().map(|r| f(&r.counts)).sum();
+        vec![
+            ("areas", self.judge.index.areas().len() as u64),
+            ("edges", self.judge.index.edge_count() as u64),
+            ("pixels_n", sum(&|c| c.classes[N as usize])),
+            ("pixels_p", sum(&|c| c.classes[P as usize])),
+            ("pixels_f", sum(&|c| c.classes[F as usize])),
+            ("refused", sum(&|c| c.refused)),
+            ("samples", sum(&|c| c.samples)),
+            ("edge_tests", sum(&|c| c.edge_tests)),
+        ]
+    }
+}
+
+/// A finished pixel.
+struct Pixel {
+    paint: Paint,
+    class: u8,
+    /// How many edges meet its quadrilateral.
+    edges: u32,
+    quad: Quadrilateral,
+}
