@@ -10,6 +10,8 @@ use std::path::PathBuf;
 /// A scene file's content.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SceneFile {
+    /// The file it was read from, to name it where one of its lines is to blame.
+    pub path: Option<PathBuf>,
     /// The scene's name; without one, the file's name without its extension, or `scene`.
     pub name: String,
     /// The plan space asked for.
