@@ -21,6 +21,7 @@ struct Inner {
     path: Option<PathBuf>,
     position: Option<Position>,
     feature: Option<usize>,
+    named: Option<(Option<PathBuf>, Position)>,
     internal: bool,
 }
 
@@ -44,6 +45,7 @@ impl Error {
             path: None,
             position: None,
             feature: None,
+            named: None,
             internal: false,
         }))
     }
@@ -80,6 +82,14 @@ impl Error {
     #[must_use]
     pub fn in_feature(mut self, index: usize) -> Self {
         self.0.feature = Some(index);
+        self
+    }
+
+    /// Says where a scene file names the file that is to blame.
+    #[must_use]
+    pub fn named_in(mut self, scene: Option<&Path>, position: Position) -> Self {
+        let named = (scene.map(Path::to_path_buf), position);
+        self.0.named.get_or_insert(named);
         self
     }
 
@@ -125,6 +135,16 @@ impl fmt::Display for Error {
             write!(f, "feature {feature}: ")?;
         }
         write!(f, "{}", inner.what)?;
+        if let Some((scene, at)) = &inner.named {
+            match scene {
+                Some(scene) => write!(f, "\n  named in {}:{}:{}", scene.display(), at.line, at.column)?,
+                None => write!(
+                    f,
+                    "\n  named in line {}, column {} of the scene",
+                    at.line, at.column
+                )?,
+            }
+        }
         if let Some(help) = &inner.help {
             write!(f, "\n  help: {help}")?;
         }

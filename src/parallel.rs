@@ -11,6 +11,11 @@ pub fn map<T: Sync, U: Send>(items: &[T], f: impl Fn(&T) -> U + Send + Sync) -> 
     items.par_iter().map(f).collect()
 }
 
+/// `f` of every item, which it takes, in the order of the items.
+pub fn map_owned<T: Send, U: Send>(items: Vec<T>, f: impl Fn(T) -> U + Send + Sync) -> Vec<U> {
+    items.into_par_iter().map(f).collect()
+}
+
 /// `f` of every index below `n`, in order.
 pub fn map_indices<U: Send>(n: usize, f: impl Fn(usize) -> U + Send + Sync) -> Vec<U> {
     (0..n).into_par_iter().map(f).collect()

@@ -3,11 +3,13 @@
 //! Data goes to stdout, messages to stderr. Exit status: 0 done, 1 judged and failed, 2 the call or an input is wrong,
 //! 3 a bug of ours.
 
+mod bar;
 mod completions;
 mod info;
 mod new;
 mod refusal;
 mod render;
+mod scene_input;
 mod schema;
 mod stop;
 
@@ -57,7 +59,10 @@ enum Command {
 
 /// Runs the program.
 pub(crate) fn main() -> ExitCode {
-    std::panic::set_hook(Box::new(stop::panicked));
+    stop::guarded(call)
+}
+
+fn call() -> ExitCode {
     let arguments: Vec<OsString> = std::env::args_os().collect();
     let parsed = Cli::command()
         .color(wanted_color(&arguments))

@@ -67,7 +67,7 @@ fn shorten(line: &str, at: Position) -> (String, usize) {
 }
 
 /// The text without characters that would move the cursor or change the terminal.
-fn harmless(text: &str) -> String {
+pub(super) fn harmless(text: &str) -> String {
     text.chars()
         .map(|c| if c.is_control() && c != '\n' { ' ' } else { c })
         .collect()

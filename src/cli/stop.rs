@@ -4,8 +4,9 @@ use super::refusal;
 use clap::ColorChoice;
 use drapery::Error;
 use std::io::{self, Write};
-use std::panic::PanicHookInfo;
+use std::panic::{self, PanicHookInfo, UnwindSafe};
 use std::process::ExitCode;
+use std::sync::Once;
 
 const REFUSED: u8 = 2;
 const BUG: u8 = 3;
@@ -85,8 +86,16 @@ pub(super) fn usage(error: &clap::Error) -> ExitCode {
     u8::try_from(error.exit_code()).map_or(ExitCode::from(REFUSED), ExitCode::from)
 }
 
-/// The last words of a bug that nobody caught, in whatever thread it shows.
-pub(super) fn panicked(info: &PanicHookInfo<'_>) {
-    let _ = writeln!(io::stderr(), "internal error: {info}\n{HOW_TO_REPORT}");
-    std::process::exit(i32::from(BUG));
+/// Runs the program to its end, a bug's too: what it has begun to write is cleaned up on the way out.
+pub(super) fn guarded(program: impl FnOnce() -> ExitCode + UnwindSafe) -> ExitCode {
+    panic::set_hook(Box::new(panicked));
+    panic::catch_unwind(program).unwrap_or(ExitCode::from(BUG))
+}
+
+/// The last words of a bug that nobody caught, in whatever thread it shows; one bug may show in several.
+fn panicked(info: &PanicHookInfo<'_>) {
+    static SAID: Once = Once::new();
+    SAID.call_once(|| {
+        let _ = writeln!(io::stderr(), "internal error: {info}\n{HOW_TO_REPORT}");
+    });
 }

@@ -217,6 +217,11 @@ fn metres_per_degree_at(crs: &Crs, lat: f64) -> DVec2 {
 }
 
 impl PlanFrom {
+    /// The CRS of the file.
+    pub fn file(&self) -> &Crs {
+        &self.file
+    }
+
     /// The map as shift and scale, where it is one (so that a grid stays a grid). For the local plane this holds for
     /// longitudes within half a turn of the centre.
     pub fn affine(&self) -> Option<Affine> {

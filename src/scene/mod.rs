@@ -152,6 +152,11 @@ impl Posts {
         &mut self.heights
     }
 
+    /// The heights, without the grid.
+    pub fn into_heights(self) -> Vec<f64> {
+        self.heights
+    }
+
     /// Where post (i, j) stands.
     #[inline(always)]
     pub fn plan(&self, i: usize, j: usize) -> Plan {

@@ -2,4 +2,5 @@
 
 pub mod dem;
 pub mod generate;
+pub mod load;
 pub mod vector;

@@ -23,6 +23,7 @@
 //! ```
 
 mod build;
+mod canon;
 mod check;
 mod keys;
 mod names;
@@ -74,7 +75,8 @@ impl SceneFile {
         if let Value::Table(table) = &root.value {
             check::table(&origin, table, &root.place, &keys::ROOT, "")?;
         }
-        build::scene(&origin, root)
+        let hash = canon::hash(&root);
+        build::scene(&origin, root).map(|scene| SceneFile { hash, ..scene })
     }
 
     /// Reads a scene file.

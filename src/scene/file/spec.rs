@@ -10,6 +10,8 @@ use std::path::PathBuf;
 /// A scene file's content.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SceneFile {
+    /// The file it was read from, to name it where one of its lines is to blame.
+    pub path: Option<PathBuf>,
     /// The scene's name; without one, the file's name without its extension, or `scene`.
     pub name: String,
     /// The plan space asked for.
@@ -28,6 +30,10 @@ pub struct SceneFile {
     pub device: Device,
     /// Parameters of the techniques.
     pub technique: TechniqueSettings,
+    /// BLAKE3 of what the file says, overrides made: of its keys and values in a fixed order and spelling, so that
+    /// comments, layout, names and the file's own place do not matter. A default that is written out does, and so do
+    /// paths as they are written; what the files there hold does not.
+    pub hash: String,
 }
 
 /// A data file that the scene names.

@@ -11,7 +11,7 @@ use glam::DVec2;
 /// # Guarantees
 /// At least 2 x 2 posts; all posts at finite, distinct places.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Frame {
+pub(in crate::source) struct Frame {
     pub(super) columns: usize,
     pub(super) rows: usize,
     /// The first post in the file: usually the north-west one.
@@ -92,6 +92,11 @@ impl Frame {
         Ok(())
     }
 
+    /// Whether columns run straight east and rows straight south.
+    pub(in crate::source) fn is_upright(&self) -> bool {
+        self.column.x > 0.0 && self.column.y == 0.0 && self.row.x == 0.0 && self.row.y < 0.0
+    }
+
     /// Where the post in column `c` and row `r` stands (both may be fractions).
     pub(super) fn at(&self, c: f64, r: f64) -> DVec2 {
         self.first + self.column * c + self.row * r
@@ -122,7 +127,7 @@ impl Frame {
     }
 
     /// The box around all cells, half a cell larger than the posts': what GIS programs show.
-    pub(super) fn edges(&self) -> [f64; 4] {
+    pub(in crate::source) fn edges(&self) -> [f64; 4] {
         bounding(self.corners_grown(0.5))
     }
 

@@ -22,7 +22,7 @@
 //! [`Posts`]: crate::scene::Posts
 
 mod ascii;
-mod frame;
+pub(super) mod frame;
 mod geo_keys;
 mod geotiff;
 mod grid;
@@ -32,7 +32,7 @@ mod open;
 mod png;
 mod summary;
 mod text;
-mod world_file;
+pub(super) mod world_file;
 mod xyz;
 
 #[cfg(test)]

@@ -12,7 +12,7 @@ use std::io::{BufReader, Read};
 use std::path::{Path, PathBuf};
 
 /// The frame of an image that has a world file beside it.
-pub(super) fn frame_beside(image: &Path, size: (usize, usize)) -> Result<Option<Frame>> {
+pub(in crate::source) fn frame_beside(image: &Path, size: (usize, usize)) -> Result<Option<Frame>> {
     let Some(path) = path_beside(image) else {
         return Ok(None);
     };

@@ -24,6 +24,7 @@ pub(super) fn scene(origin: &Origin<'_>, root: Node) -> Result<SceneFile> {
         root.integer::<i64>("schema")?;
         let child = |root: &mut Section<'_>, key: &str| root.take_or_empty(key);
         Ok(SceneFile {
+            path: origin.path.map(Path::to_path_buf),
             name: root.text("name")?.unwrap_or_else(|| stem(origin.path, "scene")),
             crs: root.text("crs")?,
             image: Section::read(origin, child(root, "image"), image)?,
@@ -33,6 +34,8 @@ pub(super) fn scene(origin: &Origin<'_>, root: Node) -> Result<SceneFile> {
             compositing: Section::read(origin, child(root, "compositing"), compositing)?,
             device: Section::read(origin, child(root, "device"), device)?,
             technique: Section::read(origin, child(root, "technique"), technique)?,
+            // Of the whole tree, which is being taken apart here.
+            hash: String::new(),
         })
     })
 }

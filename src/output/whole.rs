@@ -1,6 +1,4 @@
-//! Files that appear whole or not at all.
-//!
-//! Input: a path and a function that writes. Output: the file. Refuses nothing; on any failure the path is as it was.
+//! One file that appears whole or not at all: on any failure the path is as it was.
 
 use crate::error::{Error, Result};
 use std::fs::{self, File, OpenOptions};
@@ -31,7 +29,8 @@ pub fn write_whole(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result
         })
 }
 
-fn fill(file: File, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+/// Writes a new file through a buffer.
+pub(super) fn fill(file: File, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
     let mut buffered = BufWriter::new(file);
     write(&mut buffered)?;
     buffered.flush()

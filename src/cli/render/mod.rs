@@ -1,0 +1,125 @@
+//! `drapery render [SCENE]`
+
+mod draw;
+mod techniques;
+
+use super::bar::Bar;
+use super::refusal::harmless;
+use super::scene_input::SceneInput;
+use super::stop::{Outcome, Status};
+use drapery::output::{Batch, RESULT_SCHEMA, RenderResult, RunResult, SceneResult};
+use drapery::scene::file::SceneFile;
+use drapery::technique::{Kind, Stage};
+use drapery::{Result, parallel, source};
+use draw::{Drawing, Wish};
+use std::path::PathBuf;
+
+const EXAMPLES: &str = "\
+Examples:
+  drapery render                                        the built-in scene, every technique
+  drapery render scene.toml -t truth -o pictures        only the right picture
+  drapery render scene.toml -t inverse-projection --set technique.inverse-projection.samples=5
+  drapery render scene.toml --set layer.roads.line.width_m=20 --set 'camera.eye=[0,-5000,3000]'
+  drapery render scene.toml -t truth --buffers depth,lo,hi
+  drapery new dem.tif roads.shp | drapery render -
+
+Writes DIR/T.png for each technique T, DIR/result.json, and DIR/T.NAME.npy and DIR/T.NAME.png for each buffer: all of
+them, or none when something fails.";
+
+#[derive(Debug, clap::Args)]
+#[command(after_long_help = EXAMPLES)]
+pub(super) struct Arguments {
+    /// The scene file, `-` for stdin; without it, a built-in generated scene.
+    scene: Option<PathBuf>,
+    /// How to render; may be repeated. Default: the truth and every technique that applies.
+    #[arg(short, long = "technique", value_name = "T")]
+    techniques: Vec<techniques::Name>,
+    /// Change the scene: a dotted path and a TOML value; may be repeated. No value removes the key.
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    overrides: Vec<String>,
+    /// Where the pictures and result.json go; made where it is missing.
+    #[arg(short, long, value_name = "DIR", default_value = "out")]
+    output: PathBuf,
+    /// Intermediate buffers to write beside the picture: names such as depth,lo, or all.
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    buffers: Vec<String>,
+    /// How many threads; 0: as many as the machine has. The pictures are the same.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    threads: usize,
+    /// Time so many runs and tell the median.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
+    repeat: u32,
+}
+
+pub(super) fn run(arguments: &Arguments) -> Outcome {
+    let asked = techniques::asked(&arguments.techniques)?;
+    let scene = SceneInput::read(arguments.scene.as_deref(), &arguments.overrides)?;
+    let batch = Batch::into(&arguments.output)?;
+    let bar = Bar::new();
+    let runs = parallel::with_threads(arguments.threads, || {
+        render(arguments, &asked, &scene.file, batch, &bar)
+    })?;
+    for run in runs.map_err(|error| scene.blame(error))? {
+        bar.say(&told(arguments, &run));
+    }
+    Ok(Status::Passed)
+}
+
+/// Renders a scene; the files are in their places when it returns.
+fn render(
+    arguments: &Arguments,
+    asked: &[Kind],
+    file: &SceneFile,
+    mut batch: Batch,
+    bar: &Bar,
+) -> Result<Vec<RunResult>> {
+    let (scene, surface) = source::load::load(file, &|what| bar.start(what))?;
+    for note in &scene.notes {
+        bar.say(&format!("note: {}", harmless(note)));
+    }
+    let stage = Stage::new(scene, surface)?;
+    let kinds = techniques::applying(asked, &stage, bar)?;
+    let wish = Wish {
+        buffers: techniques::buffers(&arguments.buffers, &kinds, &stage)?,
+        repeat: arguments.repeat,
+    };
+
+    let mut drawing = Drawing {
+        stage: &stage,
+        batch: &mut batch,
+        bar,
+    };
+    let runs: Result<Vec<RunResult>> = kinds.iter().map(|kind| drawing.run(*kind, &wish)).collect();
+
+    let result = RenderResult {
+        schema: RESULT_SCHEMA,
+        scene: scene_result(&stage, file),
+        runs: runs?,
+    };
+    let text = result.to_json()?;
+    batch.stage("result.json", |to| to.write_all(text.as_bytes()))?;
+    batch.commit()?;
+    Ok(result.runs)
+}
+
+fn scene_result(stage: &Stage, file: &SceneFile) -> SceneResult {
+    let scene = &stage.scene;
+    SceneResult {
+        name: scene.name.clone(),
+        hash: file.hash.clone(),
+        plan_space: scene.plan_space.clone(),
+        origin: scene.origin.to_array(),
+        notes: scene.notes.clone(),
+    }
+}
+
+/// A run in a line, for people.
+fn told(arguments: &Arguments, run: &RunResult) -> String {
+    format!(
+        "{}  {}  prepare {:.0} ms  frame {:.0} ms",
+        run.technique,
+        arguments.output.join(&run.image.path).display(),
+        run.prepare_ms,
+        run.frame_ms,
+    )
+}

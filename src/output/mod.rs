@@ -1,0 +1,22 @@
+//! Values -> files: pictures, buffers, `result.json`; each file appears whole or not at all.
+//!
+//! Input: pictures, [`Plane`](crate::buffer::Plane)s and what is to be told of a run. Output: the bytes of PNG, .npy
+//! and JSON files, written beside their place and renamed; the files of one run appear together ([`Batch`]).
+//! Refuses: values that are not a number and planes whose values do not fill them (bugs of ours), and places that
+//! cannot be written.
+
+mod batch;
+mod look;
+mod npy;
+mod picture;
+mod result;
+mod whole;
+
+pub use batch::Batch;
+pub use look::look;
+pub use npy::{Npy, absolute};
+pub use picture::write_png;
+pub use result::{
+    BufferResult, ByName, ErrorResult, ImageResult, RESULT_SCHEMA, RenderResult, RunResult, SceneResult,
+};
+pub use whole::write_whole;

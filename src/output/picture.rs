@@ -1,0 +1,42 @@
+//! Pictures as PNG.
+
+use crate::buffer::Buffer;
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use image::{ExtendedColorType, ImageEncoder};
+use std::io::{self, Write};
+
+/// Writes a picture as an 8-bit RGBA PNG. Compressed for speed: a run writes many, and hashes are of the pixels, not
+/// of the file.
+///
+/// # Errors
+/// Those of the writer, and a picture that PNG cannot hold.
+pub fn write_png(picture: &Buffer<[u8; 4]>, to: &mut dyn Write) -> io::Result<()> {
+    let size = |n: usize| u32::try_from(n).map_err(io::Error::other);
+    let (width, height) = (size(picture.width())?, size(picture.height())?);
+    PngEncoder::new_with_quality(to, CompressionType::Fast, FilterType::Adaptive)
+        .write_image(
+            picture.values().as_flattened(),
+            width,
+            height,
+            ExtendedColorType::Rgba8,
+        )
+        .map_err(io::Error::other)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_picture_is_read_back_with_its_transparency() {
+        let values = (0..35u8)
+            .map(|v| [v, 255 - v, v.wrapping_mul(37), v * 7])
+            .collect();
+        let picture = Buffer::from_values(7, 5, values);
+        let mut file = Vec::new();
+        write_png(&picture, &mut file).unwrap();
+        let back = image::load_from_memory(&file).unwrap().into_rgba8();
+        assert_eq!(back.dimensions(), (7, 5));
+        assert_eq!(back.as_raw(), picture.values().as_flattened());
+    }
+}

@@ -1,0 +1,268 @@
+//! `result.json`: what a run of `render` tells to programs.
+//!
+//! Keys stand in the order of the fields here, numbers are written so that they are read back as they were, and
+//! nothing names the machine, the day or a path outside the folder.
+
+use crate::error::{Error, Result};
+use crate::scene::Device;
+use crate::scene::file::Named;
+use serde::ser::{Serialize, SerializeMap, Serializer};
+use serde_json::Value;
+
+/// The version of the layout: it grows when something that was there changes or goes.
+pub const RESULT_SCHEMA: u32 = 1;
+
+/// The whole file.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct RenderResult {
+    /// [`RESULT_SCHEMA`].
+    pub schema: u32,
+    /// What was drawn.
+    pub scene: SceneResult,
+    /// How, by each technique.
+    pub runs: Vec<RunResult>,
+}
+
+/// What was drawn.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct SceneResult {
+    /// The scene's name.
+    pub name: String,
+    /// [`SceneFile::hash`](crate::scene::file::SceneFile::hash).
+    pub hash: String,
+    /// What the plan space is.
+    pub plan_space: String,
+    /// Absolute plan coordinates of the local zero point.
+    pub origin: [f64; 2],
+    /// What the user should know about the input.
+    pub notes: Vec<String>,
+}
+
+/// One technique's run.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct RunResult {
+    /// The technique's name.
+    pub technique: String,
+    /// Its parameters, by their names in the scene file.
+    pub parameters: ByName,
+    /// The machine that was imitated, as the scene file writes it.
+    pub device: ByName,
+    /// The picture.
+    pub image: ImageResult,
+    /// Milliseconds to build the structures that do not depend on the camera: the median of all runs.
+    pub prepare_ms: f64,
+    /// Milliseconds to draw a frame, without the buffers that were asked for: the median of all runs.
+    pub frame_ms: f64,
+    /// Bytes of the technique's structures.
+    pub structure_bytes: usize,
+    /// What was counted.
+    pub counts: ByName,
+    /// How far the picture is from the truth.
+    pub error: ErrorResult,
+    /// The buffers that were asked for.
+    pub buffers: Vec<BufferResult>,
+}
+
+/// A picture.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct ImageResult {
+    /// Its file in the folder.
+    pub path: String,
+    /// Pixels a row.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    /// BLAKE3 over the pixel values in row order.
+    pub hash: String,
+}
+
+/// How far a picture is from the truth, in units of 1; `None` (null) where no truth was computed.
+#[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize)]
+pub struct ErrorResult {
+    /// The largest.
+    pub max: Option<f64>,
+    /// The mean.
+    pub mean: Option<f64>,
+    /// The root of the mean square.
+    pub rmse: Option<f64>,
+    /// What 99 of 100 values do not exceed.
+    pub p99: Option<f64>,
+    /// The share of pixels that are off by more than 1/255.
+    pub over_one_code_value: Option<f64>,
+    /// The width of the widest interval of the truth.
+    pub reference_width_max: Option<f64>,
+}
+
+/// A buffer.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct BufferResult {
+    /// Its name.
+    pub name: String,
+    /// Its file in the folder.
+    pub path: String,
+    /// BLAKE3 over its values in scene-local coordinates (the file has absolute ones), so that it is the same for a
+    /// scene that is moved as a whole.
+    pub hash: String,
+}
+
+/// Values by name, in an order of their own.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ByName(pub Vec<(String, Value)>);
+
+impl ByName {
+    /// Texts; those that are numbers become numbers.
+    pub fn from_texts<'a>(texts: impl IntoIterator<Item = (&'a str, String)>) -> Self {
+        let value = |text: String| match serde_json::from_str(&text) {
+            Ok(number @ Value::Number(_)) => number,
+            _ => Value::String(text),
+        };
+        Self::from_pairs(texts.into_iter().map(|(name, text)| (name, value(text))))
+    }
+
+    /// Values.
+    pub fn from_pairs<'a, V: Into<Value>>(pairs: impl IntoIterator<Item = (&'a str, V)>) -> Self {
+        let pairs = pairs.into_iter();
+        Self(
+            pairs
+                .map(|(name, value)| (name.to_owned(), value.into()))
+                .collect(),
+        )
+    }
+}
+
+impl ByName {
+    /// A device as a scene file writes it under `[device]`.
+    pub fn from_device(device: &Device) -> Self {
+        Self::from_pairs([
+            ("precision", Value::from(device.precision.word())),
+            ("subpixel_bits", device.subpixel_bits.into()),
+            ("depth", device.depth.word().into()),
+            ("stencil_bits", device.stencil_bits.into()),
+            ("max_line_width_px", device.max_line_width_px.into()),
+        ])
+    }
+}
+
+impl Serialize for ByName {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(self.0.len()))?;
+        for (name, value) in &self.0 {
+            map.serialize_entry(name, value)?;
+        }
+        map.end()
+    }
+}
+
+impl RenderResult {
+    /// The text of the file.
+    ///
+    /// # Errors
+    /// Internal errors only.
+    pub fn to_json(&self) -> Result<String> {
+        let text = serde_json::to_string_pretty(self);
+        let text = text.map_err(|error| Error::internal(format!("result.json: {error}")))?;
+        Ok(text + "\n")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn example() -> RenderResult {
+        RenderResult {
+            schema: RESULT_SCHEMA,
+            scene: SceneResult {
+                name: "valley".into(),
+                hash: "00".into(),
+                plan_space: "EPSG:32733".into(),
+                origin: [500_000.1, 0.0],
+                notes: vec!["a \"note\"".into()],
+            },
+            runs: vec![RunResult {
+                technique: "inverse-projection".into(),
+                parameters: ByName::from_texts([("samples", "3".into()), ("corners", "true".into())]),
+                device: ByName::from_device(&Device::default()),
+                image: ImageResult {
+                    path: "inverse-projection.png".into(),
+                    width: 2,
+                    height: 1,
+                    hash: "11".into(),
+                },
+                prepare_ms: 0.1,
+                frame_ms: 2.0,
+                structure_bytes: 12,
+                counts: ByName::from_pairs([("refused", u64::MAX), ("full", 1)]),
+                error: ErrorResult::default(),
+                buffers: Vec::new(),
+            }],
+        }
+    }
+
+    #[test]
+    fn the_file_has_the_fields_of_the_contract_in_its_order() {
+        insta::assert_snapshot!(example().to_json().unwrap(), @r#"
+        {
+          "schema": 1,
+          "scene": {
+            "name": "valley",
+            "hash": "00",
+            "plan_space": "EPSG:32733",
+            "origin": [
+              500000.1,
+              0.0
+            ],
+            "notes": [
+              "a \"note\""
+            ]
+          },
+          "runs": [
+            {
+              "technique": "inverse-projection",
+              "parameters": {
+                "samples": 3,
+                "corners": "true"
+              },
+              "device": {
+                "precision": "f64",
+                "subpixel_bits": 0,
+                "depth": "f32-reversed",
+                "stencil_bits": 8,
+                "max_line_width_px": 10.0
+              },
+              "image": {
+                "path": "inverse-projection.png",
+                "width": 2,
+                "height": 1,
+                "hash": "11"
+              },
+              "prepare_ms": 0.1,
+              "frame_ms": 2.0,
+              "structure_bytes": 12,
+              "counts": {
+                "refused": 18446744073709551615,
+                "full": 1
+              },
+              "error": {
+                "max": null,
+                "mean": null,
+                "rmse": null,
+                "p99": null,
+                "over_one_code_value": null,
+                "reference_width_max": null
+              },
+              "buffers": []
+            }
+          ]
+        }
+        "#);
+    }
+
+    #[test]
+    fn numbers_are_read_back_as_they_were() {
+        let back: Value = serde_json::from_str(&example().to_json().unwrap()).unwrap();
+        assert_eq!(back["scene"]["origin"][0], 500_000.1);
+        assert_eq!(back["runs"][0]["counts"]["refused"], u64::MAX);
+        assert_eq!(back["runs"][0]["parameters"]["samples"], 3);
+    }
+}

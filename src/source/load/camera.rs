@@ -1,0 +1,90 @@
+//! The camera: where the scene says, else from the south with the layers in view.
+
+use super::blame::of_key;
+use super::layer;
+use super::terrain::{Terrain, height_range};
+use crate::error::{Error, Result};
+use crate::math::max;
+use crate::scene::file::{SceneFile, Spot, check_view};
+use crate::scene::{Camera, Layer, Projection};
+use crate::space::{Plan, PlanBox, ViewFrame, World};
+use glam::{DVec2, DVec3};
+
+/// The least share of the terrain that a view chosen by the program shows.
+const LEAST: f64 = 1.0 / 32.0;
+
+/// The camera of a scene, in local coordinates.
+pub(super) fn camera(scene: &SceneFile, terrain: &Terrain, layers: &[Layer]) -> Result<Camera> {
+    let spec = &scene.camera;
+    let (eye, target) = match spec.view {
+        Some(view) => {
+            let spot = |spot, key| place(spot, terrain).map_err(|error| of_key(scene, key, error));
+            (
+                spot(view.eye, "camera.eye_geo")?,
+                spot(view.target, "camera.target_geo")?,
+            )
+        }
+        None => framing(scene, terrain, layers),
+    };
+    check_view(eye.to_vec(), target.to_vec(), spec.up).map_err(|error| of_key(scene, "camera", error))?;
+    Ok(Camera {
+        eye,
+        target,
+        up: spec.up,
+        projection: spec.projection,
+        near_m: spec.near_m,
+        far_m: spec.far_m,
+    })
+}
+
+/// A spot in local coordinates.
+fn place(spot: Spot, terrain: &Terrain) -> Result<World> {
+    let at: DVec3 = match spot {
+        Spot::Plan(at) => at,
+        Spot::Geo(at) => {
+            let space = terrain.place.space.as_ref().ok_or_else(|| {
+                Error::new("longitude and latitude have no place in a plan without a CRS")
+                    .help("say the scene's `crs` or the terrain's, or write plan coordinates: eye, target")
+            })?;
+            space.plan_from_geographic(at.x, at.y)?.extend(at.z)
+        }
+    };
+    let plan = at.truncate() + terrain.place.shift(DVec2::ZERO);
+    Ok(World::from(plan.extend(at.z)))
+}
+
+/// Eye and target of a view that shows the layers, or the terrain where there are none on it.
+fn framing(scene: &SceneFile, terrain: &Terrain, layers: &[Layer]) -> (World, World) {
+    let bounds = subject(terrain, layers);
+    let fov_y_deg = match scene.camera.projection {
+        Projection::Perspective { fov_y_deg } => fov_y_deg,
+        Projection::Orthographic { .. } => 45.0,
+    };
+    let aspect = scene.image.width as f64 / scene.image.height as f64;
+    ViewFrame::framing(
+        &bounds,
+        height_range(&terrain.surface, &bounds),
+        fov_y_deg,
+        aspect,
+    )
+}
+
+/// What is worth seeing: the layers' box as far as there is terrain.
+fn subject(terrain: &Terrain, layers: &[Layer]) -> PlanBox {
+    let whole = terrain.bounds;
+    let mut seen = PlanBox::EMPTY;
+    for feature in layers.iter().flat_map(|layer| &layer.features) {
+        let of = layer::bounds(&feature.shape);
+        if of.meets(&whole) {
+            let (low, high) = (whole.min.to_vec(), whole.max.to_vec());
+            seen.include(Plan::from(of.min.to_vec().clamp(low, high)));
+            seen.include(Plan::from(of.max.to_vec().clamp(low, high)));
+        }
+    }
+    if seen.is_empty() {
+        return whole;
+    }
+    let (size, all) = (seen.max - seen.min, whole.max - whole.min);
+    let lacking = max(all.x, all.y) * LEAST - max(size.x, size.y);
+    seen.grown(max(0.5 * lacking, 0.0))
+}

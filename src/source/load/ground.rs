@@ -1,0 +1,90 @@
+//! The terrain's own colour.
+
+use super::blame::Named;
+use super::terrain::Terrain;
+use crate::buffer::Buffer;
+use crate::error::{Error, Result};
+use crate::scene::file::{GroundSpec, SceneFile};
+use crate::scene::{Color, Ground, Imagery};
+use crate::source::dem::world_file;
+use crate::space::{Plan, PlanBox};
+use glam::DVec2;
+use image::{ImageReader, Limits};
+use std::path::Path;
+
+/// The most texels of an image (1 GiB of colours).
+const MOST_TEXELS: usize = 1 << 25;
+
+/// The ground that a scene asks for.
+pub(super) fn ground(scene: &SceneFile, terrain: &Terrain, progress: &dyn Fn(&str)) -> Result<Ground> {
+    let file = match &scene.terrain.ground {
+        GroundSpec::Color(color) => return Ok(Ground::Color(*color)),
+        GroundSpec::Hillshade(color) => return Ok(Ground::Hillshade(*color)),
+        GroundSpec::Imagery(file) => file,
+    };
+    let named = Named::new(scene, file);
+    named.require()?;
+    progress(&format!("reading {}", file.written));
+    imagery(named.path(), terrain)
+        .map(Ground::Imagery)
+        .map_err(|error| named.blame(error))
+}
+
+fn imagery(path: &Path, terrain: &Terrain) -> Result<Imagery> {
+    let texels = texels(path)?;
+    let extent = extent(path, (texels.width(), texels.height()), terrain)?;
+    Ok(Imagery { texels, extent })
+}
+
+fn texels(path: &Path) -> Result<Buffer<Color>> {
+    let refuse = |error: &dyn std::fmt::Display| {
+        Error::new(format!("the image cannot be read: {error}")).help("imagery is a PNG")
+    };
+    let mut reader = ImageReader::open(path)
+        .and_then(ImageReader::with_guessed_format)
+        .map_err(|error| refuse(&error))?;
+    let mut limits = Limits::default();
+    limits.max_alloc = Some(8 * MOST_TEXELS as u64);
+    reader.limits(limits);
+    let image = reader.decode().map_err(|error| refuse(&error))?;
+    let (width, height) = (image.width() as usize, image.height() as usize);
+    if width * height > MOST_TEXELS {
+        return Err(Error::new(format!("{width} x {height} texels are too many"))
+            .help(format!("at most {MOST_TEXELS} in all: make the image smaller")));
+    }
+    // 16 bits hold 8-bit values exactly: v * 257 / 65535 = v / 255.
+    let colors = image.into_rgba16();
+    let color = |pixel: &image::Rgba<u16>| Color(pixel.0.map(|v| f64::from(v) / 65535.0));
+    Ok(Buffer::from_values(
+        width,
+        height,
+        colors.pixels().map(color).collect(),
+    ))
+}
+
+/// What the image covers: what a world file beside it says, in the coordinates of the plan's CRS, else the terrain.
+fn extent(path: &Path, size: (usize, usize), terrain: &Terrain) -> Result<PlanBox> {
+    let Some(frame) = world_file::frame_beside(path, size)? else {
+        return Ok(terrain.bounds);
+    };
+    if !frame.is_upright() {
+        return Err(Error::new("the world file beside the image turns or mirrors it")
+            .help("warp it upright first: gdalwarp FILE OUT.tif"));
+    }
+    let [x0, y0, x1, y1] = frame.edges();
+    let corners = [DVec2::new(x0, y0), DVec2::new(x1, y1)];
+    // The image lies on the terrain wherever that is moved.
+    let shift = -terrain.place.anchor;
+    let place = |p: DVec2| -> Result<Plan> {
+        let plan = match &terrain.place.space {
+            Some(space) => space.plan_from(space.crs())?.apply(p)?,
+            None => p,
+        };
+        Ok(Plan::from(plan + shift))
+    };
+    let [low, high] = corners.map(place);
+    Ok(PlanBox {
+        min: low?,
+        max: high?,
+    })
+}

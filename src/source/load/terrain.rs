@@ -1,0 +1,322 @@
+//! The terrain: read or generated, in local coordinates.
+
+use super::blame::{Named, of_key};
+use super::place::{Map, Place, crs_of, default_plan_space, scale_error};
+use super::resample;
+use crate::crs::{Affine, Crs, PlanSpace};
+use crate::error::{Error, Result};
+use crate::math::{max, min};
+use crate::scene::file::{DataFile, HeightEncoding, SceneFile, TerrainSource};
+use crate::scene::{Posts, Surface};
+use crate::source::dem::{self, Dem, DemOptions, PngEncoding};
+use crate::source::generate;
+use crate::space::{Plan, PlanBox, World};
+use glam::DVec2;
+
+/// The terrain in local coordinates, and where those are.
+pub(super) struct Terrain {
+    pub(super) surface: Surface,
+    pub(super) place: Place,
+    /// The rectangle of the plan that it lies in, local.
+    pub(super) bounds: PlanBox,
+}
+
+/// Reads or makes the terrain of a scene.
+pub(super) fn terrain(
+    scene: &SceneFile,
+    progress: &dyn Fn(&str),
+    notes: &mut Vec<String>,
+) -> Result<Terrain> {
+    let (mut surface, space, anchor) = match &scene.terrain.source {
+        TerrainSource::Generate(generator) => {
+            progress("making the terrain");
+            let surface = Surface::Grid(generate::terrain(generator)?);
+            (surface, asked_plan(scene)?, DVec2::ZERO)
+        }
+        TerrainSource::File(file) => from_file(scene, file, progress, notes)?,
+    };
+    stretch(&mut surface, scene.terrain.vertical_scale)?;
+    let offset = scene.terrain.offset;
+    let bounds = bounds(&surface);
+    Ok(Terrain {
+        bounds,
+        surface,
+        place: Place {
+            space,
+            anchor,
+            offset,
+        },
+    })
+}
+
+/// The plan that the scene asks for.
+fn asked_plan(scene: &SceneFile) -> Result<Option<PlanSpace>> {
+    let parse = |text: &String| Crs::parse(text).and_then(PlanSpace::projected);
+    let parsed = scene.crs.as_ref().map(parse).transpose();
+    parsed.map_err(|error| of_key(scene, "crs", error))
+}
+
+type Placed = (Surface, Option<PlanSpace>, DVec2);
+
+fn from_file(
+    scene: &SceneFile,
+    file: &DataFile,
+    progress: &dyn Fn(&str),
+    notes: &mut Vec<String>,
+) -> Result<Placed> {
+    let named = Named::new(scene, file);
+    named.require()?;
+    let asked = asked_plan(scene)?;
+    progress(&format!("reading {}", file.written));
+    let dem = dem::read(named.path(), &options(scene)).map_err(|error| named.blame(error))?;
+    let note = &mut |text: String| notes.push(format!("terrain: {text}"));
+    dem.notes.iter().for_each(|text| note(text.clone()));
+    let own = own_crs(scene, &dem, asked.is_some(), note).map_err(|error| named.blame(error))?;
+    let extent = bounds(&dem.surface);
+    let (space, map) = plan_and_map(asked, own, extent, note).map_err(|error| named.blame(error))?;
+    let resampled =
+        matches!((&map, &dem.surface), (Map::From(map), Surface::Grid(_)) if map.affine().is_none());
+    if resampled {
+        progress(&format!("resampling {}", file.written));
+    }
+    let (surface, anchor) =
+        to_plan(dem.surface, &map, space.as_ref(), note).map_err(|error| named.blame(error))?;
+    Ok((surface, space, anchor))
+}
+
+fn options(scene: &SceneFile) -> DemOptions {
+    DemOptions {
+        window: scene.terrain.window,
+        encoding: scene.terrain.encoding.map(|encoding| match encoding {
+            HeightEncoding::Terrarium => PngEncoding::Terrarium,
+            HeightEncoding::Mapbox => PngEncoding::Mapbox,
+        }),
+        bounds: scene.terrain.bounds,
+    }
+}
+
+/// The CRS of the terrain's data: what the scene says, else what the file says.
+fn own_crs(
+    scene: &SceneFile,
+    dem: &Dem,
+    plan_asked: bool,
+    note: &mut dyn FnMut(String),
+) -> Result<Option<Crs>> {
+    let crs = match (&scene.terrain.crs, &dem.crs_hint) {
+        (Some(text), _) => Some(Crs::parse(text).map_err(|error| of_key(scene, "terrain.crs", error))?),
+        (None, None) => None,
+        (None, Some(hint)) => match crs_of(hint) {
+            Ok(crs) => Some(crs),
+            Err(error) if plan_asked => {
+                return Err(error.help("say it in the scene: terrain.crs = \"EPSG:...\""));
+            }
+            Err(error) => {
+                note(format!(
+                    "{}; its coordinates are taken as they are, in metres",
+                    error.what()
+                ));
+                None
+            }
+        },
+    };
+    if let Some(text) = crs.as_ref().and_then(Crs::note) {
+        note(text);
+    }
+    Ok(crs)
+}
+
+/// The scene's plan, and how the terrain gets there.
+fn plan_and_map(
+    asked: Option<PlanSpace>,
+    own: Option<Crs>,
+    extent: PlanBox,
+    note: &mut dyn FnMut(String),
+) -> Result<(Option<PlanSpace>, Map)> {
+    let PlanBox { min: low, max: high } = extent;
+    let (space, own) = match (asked, own) {
+        (None, None) => {
+            note(without_crs(extent));
+            return Ok((None, Map::AsIs));
+        }
+        (Some(space), None) => {
+            note(format!(
+                "the file does not say its CRS: taken for the scene's, {}",
+                space.describe()
+            ));
+            let own = space.crs().clone();
+            (space, own)
+        }
+        (Some(space), Some(own)) => (space, own),
+        (None, Some(own)) => {
+            let space = default_plan_space(own.clone(), [low.x, low.y, high.x, high.y])?;
+            (space, own)
+        }
+    };
+    if let Some((east, north)) = scale_error(&space, low.y, high.y) {
+        note(format!(
+            "in degrees: drawn in the {}, which is up to {:.3} % off east-west and {:.3} % off north-south at the edges",
+            space.describe(),
+            100.0 * east,
+            100.0 * north
+        ));
+    }
+    let map = space.plan_from(&own)?;
+    if map.affine().is_none() {
+        note(format!("reprojected from {} to {}", own.name(), space.describe()));
+    }
+    Ok((Some(space), Map::From(map)))
+}
+
+/// What to say of a terrain whose place is not known.
+fn without_crs(extent: PlanBox) -> String {
+    let PlanBox { min: low, max: high } = extent;
+    let size = high - low;
+    let on_the_globe = low.x >= -180.0 && high.x <= 360.0 && low.y >= -90.0 && high.y <= 90.0;
+    let degrees = on_the_globe && low != Plan::default() && max(size.x, size.y) < 40.0;
+    let hint = if degrees {
+        " (they look like degrees: if so, say terrain.crs = \"EPSG:4326\")"
+    } else {
+        ""
+    };
+    format!("no CRS is known: coordinates are taken as they are, in metres{hint}")
+}
+
+/// A surface in its file's coordinates as one in local coordinates, and its anchor.
+fn to_plan(
+    surface: Surface,
+    map: &Map,
+    space: Option<&PlanSpace>,
+    note: &mut dyn FnMut(String),
+) -> Result<(Surface, DVec2)> {
+    let on_local_plane = space.is_some_and(|space| space.center().is_some());
+    let anchor = |bounds: PlanBox| {
+        if on_local_plane {
+            DVec2::ZERO
+        } else {
+            middle(bounds)
+        }
+    };
+    match (surface, map) {
+        (Surface::Points(points), map) => {
+            let points = map_points(points, map)?;
+            let anchor = anchor(PlanBox::around(points.iter().map(|p| p.plan())));
+            let local = |p: World| World::new(p.x - anchor.x, p.y - anchor.y, p.z);
+            Ok((Surface::Points(points.into_iter().map(local).collect()), anchor))
+        }
+        (Surface::Grid(posts), Map::From(map)) if map.affine().is_none() => {
+            let resampled = resample::resample(&posts, map)?;
+            let cell = DVec2::new(resampled.posts.east().x, resampled.posts.north().y);
+            note(format!(
+                "resampled (bilinear) to {} x {} posts, {} m x {} m apart",
+                resampled.posts.columns(),
+                resampled.posts.rows(),
+                cell.x,
+                cell.y
+            ));
+            Ok((Surface::Grid(resampled.posts), resampled.anchor))
+        }
+        (Surface::Grid(posts), map) => {
+            let affine = match map {
+                Map::From(map) => map.affine(),
+                Map::AsIs => None,
+            };
+            let mut posts = scaled(posts, affine)?;
+            let anchor = anchor(grid_bounds(&posts));
+            posts.first = posts.first + -anchor;
+            Ok((Surface::Grid(posts), anchor))
+        }
+    }
+}
+
+fn map_points(mut points: Vec<World>, map: &Map) -> Result<Vec<World>> {
+    for (index, p) in points.iter_mut().enumerate() {
+        let q = map.apply(p.plan()).map_err(|error| error.in_feature(index))?;
+        *p = World::new(q.x, q.y, p.z);
+    }
+    Ok(points)
+}
+
+/// The grid, shifted and scaled by an affine map.
+fn scaled(posts: Posts, affine: Option<Affine>) -> Result<Posts> {
+    let Some(Affine { origin, scale }) = affine else {
+        return Ok(posts);
+    };
+    let first = Plan::from((posts.first.to_vec() - origin) * scale);
+    let steps = (posts.east() * scale, posts.north() * scale);
+    Posts::new(
+        (posts.columns(), posts.rows()),
+        first,
+        steps,
+        posts.into_heights(),
+    )
+}
+
+/// Multiplies the heights.
+fn stretch(surface: &mut Surface, by: f64) -> Result<()> {
+    if by == 1.0 {
+        return Ok(());
+    }
+    let mut infinite = false;
+    let mut scale = |z: &mut f64| {
+        *z *= by;
+        infinite |= z.is_infinite();
+    };
+    match surface {
+        Surface::Grid(posts) => posts.heights_mut().iter_mut().for_each(scale),
+        Surface::Points(points) => points.iter_mut().for_each(|p| scale(&mut p.z)),
+    }
+    if infinite {
+        return Err(Error::new(format!(
+            "`terrain.vertical_scale` = {by} makes heights infinite"
+        )));
+    }
+    Ok(())
+}
+
+/// The rectangle that a surface lies in.
+pub(super) fn bounds(surface: &Surface) -> PlanBox {
+    match surface {
+        Surface::Grid(posts) => grid_bounds(posts),
+        Surface::Points(points) => PlanBox::around(points.iter().map(|p| p.plan())),
+    }
+}
+
+fn grid_bounds(posts: &Posts) -> PlanBox {
+    let (i, j) = (posts.columns() - 1, posts.rows() - 1);
+    PlanBox::around([(0, 0), (i, 0), (0, j), (i, j)].map(|(i, j)| posts.plan(i, j)))
+}
+
+/// The middle of a box, rounded to whole metres.
+pub(super) fn middle(bounds: PlanBox) -> DVec2 {
+    let sum = bounds.min.to_vec() * 0.5 + bounds.max.to_vec() * 0.5;
+    DVec2::new(sum.x.round() + 0.0, sum.y.round() + 0.0)
+}
+
+/// The lowest and highest height of a surface inside a rectangle; of all of it where nothing lies inside.
+pub(super) fn height_range(surface: &Surface, within: &PlanBox) -> (f64, f64) {
+    let inside = |p: Plan| within.meets(&PlanBox { min: p, max: p });
+    let (mut near, mut all) = (NOTHING, NOTHING);
+    let mut take = |p: World| {
+        if inside(p.plan()) {
+            near = joined(near, p.z);
+        }
+        all = joined(all, p.z);
+    };
+    match surface {
+        Surface::Grid(posts) => {
+            for j in 0..posts.rows() {
+                (0..posts.columns()).for_each(|i| take(posts.world(i, j)));
+            }
+        }
+        Surface::Points(points) => points.iter().for_each(|p| take(*p)),
+    }
+    let range = if near.0 <= near.1 { near } else { all };
+    if range.0 <= range.1 { range } else { (0.0, 0.0) }
+}
+
+const NOTHING: (f64, f64) = (f64::INFINITY, f64::NEG_INFINITY);
+
+/// A range grown to a height; NaN adds nothing.
+fn joined((low, high): (f64, f64), z: f64) -> (f64, f64) {
+    (min(z, low), max(z, high))
+}
