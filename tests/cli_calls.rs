@@ -185,24 +185,77 @@ fn colours_come_only_where_they_are_wanted() {
     assert!(!refused(forced, 2).contains(escape), "NO_COLOR is honoured");
 }
 
-#[test]
-fn a_starter_scene_names_the_files_as_given_and_is_a_scene() {
+/// A folder with a small terrain and a road in another file.
+fn valley() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
-    for name in ["dem.tif", "roads.shp"] {
-        std::fs::write(folder.path().join(name), "").unwrap();
-    }
-    let dem_only = done(
-        drapery(&["new", "dem.tif"])
-            .current_dir(folder.path())
-            .output()
-            .unwrap(),
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    write(
+        "dem.asc",
+        "ncols 3\nnrows 2\nxllcenter 9\nyllcenter 46\ncellsize 0.01\nNODATA_value -9999\n1 2 3\n4 5 -9999\n",
     );
+    write(
+        "dem.prj",
+        "GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,298.257223563]],PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433],AUTHORITY[\"EPSG\",\"4326\"]]",
+    );
+    write(
+        "road.geojson",
+        r#"{"type":"LineString","coordinates":[[9.001,46.002],[9.012,46.007]]}"#,
+    );
+    folder
+}
+
+fn called_in(folder: &tempfile::TempDir, arguments: &[&str]) -> Output {
+    drapery(arguments).current_dir(folder.path()).output().unwrap()
+}
+
+#[test]
+fn a_starter_scene_names_the_files_as_given_and_loads() {
+    let folder = valley();
+    let text = done(called_in(&folder, &["new", "dem.asc", "road.geojson"]));
     assert!(
-        dem_only.contains("source = \"dem.tif\"") && dem_only.starts_with("# A scene for drapery."),
-        "{dem_only}"
+        text.contains("source = \"dem.asc\"") && text.starts_with("# A scene for drapery."),
+        "{text}"
     );
-    let scene = drapery::scene::file::SceneFile::parse(&dem_only, None, &[]).unwrap();
-    assert_eq!(scene.name, "dem");
+    let path = folder.path().join("scene.toml");
+    std::fs::write(&path, &text).unwrap();
+    let scene = drapery::scene::file::SceneFile::read(&path, &[]).unwrap();
+    let (scene, _) = drapery::source::load::load(&scene, &|_| ()).unwrap();
+    assert_eq!((scene.layers.len(), scene.layers[0].features.len()), (1, 1));
+    assert!(done(called_in(&folder, &["info", "scene.toml"])).contains("layer       road (road.geojson)"));
+}
+
+#[test]
+fn info_says_what_a_terrain_holds_in_aligned_lines() {
+    let folder = valley();
+    let text = done(called_in(&folder, &["info", "dem.asc"]));
+    for line in [
+        "dem.asc: terrain, Esri ASCII grid",
+        "  posts       3 x 2 (6)",
+        "  heights     1 to 5",
+        "  no data     -9999; 1 posts (16.7 %) hold none",
+    ] {
+        assert!(text.lines().any(|l| l == line), "{line}: {text}");
+    }
+    let text = done(called_in(&folder, &["info", "road.geojson"]));
+    assert!(
+        text.contains("  features    1 (1 lines)\n  parts       1\n  vertices    2\n"),
+        "{text}"
+    );
+}
+
+#[test]
+fn info_on_what_is_no_data_file_exits_with_2() {
+    let folder = valley();
+    let said = refused(called_in(&folder, &["info", "dom.asc"]), 2);
+    assert!(
+        said.starts_with("error: dom.asc: this file cannot be read"),
+        "{said}"
+    );
+    let said = refused(called_in(&folder, &["info", "dem.prj"]), 2);
+    assert!(
+        said.contains("terrain files of the kind .prj are unknown"),
+        "{said}"
+    );
 }
 
 #[test]

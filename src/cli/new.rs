@@ -1,9 +1,13 @@
 //! `drapery new DEM [VECTOR]...`
 
+use super::info::encoding_name;
 use super::stop::Outcome;
-use drapery::scene::Shape;
+use drapery::crs::{Crs, PlanSpace};
+use drapery::source::dem::{self, DemOptions, DemSummary, PngEncoding};
+use drapery::source::load;
+use drapery::source::vector::{self, VectorSummary};
+use drapery::space::{Plan, PlanBox};
 use drapery::{Error, Result};
-use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, clap::Args)]
@@ -22,17 +26,68 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments) -> Outcome {
     require(&arguments.dem)?;
-    let mut text = head(&name_of(&arguments.dem), &arguments.dem)?;
-    let mut names: Vec<String> = Vec::new();
+    let mut vectors = Vec::new();
     for path in &arguments.vectors {
-        let name = unused(&name_of(path), &names);
-        text.push_str(&layer(&name, path, Kinds::of(path)?, names.len())?);
+        require(path)?;
+        let summaries = vector::describe(path)?;
+        vectors.extend(summaries.into_iter().map(|summary| (path.as_path(), summary)));
+    }
+    let terrain = Terrain::of(&arguments.dem)?;
+    super::print(&scene(&terrain, &vectors)?)
+}
+
+/// What is known of the terrain's file.
+struct Terrain<'a> {
+    path: &'a Path,
+    summary: DemSummary,
+    encoding: Option<PngEncoding>,
+}
+
+impl<'a> Terrain<'a> {
+    fn of(path: &'a Path) -> Result<Self> {
+        let (summary, encoding) = dem::describe_guessing(path, &DemOptions::default())?;
+        Ok(Self {
+            path,
+            summary,
+            encoding,
+        })
+    }
+
+    /// The plan that the scene will have, where the file states a CRS.
+    fn plan(&self) -> Option<PlanSpace> {
+        let crs = load::crs_of(self.summary.crs_hint.as_ref()?).ok()?;
+        load::default_plan_space(crs, self.summary.bounds).ok()
+    }
+
+    /// The diagonal in plan metres.
+    fn diagonal(&self) -> f64 {
+        let [x0, y0, x1, y1] = self.summary.bounds;
+        let plan = self.plan();
+        let metre = plan
+            .as_ref()
+            .and_then(|plan| plan.crs().metres_per_unit())
+            .unwrap_or(1.0);
+        let local = plan.as_ref().and_then(PlanSpace::metres_per_degree);
+        let (east, north) = local.unwrap_or((metre, metre));
+        let (x, y) = ((x1 - x0) * east, (y1 - y0) * north);
+        (x * x + y * y).sqrt()
+    }
+}
+
+/// The whole scene file.
+fn scene(terrain: &Terrain<'_>, vectors: &[(&Path, VectorSummary)]) -> Result<String> {
+    let mut text = head(terrain, vectors)?;
+    let mut names: Vec<String> = Vec::new();
+    let width = two_digits(terrain.diagonal() / 600.0);
+    for (path, summary) in vectors {
+        let name = unused(&summary.layer.clone().unwrap_or_else(|| name_of(path)), &names);
+        text.push_str(&layer(&name, path, summary, (names.len(), width))?);
         names.push(name);
     }
     if names.is_empty() {
         text.push_str(NO_LAYER);
     }
-    super::print(&text)
+    Ok(text)
 }
 
 const CAMERA: &str = r##"
@@ -50,28 +105,22 @@ const NO_LAYER: &str = r##"
 # line = { color = "#ff7f00", width_m = 12.0, join = "round", cap = "round" }
 "##;
 
-/// Colours of fill and line, taken in turn.
-const COLORS: [(&str, &str); 5] = [
-    ("#3388ff", "#ff7f00"),
-    ("#6aa84f", "#cc0000"),
-    ("#e3c567", "#674ea7"),
-    ("#b98a8f", "#1d4e79"),
-    ("#93c47d", "#434343"),
+/// Colours of fill, outline and line, taken in turn.
+const COLORS: [(&str, &str, &str); 5] = [
+    ("#3388ff", "#1d4e79", "#ff7f00"),
+    ("#6aa84f", "#38611f", "#cc0000"),
+    ("#e3c567", "#7f6000", "#674ea7"),
+    ("#b98a8f", "#8a5a62", "#1d4e79"),
+    ("#93c47d", "#274e13", "#434343"),
 ];
 
 /// All but the layers.
-fn head(name: &str, dem: &Path) -> Result<String> {
-    let source = quoted(dem)?;
-    let is_png = dem
-        .extension()
-        .is_some_and(|extension| extension.eq_ignore_ascii_case("png"));
-    let encoding = if is_png { "" } else { "# " };
+fn head(terrain: &Terrain<'_>, vectors: &[(&Path, VectorSummary)]) -> Result<String> {
     Ok(format!(
         r##"# A scene for drapery. `drapery schema` describes every key; paths are relative to this file.
 schema = 1
 name = {name}
-# crs = "EPSG:32733"                   # the plan space; default: the terrain's own if it is projected
-
+{plan}
 [image]
 width = 1200
 height = 800
@@ -79,82 +128,112 @@ background = "#dce9f2"
 {CAMERA}
 [terrain]
 source = {source}
-{encoding}encoding = "terrarium"             # how a PNG encodes heights: or "mapbox"
-# bounds = [x0, y0, x1, y1]            # the rectangle that a PNG covers
-# window = [x0, y0, x1, y1]            # read only this part, in the file's own coordinates
+{crs}{encoding}# window = [x0, y0, x1, y1]            # read only this part, in the file's own coordinates
 vertical_scale = 1.0
 color = "#efe6d2"
 shade = "hillshade"
 "##,
-        name = quoted_text(name),
+        name = quoted_text(&name_of(terrain.path)),
+        plan = plan_lines(terrain),
+        source = quoted(terrain.path)?,
+        crs = crs_lines(terrain, vectors)?,
+        encoding = encoding_lines(terrain),
     ))
 }
 
-fn layer(name: &str, path: &Path, kinds: Kinds, number: usize) -> Result<String> {
-    let (fill, line) = COLORS[number % COLORS.len()];
+/// What the plan is.
+fn plan_lines(terrain: &Terrain<'_>) -> String {
+    let what = match terrain.plan() {
+        Some(plan) => harmless(&plan.describe()),
+        None => "the terrain's coordinates, in metres".into(),
+    };
+    format!(
+        "# The plan: {what}.\n# crs = \"EPSG:32733\"                   # another plan space; the terrain is resampled\n"
+    )
+}
+
+/// The terrain's CRS, where its file does not state one.
+fn crs_lines(terrain: &Terrain<'_>, vectors: &[(&Path, VectorSummary)]) -> Result<String> {
+    if terrain.plan().is_some() {
+        return Ok(String::new());
+    }
+    let guess = vectors.iter().find_map(|(path, summary)| {
+        let code = summary.crs.as_ref().and_then(Crs::epsg)?;
+        summary
+            .bounds
+            .meets(&bounds(&terrain.summary))
+            .then_some((*path, code))
+    });
+    Ok(match guess {
+        Some((path, code)) => format!(
+            "crs = \"EPSG:{code}\"                    # the file does not say it: taken from {}, which lies on it\n",
+            quoted(path)?
+        ),
+        None => "# crs = \"EPSG:32733\"                   # the file does not say it\n".into(),
+    })
+}
+
+fn bounds(summary: &DemSummary) -> PlanBox {
+    let [x0, y0, x1, y1] = summary.bounds;
+    PlanBox {
+        min: Plan::new(x0, y0),
+        max: Plan::new(x1, y1),
+    }
+}
+
+/// What a PNG does not say itself.
+fn encoding_lines(terrain: &Terrain<'_>) -> String {
+    let Some(encoding) = terrain.encoding else {
+        return String::new();
+    };
+    let [low, high] = terrain.summary.heights.unwrap_or_default();
+    format!(
+        "encoding = \"{}\"{:<18}# its heights are then {low:.1} to {high:.1}; the other encoding gives none on Earth\n\
+         # bounds = [x0, y0, x1, y1]            # the rectangle that the PNG covers, in the terrain's crs\n",
+        encoding_name(encoding),
+        ""
+    )
+}
+
+/// The table of a layer; `(number, width)`: its place among the layers, and how wide a line is to be seen.
+fn layer(name: &str, path: &Path, summary: &VectorSummary, (number, width): (usize, f64)) -> Result<String> {
+    if summary.features > 0 && summary.polygons + summary.lines == 0 {
+        let what = summary
+            .layer
+            .as_ref()
+            .map_or(String::new(), |layer| format!(", layer {}", quoted_text(layer)));
+        return Ok(format!(
+            "\n# {}{what} holds nothing that is drawn: polygons and lines are.\n",
+            quoted(path)?
+        ));
+    }
+    let (fill, border, line) = COLORS[number % COLORS.len()];
     let mut text = format!(
         "\n[[layer]]\nname = {}\nsource = {}\n",
         quoted_text(name),
         quoted(path)?
     );
-    let mut push = |style: String| {
-        // Writing into a string cannot fail.
-        let _ = writeln!(text, "{style}");
-    };
-    if kinds.polygons {
-        push(format!("fill = {{ color = \"{fill}\", opacity = 0.6 }}"));
-        push(format!(
-            "# outline = {{ color = \"{line}\", width_m = 4.0, mode = \"inset\" }}"
-        ));
+    if let Some(layer) = &summary.layer {
+        text += &format!("layer = {}\n", quoted_text(layer));
     }
-    if kinds.lines {
-        push(format!(
-            "line = {{ color = \"{line}\", width_m = 12.0, join = \"round\", cap = \"round\" }}   # or width_px = 3.0"
-        ));
+    let neither = summary.polygons + summary.lines == 0;
+    if summary.polygons > 0 || neither {
+        text += &format!("fill = {{ color = \"{fill}\", opacity = 0.6 }}\n");
+        let thin = two_digits(width / 3.0);
+        text += &format!("outline = {{ color = \"{border}\", width_m = {thin}, mode = \"inset\" }}\n");
+    }
+    if summary.lines > 0 || neither {
+        text += &format!(
+            "line = {{ color = \"{line}\", width_m = {width}, join = \"round\", cap = \"round\" }}   # or width_px = 3.0\n"
+        );
     }
     Ok(text)
 }
 
-/// What a vector file holds, as far as it decides which styles a layer needs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Kinds {
-    polygons: bool,
-    lines: bool,
-}
-
-impl Kinds {
-    const BOTH: Self = Self {
-        polygons: true,
-        lines: true,
-    };
-
-    /// Looks into the file; one that is empty gets both styles.
-    fn of(path: &Path) -> Result<Self> {
-        require(path)?;
-        match drapery::source::vector::read(path, None) {
-            Ok(file) => Ok(Self::of_shapes(
-                file.features.iter().map(|feature| &feature.shape),
-            )),
-            Err(error) if error.is_internal() => Ok(Self::BOTH),
-            Err(error) => Err(error),
-        }
-    }
-
-    fn of_shapes<'a>(shapes: impl Iterator<Item = &'a Shape>) -> Self {
-        let mut kinds = Self {
-            polygons: false,
-            lines: false,
-        };
-        shapes.for_each(|shape| match shape {
-            Shape::Polygon(_) => kinds.polygons = true,
-            Shape::Line(_) => kinds.lines = true,
-        });
-        if kinds.polygons || kinds.lines {
-            kinds
-        } else {
-            Self::BOTH
-        }
-    }
+/// A width to two digits.
+fn two_digits(width: f64) -> f64 {
+    let rounded = format!("{width:.1e}").parse().unwrap_or(width);
+    if rounded > 0.0 { rounded } else { 1.0 }
 }
 
 fn require(path: &Path) -> Result<()> {
@@ -186,41 +265,53 @@ fn quoted(path: &Path) -> Result<String> {
     path.to_str().map(quoted_text).ok_or_else(refuse)
 }
 
+/// A text on one line, for a comment: names in files may hold anything.
+fn harmless(text: &str) -> String {
+    text.chars()
+        .map(|c| if c.is_control() { ' ' } else { c })
+        .collect()
+}
+
+/// A text as a TOML string on one line.
 fn quoted_text(text: &str) -> String {
-    toml::Value::from(text).to_string()
+    let mut quoted = String::from("\"");
+    for c in text.chars() {
+        match c {
+            '"' | '\\' => quoted.extend(['\\', c]),
+            c if c.is_control() => quoted += &format!("\\u{:04X}", c as u32),
+            c => quoted.push(c),
+        }
+    }
+    quoted + "\""
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use drapery::scene::file::SceneFile;
+    use drapery::scene::file::{LayerSource, SceneFile};
+
+    const GRID: &str = "ncols 3\nnrows 2\nxllcenter 0\nyllcenter 0\ncellsize 100\n1 2 3\n4 5 6\n";
+    const BOTH: &str = r#"{"type":"FeatureCollection","features":[
+        {"type":"Feature","properties":{},"geometry":{"type":"LineString","coordinates":[[0,0],[100,50]]}},
+        {"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":[[[0,0],[100,50],[0,50],[0,0]]]}}]}"#;
 
     #[test]
     fn a_starter_scene_parses_whatever_its_files_are_called() {
-        for name in [
-            "dem.tif",
-            "dem.PNG",
-            "a \"b\" 'c' \\ #.tif",
-            "höhen.asc",
-            "'''\"\"\".hgt",
-        ] {
-            let path = Path::new(name);
-            let mut text = head(&name_of(path), path).unwrap();
-            text.push_str(&layer("x\"y", path, Kinds::BOTH, 0).unwrap());
-            text.push_str(
-                &layer(
-                    "z",
-                    path,
-                    Kinds {
-                        polygons: true,
-                        lines: false,
-                    },
-                    7,
-                )
-                .unwrap(),
-            );
-            let scene = SceneFile::parse(&text, None, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
-            assert_eq!(scene.layers.len(), 2);
+        let folder = tempfile::tempdir().unwrap();
+        for name in ["dem", "a \"b\" 'c' \\ #", "höhen", "'''\"\"\"", "new\nline\ttab"] {
+            let grid = folder.path().join(format!("{name}.asc"));
+            let json = folder.path().join(format!("{name}.json"));
+            std::fs::write(&grid, GRID).unwrap();
+            std::fs::write(&json, BOTH).unwrap();
+            let summary = || vector::describe(&json).unwrap().remove(0);
+            let vectors = [(json.as_path(), summary()), (json.as_path(), summary())];
+            let text = scene(&Terrain::of(&grid).unwrap(), &vectors).unwrap();
+            let parsed = SceneFile::parse(&text, None, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
+            assert_eq!(parsed.layers[1].name, format!("{name}-2"));
+            let LayerSource::File { file, .. } = &parsed.layers[0].source else {
+                panic!("no file")
+            };
+            assert_eq!(file.path, json);
         }
     }
 
@@ -230,16 +321,10 @@ mod tests {
     }
 
     #[test]
-    fn styles_follow_what_the_file_holds() {
-        let (polygon, line) = (Shape::Polygon(Vec::new()), Shape::Line(Vec::new()));
+    fn widths_have_two_digits() {
         assert_eq!(
-            Kinds::of_shapes([&polygon].into_iter()),
-            Kinds {
-                polygons: true,
-                lines: false
-            }
+            [145.6, 0.0123, 9.96, 0.0].map(two_digits),
+            [150.0, 0.012, 10.0, 1.0]
         );
-        assert_eq!(Kinds::of_shapes([&polygon, &line].into_iter()), Kinds::BOTH);
-        assert_eq!(Kinds::of_shapes([].into_iter()), Kinds::BOTH);
     }
 }

@@ -39,7 +39,7 @@ mod xyz;
 mod tests;
 
 pub use geo_keys::CrsHint;
-pub use summary::{DemSummary, describe};
+pub use summary::{DemSummary, describe, describe_guessing};
 
 use crate::error::{Error, Result};
 use crate::scene::Surface;

@@ -43,6 +43,13 @@ pub(super) fn open(path: &Path, options: &DemOptions) -> Result<DemFile> {
     Ok(DemFile::Grid(grid))
 }
 
+/// Whether a file begins like a PNG.
+pub(super) fn is_png(path: &Path) -> bool {
+    let mut magic = [0; 4];
+    let read = open_file(path).map(|mut file| file.read_exact(&mut magic).is_ok());
+    read.unwrap_or(false) && magic == [0x89, b'P', b'N', b'G']
+}
+
 /// Opens a plain file for reading.
 fn open_file(path: &Path) -> Result<File> {
     let refuse = |e: io::Error| Error::new(format!("cannot be opened: {e}")).help("check the path");

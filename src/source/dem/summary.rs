@@ -3,8 +3,8 @@
 use super::grid::{GridFile, RowSink};
 use super::open::{self, DemFile};
 use super::xyz::{self, Xyz};
-use super::{CrsHint, DemOptions};
-use crate::error::Result;
+use super::{CrsHint, DemOptions, PngEncoding};
+use crate::error::{Error, Result};
 use crate::math::{max, min};
 use std::io::Read;
 use std::path::Path;
@@ -53,6 +53,37 @@ pub fn describe(path: &Path, options: &DemOptions) -> Result<DemSummary> {
         DemFile::Points(mut file) => describe_points(&mut file),
     };
     describe().map_err(|error| error.in_file(path))
+}
+
+/// As [`describe`], but for a PNG without an encoding it tries both, and tells which gives heights that the Earth has.
+///
+/// # Errors
+/// As [`describe`]; and for a PNG that makes sense in neither encoding or in both.
+pub fn describe_guessing(path: &Path, options: &DemOptions) -> Result<(DemSummary, Option<PngEncoding>)> {
+    let is_png = matches!(options.encoding, None if open::is_png(path));
+    if !is_png {
+        return describe(path, options).map(|summary| (summary, options.encoding));
+    }
+    let mut plausible = Vec::new();
+    for encoding in [PngEncoding::Terrarium, PngEncoding::Mapbox] {
+        let encoded = DemOptions {
+            encoding: Some(encoding),
+            ..*options
+        };
+        let summary = describe(path, &encoded)?;
+        if summary
+            .heights
+            .is_some_and(|[low, high]| low >= -11_500.0 && high <= 9_000.0)
+        {
+            plausible.push((summary, Some(encoding)));
+        }
+    }
+    match plausible.pop() {
+        Some(found) if plausible.is_empty() => Ok(found),
+        _ => Err(Error::new("its colours do not tell how they encode heights")
+            .help("say it: encoding = \"terrarium\" or encoding = \"mapbox\"")
+            .in_file(path)),
+    }
 }
 
 fn describe_grid(file: &mut dyn GridFile) -> Result<DemSummary> {
