@@ -159,6 +159,7 @@ fn the_result_has_every_field_of_the_contract_and_no_path_of_the_machine() {
         result["scene"]["origin"],
         serde_json::json!([500_000.0, 7_000_000.0])
     );
+    assert!(result["notes"].is_array());
     let runs = result["runs"].as_array().unwrap();
     assert_eq!(runs.len(), Kind::ALL.len());
     for run in runs {
@@ -184,7 +185,14 @@ fn the_result_has_every_field_of_the_contract_and_no_path_of_the_machine() {
             assert!(keys(&run["error"]).contains(&key), "{key}");
         }
         assert!(run["counts"].is_object());
-        assert_eq!(run["device"]["depth"], "f32-reversed");
+        let device = serde_json::json!({
+            "precision": "f64",
+            "subpixel_bits": 0,
+            "depth": "f32-reversed",
+            "stencil_bits": 8,
+            "max_line_width_px": 10.0
+        });
+        assert_eq!(run["device"], device);
         assert_eq!(
             (&run["image"]["width"], &run["image"]["height"]),
             (&96.into(), &64.into())

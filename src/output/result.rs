@@ -4,8 +4,6 @@
 //! nothing names the machine, the day or a path outside the folder.
 
 use crate::error::{Error, Result};
-use crate::scene::Device;
-use crate::scene::file::Named;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use serde_json::Value;
 
@@ -19,6 +17,8 @@ pub struct RenderResult {
     pub schema: u32,
     /// What was drawn.
     pub scene: SceneResult,
+    /// What the user should know about the input.
+    pub notes: Vec<String>,
     /// How, by each technique.
     pub runs: Vec<RunResult>,
 }
@@ -28,14 +28,12 @@ pub struct RenderResult {
 pub struct SceneResult {
     /// The scene's name.
     pub name: String,
-    /// [`SceneFile::hash`](crate::scene::file::SceneFile::hash).
+    /// The hash of what the scene file says (`SceneFile::hash`).
     pub hash: String,
     /// What the plan space is.
     pub plan_space: String,
     /// Absolute plan coordinates of the local zero point.
     pub origin: [f64; 2],
-    /// What the user should know about the input.
-    pub notes: Vec<String>,
 }
 
 /// One technique's run.
@@ -130,19 +128,6 @@ impl ByName {
     }
 }
 
-impl ByName {
-    /// A device as a scene file writes it under `[device]`.
-    pub fn from_device(device: &Device) -> Self {
-        Self::from_pairs([
-            ("precision", Value::from(device.precision.word())),
-            ("subpixel_bits", device.subpixel_bits.into()),
-            ("depth", device.depth.word().into()),
-            ("stencil_bits", device.stencil_bits.into()),
-            ("max_line_width_px", device.max_line_width_px.into()),
-        ])
-    }
-}
-
 impl Serialize for ByName {
     fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(Some(self.0.len()))?;
@@ -177,12 +162,12 @@ mod tests {
                 hash: "00".into(),
                 plan_space: "EPSG:32733".into(),
                 origin: [500_000.1, 0.0],
-                notes: vec!["a \"note\"".into()],
             },
+            notes: vec!["a \"note\"".into()],
             runs: vec![RunResult {
                 technique: "inverse-projection".into(),
                 parameters: ByName::from_texts([("samples", "3".into()), ("corners", "true".into())]),
-                device: ByName::from_device(&Device::default()),
+                device: ByName::from_pairs([("precision", "f64")]),
                 image: ImageResult {
                     path: "inverse-projection.png".into(),
                     width: 2,
@@ -211,11 +196,11 @@ mod tests {
             "origin": [
               500000.1,
               0.0
-            ],
-            "notes": [
-              "a \"note\""
             ]
           },
+          "notes": [
+            "a \"note\""
+          ],
           "runs": [
             {
               "technique": "inverse-projection",
@@ -224,11 +209,7 @@ mod tests {
                 "corners": "true"
               },
               "device": {
-                "precision": "f64",
-                "subpixel_bits": 0,
-                "depth": "f32-reversed",
-                "stencil_bits": 8,
-                "max_line_width_px": 10.0
+                "precision": "f64"
               },
               "image": {
                 "path": "inverse-projection.png",

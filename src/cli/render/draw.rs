@@ -5,9 +5,12 @@ use crate::cli::bar::Bar;
 use drapery::buffer::Plane;
 use drapery::output::{Batch, BufferResult, ByName, ErrorResult, ImageResult, Npy, RunResult};
 use drapery::output::{absolute, look, write_png};
+use drapery::scene::Device;
+use drapery::scene::file::Named;
 use drapery::technique::{self, Frame, FrameOptions, Kind, Prepared, Stage};
 use drapery::visibility::TILE;
 use drapery::{Error, Result};
+use serde_json::Value;
 use std::time::Instant;
 
 /// The buffers that hold plan coordinates: scene-local in memory, absolute in files.
@@ -40,7 +43,7 @@ impl Drawing<'_> {
         Ok(RunResult {
             technique: name.into(),
             parameters: drawn.parameters,
-            device: ByName::from_device(&self.stage.scene.device),
+            device: device_words(&self.stage.scene.device),
             image: ImageResult {
                 path,
                 width: image.width(),
@@ -144,6 +147,17 @@ fn buffers_of(prepared: &dyn Prepared, wanted: &Buffers) -> Vec<String> {
     };
     let names = prepared.buffer_names().iter().filter(is_wanted);
     names.map(|name| (*name).to_owned()).collect()
+}
+
+/// A device as a scene file writes it under `[device]`.
+fn device_words(device: &Device) -> ByName {
+    ByName::from_pairs([
+        ("precision", Value::from(device.precision.word())),
+        ("subpixel_bits", device.subpixel_bits.into()),
+        ("depth", device.depth.word().into()),
+        ("stencil_bits", device.stencil_bits.into()),
+        ("max_line_width_px", device.max_line_width_px.into()),
+    ])
 }
 
 fn unequal(kind: Kind) -> Error {

@@ -94,6 +94,7 @@ fn render(
     let result = RenderResult {
         schema: RESULT_SCHEMA,
         scene: scene_result(&stage, file),
+        notes: stage.scene.notes.clone(),
         runs: runs?,
     };
     let text = result.to_json()?;
@@ -109,7 +110,6 @@ fn scene_result(stage: &Stage, file: &SceneFile) -> SceneResult {
         hash: file.hash.clone(),
         plan_space: scene.plan_space.clone(),
         origin: scene.origin.to_array(),
-        notes: scene.notes.clone(),
     }
 }
 
