@@ -232,13 +232,13 @@ fn info_says_what_a_terrain_holds_in_aligned_lines() {
         "dem.asc: terrain, Esri ASCII grid",
         "  posts       3 x 2 (6)",
         "  heights     1 to 5",
-        "  no data     -9999; 1 posts (16.7 %) hold none",
+        "  no data     -9999; 1 post (16.7 %) without data",
     ] {
         assert!(text.lines().any(|l| l == line), "{line}: {text}");
     }
     let text = done(called_in(&folder, &["info", "road.geojson"]));
     assert!(
-        text.contains("  features    1 (1 lines)\n  parts       1\n  vertices    2\n"),
+        text.contains("  features    1 (1 line)\n  parts       1\n  vertices    2\n"),
         "{text}"
     );
 }

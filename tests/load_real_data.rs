@@ -343,6 +343,11 @@ fn a_tile_of_colours_is_placed_by_its_bounds() {
         "{highest:?}"
     );
     assert!(
+        noted(&scene, "22.4 % longer than the ground"),
+        "{:?}",
+        scene.notes
+    );
+    assert!(
         folder
             .drapery(&["new", "fuji_mapbox.png"])
             .contains("encoding = \"mapbox\"")
@@ -424,7 +429,7 @@ fn info_tells_what_files_hold() {
     );
     let bare = folder.drapery(&["info", "avaWog.asc"]);
     assert!(
-        bare.contains("-9999; 94079 posts (34.6 %) hold none") && bare.contains("CRS         not stated"),
+        bare.contains("-9999; 94079 posts (34.6 %) without data") && bare.contains("CRS         not stated"),
         "{bare}"
     );
 }

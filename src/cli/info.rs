@@ -99,7 +99,8 @@ fn of_terrain(path: &Path, encoding: Option<Encoding>) -> Result<Table> {
         Some((columns, rows)) => table.row("posts", format!("{columns} x {rows} ({})", summary.count)),
         None => table.row("points", summary.count.to_string()),
     }
-    let stored = [&summary.sample, &summary.compression, &summary.layout].map(String::as_str);
+    let packed = summary.compression.replace("none", "uncompressed");
+    let stored = [&summary.sample, &packed, &summary.layout].map(String::as_str);
     table.row("stored as", stored.join(", "));
     if let Some(encoding) = guessed {
         let name = encoding_name(encoding);
@@ -140,7 +141,10 @@ fn no_data(summary: &DemSummary) -> String {
     let declared = summary.nodata.as_deref().unwrap_or("no value declared");
     match summary.nodata_count {
         0 => format!("{declared}; all posts hold data"),
-        count => format!("{declared}; {count} posts ({share:.1} %) hold none"),
+        count => format!(
+            "{declared}; {} ({share:.1} %) without data",
+            counted(count, "post")
+        ),
     }
 }
 
@@ -205,9 +209,9 @@ fn of_layer(path: &Path, summary: &VectorSummary) -> Table {
         .as_ref()
         .map_or(String::new(), |name| format!(", layer `{name}`"));
     let mut table = Table::new(format!("{}: vectors, {}{layer}", path.display(), summary.format));
-    let counts = [(summary.polygons, "polygons"), (summary.lines, "lines")];
+    let counts = [(summary.polygons, "polygon"), (summary.lines, "line")];
     let counts = counts.iter().filter(|(count, _)| *count > 0);
-    let kinds: Vec<String> = counts.map(|(count, kind)| format!("{count} {kind}")).collect();
+    let kinds: Vec<String> = counts.map(|(count, kind)| counted(*count, kind)).collect();
     let kinds = if kinds.is_empty() {
         "none that is drawn".into()
     } else {
@@ -275,6 +279,11 @@ fn camera(camera: &CameraSpec) -> String {
         Some(ViewSpec { eye, target }) => format!("from {} to {}", spot(eye), spot(target)),
         None => "from the south, framing the layers".into(),
     }
+}
+
+fn counted(count: usize, what: &str) -> String {
+    let plural = if count == 1 { "" } else { "s" };
+    format!("{count} {what}{plural}")
 }
 
 fn spans([x0, y0, x1, y1]: [f64; 4]) -> String {

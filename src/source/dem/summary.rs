@@ -60,7 +60,7 @@ pub fn describe(path: &Path, options: &DemOptions) -> Result<DemSummary> {
 /// # Errors
 /// As [`describe`]; and for a PNG that makes sense in neither encoding or in both.
 pub fn describe_guessing(path: &Path, options: &DemOptions) -> Result<(DemSummary, Option<PngEncoding>)> {
-    let is_png = matches!(options.encoding, None if open::is_png(path));
+    let is_png = options.encoding.is_none() && open::is_png(path);
     if !is_png {
         return describe(path, options).map(|summary| (summary, options.encoding));
     }

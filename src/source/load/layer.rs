@@ -118,13 +118,13 @@ fn map(own: Option<Crs>, terrain: &Terrain, file: &DataFile, notes: &mut Vec<Str
             file.written,
             space.crs().name()
         ));
-        return space.plan_from(space.crs()).map(Map::From);
+        return space.plan_from(space.crs()).map(|map| Map::From(Box::new(map)));
     };
     let map = space.plan_from(&own)?;
     if map.affine().is_none() {
         notes.push(format!("reprojected from {} to {}", own.name(), space.describe()));
     }
-    Ok(Map::From(map))
+    Ok(Map::From(Box::new(map)))
 }
 
 /// A feature taken to the plan, then shifted.

@@ -42,7 +42,7 @@ pub(super) enum Map {
     /// They are the plan's.
     AsIs,
     /// Through CRSs.
-    From(PlanFrom),
+    From(Box<PlanFrom>),
 }
 
 impl Map {
@@ -88,4 +88,16 @@ pub fn scale_error(space: &PlanSpace, south: f64, north: f64) -> Option<(f64, f6
     let at = |degrees: f64| space.scale_error_at(0.0, (degrees - latitude) * metres);
     let ((a, b), (c, d)) = (at(south), at(north));
     Some((max(a.abs(), c.abs()), max(b.abs(), d.abs())))
+}
+
+/// How many times as long as the ground a plan is at a place; `None` where that cannot be told.
+pub(super) fn stretch(space: &PlanSpace, at: DVec2) -> Option<f64> {
+    const STEP: f64 = 1000.0;
+    let here = space.geographic_from_plan(at).ok()?;
+    let there = space.geographic_from_plan(at + DVec2::new(STEP, 0.0)).ok()?;
+    let ground = PlanSpace::local_plane(here.x, here.y, Crs::crs84().ok()?).ok()?;
+    let (east, north) = ground.metres_per_degree()?;
+    let off = (there - here) * DVec2::new(east, north);
+    let stretch = STEP / off.length();
+    stretch.is_finite().then_some(stretch)
 }

@@ -2,7 +2,7 @@
 
 use super::blame::{Named, of_key};
 use super::place::{Map, Place, crs_of, default_plan_space, scale_error};
-use super::resample;
+use super::{place, resample};
 use crate::crs::{Affine, Crs, PlanSpace};
 use crate::error::{Error, Result};
 use crate::math::{max, min};
@@ -161,10 +161,30 @@ fn plan_and_map(
         ));
     }
     let map = space.plan_from(&own)?;
+    if let Some(text) = map
+        .apply((low.to_vec() + high.to_vec()) / 2.0)
+        .ok()
+        .and_then(|p| stretched(&space, p))
+    {
+        note(text);
+    }
     if map.affine().is_none() {
         note(format!("reprojected from {} to {}", own.name(), space.describe()));
     }
-    Ok((Some(space), Map::From(map)))
+    Ok((Some(space), Map::From(Box::new(map))))
+}
+
+/// What to say of a plan that shows the ground much longer or shorter than it is: heights look wrong beside it.
+fn stretched(space: &PlanSpace, at: DVec2) -> Option<String> {
+    let share = 100.0 * (place::stretch(space, at)? - 1.0);
+    let longer = if share > 0.0 { "longer" } else { "shorter" };
+    (share.abs() > 1.0).then(|| {
+        format!(
+            "lengths in {} are {:.1} % {longer} than the ground here, heights are not: `vertical_scale` makes up for it",
+            space.describe(),
+            share.abs()
+        )
+    })
 }
 
 /// What to say of a terrain whose place is not known.
