@@ -41,7 +41,9 @@ fn inverse_projection(c: &mut Criterion) {
         let mut stage = stage(segments);
         stage.scene.technique.inverse_projection.samples = 5;
         group.bench_function(BenchmarkId::new("prepare", segments), |b| {
-            b.iter(|| black_box(technique::prepare(Kind::InverseProjection, &stage).expect("widths in metres")));
+            b.iter(|| {
+                black_box(technique::prepare(Kind::InverseProjection, &stage).expect("widths in metres"))
+            });
         });
         let prepared = technique::prepare(Kind::InverseProjection, &stage).expect("widths in metres");
         let options = FrameOptions { tile: 128, buffers: &[], progress: &|_| {} };

@@ -21,7 +21,8 @@ const TERRAINS: [(usize, &str); 4] = [(40, "3k"), (224, "100k"), (1001, "2M"), (
 fn terrain(n: usize) -> Mesh {
     let step = 1.0 / (n - 1) as f64;
     let kind = TerrainKind::Fbm { seed: 7, wavelength_m: 0.25, octaves: 9 };
-    let rough = generate::terrain(&TerrainGenerator { kind, posts: (n, n), cell_m: step, height_m: 0.16 }).expect("valid numbers");
+    let rough = generate::terrain(&TerrainGenerator { kind, posts: (n, n), cell_m: step, height_m: 0.16 })
+        .expect("valid numbers");
     let posts =
         Posts::new((n, n), Plan::default(), (DVec2::X * step, DVec2::Y * step), rough.heights().to_vec());
     Mesh::new(Surface::Grid(posts.expect("finite heights")), Diagonal::NwSe).expect("few triangles")
@@ -58,7 +59,8 @@ fn plain_triangle(nearest: &mut [(f64, u32)], size: (usize, usize), id: u32, [a,
     for row in (y0 - 0.5).ceil() as usize..((y1 + 0.5) as usize).min(size.1) {
         for column in (x0 - 0.5).ceil() as usize..((x1 + 0.5) as usize).min(size.0) {
             let (x, y) = (column as f64 + 0.5, row as f64 + 0.5);
-            let [e, f, g] = [edge(b.0, c.0, x, y), edge(c.0, a.0, x, y), edge(a.0, b.0, x, y)].map(|e| e / area);
+            let [e, f, g] =
+                [edge(b.0, c.0, x, y), edge(c.0, a.0, x, y), edge(a.0, b.0, x, y)].map(|e| e / area);
             let depth = 1.0 / (e / a.1 + f / b.1 + g / c.1);
             let at = &mut nearest[row * size.0 + column];
             if e >= 0.0 && f >= 0.0 && g >= 0.0 && depth < at.0 {

@@ -14,11 +14,7 @@ pub struct Buffer<T> {
 impl<T: Clone> Buffer<T> {
     /// An image of one value.
     pub fn filled(width: usize, height: usize, value: T) -> Self {
-        Self {
-            width,
-            height,
-            values: vec![value; width * height],
-        }
+        Self { width, height, values: vec![value; width * height] }
     }
 }
 
@@ -29,11 +25,7 @@ impl<T> Buffer<T> {
     /// When there are not `width * height` values.
     pub fn from_values(width: usize, height: usize, values: Vec<T>) -> Self {
         assert_eq!(values.len(), width * height, "a buffer's values must fill it");
-        Self {
-            width,
-            height,
-            values,
-        }
+        Self { width, height, values }
     }
 
     /// Pixels a row.
@@ -77,11 +69,7 @@ impl<T> Buffer<T> {
 
     /// The image of `f` of each value.
     pub fn map<U>(&self, f: impl FnMut(&T) -> U) -> Buffer<U> {
-        Buffer {
-            width: self.width,
-            height: self.height,
-            values: self.values.iter().map(f).collect(),
-        }
+        Buffer { width: self.width, height: self.height, values: self.values.iter().map(f).collect() }
     }
 }
 

@@ -138,11 +138,7 @@ impl fmt::Display for Error {
         if let Some((scene, at)) = &inner.named {
             match scene {
                 Some(scene) => write!(f, "\n  named in {}:{}:{}", scene.display(), at.line, at.column)?,
-                None => write!(
-                    f,
-                    "\n  named in line {}, column {} of the scene",
-                    at.line, at.column
-                )?,
+                None => write!(f, "\n  named in line {}, column {} of the scene", at.line, at.column)?,
             }
         }
         if let Some(help) = &inner.help {

@@ -23,10 +23,7 @@ pub fn map_indices<U: Send>(n: usize, f: impl Fn(usize) -> U + Send + Sync) -> V
 
 /// Runs `f` over consecutive chunks of `chunk` values, each with its index.
 pub fn for_each_chunk<T: Send>(values: &mut [T], chunk: usize, f: impl Fn(usize, &mut [T]) + Send + Sync) {
-    values
-        .par_chunks_mut(chunk)
-        .enumerate()
-        .for_each(|(i, c)| f(i, c));
+    values.par_chunks_mut(chunk).enumerate().for_each(|(i, c)| f(i, c));
 }
 
 /// Runs `f` over every item.
@@ -44,11 +41,8 @@ pub fn sort_by_key<T: Send, K: Ord>(values: &mut [T], key: impl Fn(&T) -> K + Sy
 /// # Errors
 /// When the machine refuses the threads.
 pub fn with_threads<U: Send>(threads: usize, f: impl FnOnce() -> U + Send) -> Result<U> {
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .map_err(|e| {
-            Error::new(format!("cannot start {threads} threads: {e}")).help("use a smaller --threads")
-        })?;
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(|e| {
+        Error::new(format!("cannot start {threads} threads: {e}")).help("use a smaller --threads")
+    })?;
     Ok(pool.install(f))
 }

@@ -22,11 +22,7 @@ pub fn orient2d(a: Plan, b: Plan, p: Plan) -> f64 {
 /// The sign of det[a - d, b - d, c - d].
 #[inline]
 fn orient3d(a: World, b: World, c: World, d: World) -> f64 {
-    let c3 = |p: World| robust::Coord3D {
-        x: p.x,
-        y: p.y,
-        z: p.z,
-    };
+    let c3 = |p: World| robust::Coord3D { x: p.x, y: p.y, z: p.z };
     robust::orient3d(c3(a), c3(b), c3(c), c3(d))
 }
 
@@ -50,17 +46,10 @@ pub fn ray_side(frame: &ViewFrame, ray: &Ray, a: World, b: World) -> f64 {
 #[cold]
 fn tie_side(frame: &ViewFrame, ray: &Ray, a: World, b: World) -> f64 {
     for step in [frame.right(), -frame.up()] {
-        let step = Difference {
-            of: step,
-            minus: DVec3::ZERO,
-        };
+        let step = Difference { of: step, minus: DVec3::ZERO };
         let rows = match frame.lens() {
             Lens::Central { .. } => [Difference::new(a, ray.from), Difference::new(b, ray.from), step],
-            Lens::Parallel { .. } => [
-                Difference::new(b, a),
-                step,
-                Difference::new(ray.through, ray.from),
-            ],
+            Lens::Parallel { .. } => [Difference::new(b, a), step, Difference::new(ray.through, ray.from)],
         };
         let sign = -sign_of_det(&rows);
         if sign != 0.0 {
@@ -76,11 +65,7 @@ fn tie_side(frame: &ViewFrame, ray: &Ray, a: World, b: World) -> f64 {
 pub fn compare_along_ray(ray: &Ray, first: &[World; 3], second: &[World; 3]) -> Ordering {
     let (t1, t2) = (Parameter::new(ray, first), Parameter::new(ray, second));
     if (t1.value - t2.value).abs() > t1.error + t2.error {
-        return if t1.value < t2.value {
-            Ordering::Less
-        } else {
-            Ordering::Greater
-        };
+        return if t1.value < t2.value { Ordering::Less } else { Ordering::Greater };
     }
     let (n1, d1) = hit_fraction(ray, first);
     let (n2, d2) = hit_fraction(ray, second);
@@ -109,11 +94,7 @@ pub fn hit_parameter(ray: &Ray, triangle: &[World; 3]) -> f64 {
         return fast.value;
     }
     let (n, d) = hit_fraction(ray, triangle);
-    if d.0.is_empty() {
-        0.0
-    } else {
-        n.rounded() / d.rounded()
-    }
+    if d.0.is_empty() { 0.0 } else { n.rounded() / d.rounded() }
 }
 
 /// A ray's parameter at a triangle's plane in plain doubles, with a bound of its error (infinite or NaN when the plane
@@ -131,16 +112,9 @@ impl Parameter {
         let normal = u.cross(v);
         let (n, d) = (start.dot(normal), along.dot(normal));
         let (m, p) = (u.abs(), v.abs());
-        let spread = DVec3::new(
-            m.y * p.z + m.z * p.y,
-            m.z * p.x + m.x * p.z,
-            m.x * p.y + m.y * p.x,
-        );
+        let spread = DVec3::new(m.y * p.z + m.z * p.y, m.z * p.x + m.x * p.z, m.x * p.y + m.y * p.x);
         // Nine roundings bound each product's path (see `sign_of_det`), one more the quotient.
-        let (n_error, d_error) = (
-            10.0 * U * start.abs().dot(spread),
-            10.0 * U * along.abs().dot(spread),
-        );
+        let (n_error, d_error) = (10.0 * U * start.abs().dot(spread), 10.0 * U * along.abs().dot(spread));
         let value = n / d;
         let certain = d.abs() - d_error;
         let error = if certain > 0.0 {
@@ -148,10 +122,7 @@ impl Parameter {
         } else {
             f64::INFINITY
         };
-        Self {
-            value: if certain > 0.0 { value } else { 0.0 },
-            error,
-        }
+        Self { value: if certain > 0.0 { value } else { 0.0 }, error }
     }
 }
 
@@ -172,10 +143,7 @@ struct Difference {
 
 impl Difference {
     fn new(of: World, minus: World) -> Self {
-        Self {
-            of: of.to_vec(),
-            minus: minus.to_vec(),
-        }
+        Self { of: of.to_vec(), minus: minus.to_vec() }
     }
 
     fn rounded(&self) -> DVec3 {
@@ -198,11 +166,7 @@ fn sign_of_det(rows: &[Difference; 3]) -> f64 {
         m.x * (p.y * q.z + p.z * q.y) + m.y * (p.z * q.x + p.x * q.z) + m.z * (p.x * q.y + p.y * q.x);
     // Each of the six products carries at most 3 rounded differences, 2 products and 3 sums: 8 roundings, so
     // 9 U per product bounds the error with the higher-order terms.
-    if det.abs() > 9.0 * U * permanent || permanent == 0.0 {
-        det
-    } else {
-        exact_det(rows).sign()
-    }
+    if det.abs() > 9.0 * U * permanent || permanent == 0.0 { det } else { exact_det(rows).sign() }
 }
 
 /// A 3 x 3 determinant, exactly.
@@ -256,10 +220,7 @@ impl Expansion {
     }
 
     fn times(&self, other: &Self) -> Self {
-        other
-            .0
-            .iter()
-            .fold(Self(Vec::new()), |sum, &term| sum.plus(&self.scaled(term)))
+        other.0.iter().fold(Self(Vec::new()), |sum, &term| sum.plus(&self.scaled(term)))
     }
 }
 
@@ -319,10 +280,8 @@ mod tests {
     }
 
     fn rational_det(rows: &[Difference; 3]) -> RBig {
-        let m: Vec<Vec<RBig>> = rows
-            .iter()
-            .map(|r| (0..3).map(|k| rational(r.of[k]) - rational(r.minus[k])).collect())
-            .collect();
+        let m: Vec<Vec<RBig>> =
+            rows.iter().map(|r| (0..3).map(|k| rational(r.of[k]) - rational(r.minus[k])).collect()).collect();
         let minor =
             |i: usize, j: usize| m[1][i].clone() * m[2][j].clone() - m[1][j].clone() * m[2][i].clone();
         m[0][0].clone() * minor(1, 2) + m[0][1].clone() * minor(2, 0) + m[0][2].clone() * minor(0, 1)

@@ -7,11 +7,7 @@ use std::process::{Command, Output, Stdio};
 
 fn drapery(arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_drapery"));
-    command
-        .args(arguments)
-        .env_remove("NO_COLOR")
-        .env_remove("CLICOLOR_FORCE")
-        .stdin(Stdio::null());
+    command.args(arguments).env_remove("NO_COLOR").env_remove("CLICOLOR_FORCE").stdin(Stdio::null());
     command
 }
 
@@ -28,12 +24,7 @@ fn refused(output: Output, status: i32) -> String {
 }
 
 fn done(output: Output) -> String {
-    assert_eq!(
-        output.status.code(),
-        Some(0),
-        "{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
     assert!(output.stderr.is_empty());
     String::from_utf8(output.stdout).unwrap()
 }
@@ -41,12 +32,8 @@ fn done(output: Output) -> String {
 /// A call that reads `text` on stdin.
 fn piped(arguments: &[&str], text: &[u8]) -> Output {
     let mut command = drapery(arguments);
-    let mut child = command
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
+    let mut child =
+        command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     child.stdin.take().unwrap().write_all(text).unwrap();
     child.wait_with_output().unwrap()
 }
@@ -55,10 +42,7 @@ fn piped(arguments: &[&str], text: &[u8]) -> Output {
 fn version_and_help_go_to_stdout() {
     assert!(done(call(&["--version"])).starts_with("drapery 0."));
     let long = done(call(&["--help"]));
-    assert!(
-        long.contains("Examples:") && long.contains("drapery new dem.tif"),
-        "{long}"
-    );
+    assert!(long.contains("Examples:") && long.contains("drapery new dem.tif"), "{long}");
     assert!(done(call(&["render", "--help"])).contains("--set layer.roads.line.width_m=20"));
     assert!(done(call(&["-h"])).len() < long.len());
 }
@@ -78,10 +62,7 @@ fn the_schema_is_json_that_names_the_keys() {
     let schema: serde_json::Value = serde_json::from_str(&done(call(&["schema"]))).unwrap();
     assert_eq!(schema["properties"]["schema"]["minimum"], 1);
     let line = &schema["properties"]["layer"]["items"]["properties"]["line"];
-    assert_eq!(
-        line["properties"]["cap"]["enum"],
-        serde_json::json!(["butt", "square", "round"])
-    );
+    assert_eq!(line["properties"]["cap"]["enum"], serde_json::json!(["butt", "square", "round"]));
     assert_eq!(schema["additionalProperties"], false);
 }
 
@@ -96,19 +77,11 @@ fn every_shell_gets_completions() {
 fn a_pipe_that_nobody_reads_is_a_quiet_end() {
     for arguments in [&["schema"][..], &["completions", "bash"], &["--help"]] {
         let mut command = drapery(arguments);
-        let mut child = command
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
+        let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
         drop(child.stdout.take());
         let output = child.wait_with_output().unwrap();
         assert_eq!(output.status.code(), Some(0));
-        assert!(
-            output.stderr.is_empty(),
-            "{}",
-            String::from_utf8_lossy(&output.stderr)
-        );
+        assert!(output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
     }
 }
 
@@ -116,13 +89,7 @@ fn a_pipe_that_nobody_reads_is_a_quiet_end() {
 fn a_wrong_scene_is_shown_with_its_line_and_a_caret() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("s.toml"), "schema = 1\n[image]\nwidht = 3\n").unwrap();
-    let said = refused(
-        drapery(&["render", "s.toml"])
-            .current_dir(folder.path())
-            .output()
-            .unwrap(),
-        2,
-    );
+    let said = refused(drapery(&["render", "s.toml"]).current_dir(folder.path()).output().unwrap(), 2);
     assert_eq!(
         said,
         "error: s.toml:3:1: there is no key `image.widht`\n3 | widht = 3\n  | ^^^^^\nhelp: did you mean `width`?\n"
@@ -146,42 +113,26 @@ fn what_is_no_scene_file_is_named() {
     let path = folder.path().to_str().unwrap();
     for wrong in [path, "no/such/scene.toml"] {
         let said = refused(call(&["render", wrong]), 2);
-        assert!(
-            said.starts_with(&format!("error: {wrong}: this scene file cannot be read")),
-            "{said}"
-        );
+        assert!(said.starts_with(&format!("error: {wrong}: this scene file cannot be read")), "{said}");
     }
 }
 
 #[test]
 fn an_override_is_blamed_by_its_own_text() {
     let said = refused(call(&["render", "--set", "image.width=0"]), 2);
-    assert!(
-        said.starts_with("error: override `image.width=0`: `image.width` must be"),
-        "{said}"
-    );
+    assert!(said.starts_with("error: override `image.width=0`: `image.width` must be"), "{said}");
     let said = refused(call(&["render", "--set", "image"]), 2);
-    assert!(
-        said.contains("there is no `=`") && said.contains("help: write path=value"),
-        "{said}"
-    );
+    assert!(said.contains("there is no `=`") && said.contains("help: write path=value"), "{said}");
 }
 
 #[test]
 fn colours_come_only_where_they_are_wanted() {
     let escape = '\x1b';
     let arguments = ["render", "no.toml"];
-    assert!(
-        !refused(call(&arguments), 2).contains(escape),
-        "a pipe is no terminal"
-    );
+    assert!(!refused(call(&arguments), 2).contains(escape), "a pipe is no terminal");
     assert!(refused(call(&["--color", "always", "render", "no.toml"]), 2).contains(escape));
     assert!(refused(call(&["--color=always", "render", "--nonsense"]), 2).contains(escape));
-    let forced = drapery(&arguments)
-        .env("CLICOLOR_FORCE", "1")
-        .env("NO_COLOR", "1")
-        .output()
-        .unwrap();
+    let forced = drapery(&arguments).env("CLICOLOR_FORCE", "1").env("NO_COLOR", "1").output().unwrap();
     assert!(!refused(forced, 2).contains(escape), "NO_COLOR is honoured");
 }
 
@@ -197,10 +148,7 @@ fn valley() -> tempfile::TempDir {
         "dem.prj",
         "GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,298.257223563]],PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433],AUTHORITY[\"EPSG\",\"4326\"]]",
     );
-    write(
-        "road.geojson",
-        r#"{"type":"LineString","coordinates":[[9.001,46.002],[9.012,46.007]]}"#,
-    );
+    write("road.geojson", r#"{"type":"LineString","coordinates":[[9.001,46.002],[9.012,46.007]]}"#);
     folder
 }
 
@@ -212,10 +160,7 @@ fn called_in(folder: &tempfile::TempDir, arguments: &[&str]) -> Output {
 fn a_starter_scene_names_the_files_as_given_and_loads() {
     let folder = valley();
     let text = done(called_in(&folder, &["new", "dem.asc", "road.geojson"]));
-    assert!(
-        text.contains("source = \"dem.asc\"") && text.starts_with("# A scene for drapery."),
-        "{text}"
-    );
+    assert!(text.contains("source = \"dem.asc\"") && text.starts_with("# A scene for drapery."), "{text}");
     let path = folder.path().join("scene.toml");
     std::fs::write(&path, &text).unwrap();
     let scene = drapery::scene::file::SceneFile::read(&path, &[]).unwrap();
@@ -237,32 +182,20 @@ fn info_says_what_a_terrain_holds_in_aligned_lines() {
         assert!(text.lines().any(|l| l == line), "{line}: {text}");
     }
     let text = done(called_in(&folder, &["info", "road.geojson"]));
-    assert!(
-        text.contains("  features    1 (1 line)\n  parts       1\n  vertices    2\n"),
-        "{text}"
-    );
+    assert!(text.contains("  features    1 (1 line)\n  parts       1\n  vertices    2\n"), "{text}");
 }
 
 #[test]
 fn info_on_what_is_no_data_file_exits_with_2() {
     let folder = valley();
     let said = refused(called_in(&folder, &["info", "dom.asc"]), 2);
-    assert!(
-        said.starts_with("error: dom.asc: this file cannot be read"),
-        "{said}"
-    );
+    assert!(said.starts_with("error: dom.asc: this file cannot be read"), "{said}");
     let said = refused(called_in(&folder, &["info", "dem.prj"]), 2);
-    assert!(
-        said.contains("terrain files of the kind .prj are unknown"),
-        "{said}"
-    );
+    assert!(said.contains("terrain files of the kind .prj are unknown"), "{said}");
 }
 
 #[test]
 fn a_starter_scene_for_files_that_are_not_there_is_refused() {
     let said = refused(call(&["new", "no-dem.tif"]), 2);
-    assert!(
-        said.starts_with("error: no-dem.tif: this file cannot be read"),
-        "{said}"
-    );
+    assert!(said.starts_with("error: no-dem.tif: this file cannot be read"), "{said}");
 }

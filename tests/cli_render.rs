@@ -75,9 +75,8 @@ impl Place {
 
     fn names(&self, folder: &str) -> Vec<String> {
         let entries = fs::read_dir(self.path().join(folder)).unwrap();
-        let mut names: Vec<String> = entries
-            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-            .collect();
+        let mut names: Vec<String> =
+            entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
         names.sort();
         names
     }
@@ -135,16 +134,10 @@ fn every_technique_gets_a_picture_and_a_line_for_people() {
     for name in names_of_all() {
         let picture = image::open(place.path().join("out").join(format!("{name}.png"))).unwrap();
         assert_eq!((picture.width(), picture.height()), (96, 64));
-        let line = said
-            .lines()
-            .find(|line| line.starts_with(&format!("{name} ")))
-            .unwrap();
+        let line = said.lines().find(|line| line.starts_with(&format!("{name} "))).unwrap();
         assert!(line.contains(" ms  frame ") && line.contains("out/"), "{line}");
     }
-    assert!(
-        !said.contains('\x1b'),
-        "no bar and no colour where there is no terminal"
-    );
+    assert!(!said.contains('\x1b'), "no bar and no colour where there is no terminal");
 }
 
 #[test]
@@ -155,33 +148,16 @@ fn the_result_has_every_field_of_the_contract_and_no_path_of_the_machine() {
     assert_eq!(result["schema"], 1);
     assert_eq!(result["scene"]["name"], "small");
     assert_eq!(result["scene"]["hash"].as_str().unwrap().len(), 64);
-    assert_eq!(
-        result["scene"]["origin"],
-        serde_json::json!([500_000.0, 7_000_000.0])
-    );
+    assert_eq!(result["scene"]["origin"], serde_json::json!([500_000.0, 7_000_000.0]));
     assert!(result["notes"].is_array());
     let runs = result["runs"].as_array().unwrap();
     assert_eq!(runs.len(), Kind::ALL.len());
     for run in runs {
-        for key in [
-            "technique",
-            "parameters",
-            "device",
-            "image",
-            "prepare_ms",
-            "frame_ms",
-            "structure_bytes",
-        ] {
+        for key in ["technique", "parameters", "device", "image", "prepare_ms", "frame_ms", "structure_bytes"]
+        {
             assert!(!run[key].is_null(), "{key}");
         }
-        for key in [
-            "max",
-            "mean",
-            "rmse",
-            "p99",
-            "over_one_code_value",
-            "reference_width_max",
-        ] {
+        for key in ["max", "mean", "rmse", "p99", "over_one_code_value", "reference_width_max"] {
             assert!(keys(&run["error"]).contains(&key), "{key}");
         }
         assert!(run["counts"].is_object());
@@ -193,10 +169,7 @@ fn the_result_has_every_field_of_the_contract_and_no_path_of_the_machine() {
             "max_line_width_px": 10.0
         });
         assert_eq!(run["device"], device);
-        assert_eq!(
-            (&run["image"]["width"], &run["image"]["height"]),
-            (&96.into(), &64.into())
-        );
+        assert_eq!((&run["image"]["width"], &run["image"]["height"]), (&96.into(), &64.into()));
         assert!(run["frame_ms"].as_f64().unwrap() > 0.0);
     }
     let text = fs::read_to_string(place.path().join("out/result.json")).unwrap();
@@ -208,15 +181,9 @@ fn the_hash_of_an_image_is_of_its_pixels() {
     let place = Place::new();
     place.rendered(&[]);
     for run in place.result("out")["runs"].as_array().unwrap() {
-        let path = place
-            .path()
-            .join("out")
-            .join(run["image"]["path"].as_str().unwrap());
+        let path = place.path().join("out").join(run["image"]["path"].as_str().unwrap());
         let pixels = image::open(path).unwrap().into_rgba8();
-        assert_eq!(
-            run["image"]["hash"],
-            blake3::hash(pixels.as_raw()).to_hex().to_string()
-        );
+        assert_eq!(run["image"]["hash"], blake3::hash(pixels.as_raw()).to_hex().to_string());
     }
 }
 
@@ -282,17 +249,10 @@ fn the_buffers_that_are_asked_for_are_written_and_no_others() {
     );
     let (shape, depth) = doubles(&place.path().join("out/inverse-projection.depth.npy"));
     assert_eq!(shape, "64, 96");
-    assert!(
-        depth.iter().all(|d| *d >= 1.0) && depth.contains(&f64::INFINITY),
-        "the sky is infinitely far"
-    );
+    assert!(depth.iter().all(|d| *d >= 1.0) && depth.contains(&f64::INFINITY), "the sky is infinitely far");
     let buffers = place.result("out")["runs"][0]["buffers"].clone();
-    let mut names: Vec<&str> = buffers
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|b| b["name"].as_str().unwrap())
-        .collect();
+    let mut names: Vec<&str> =
+        buffers.as_array().unwrap().iter().map(|b| b["name"].as_str().unwrap()).collect();
     names.sort_unstable();
     assert_eq!(names, ["class", "depth"]);
 }
@@ -310,10 +270,7 @@ fn buffers_do_not_change_the_picture() {
 fn a_buffer_that_no_technique_has_is_refused_with_the_names_and_nothing_is_left() {
     let place = Place::new();
     let said = place.refused(&["--buffers", "depth,nonsense"]);
-    assert!(
-        said.contains("there is no buffer `nonsense`") && said.contains("depth"),
-        "{said}"
-    );
+    assert!(said.contains("there is no buffer `nonsense`") && said.contains("depth"), "{said}");
     assert_eq!(place.names("."), ["small.toml"]);
 }
 
@@ -331,10 +288,7 @@ fn a_technique_that_is_not_built_is_refused_by_name() {
     ];
     for name in all.into_iter().filter(|name| !names_of_all().contains(name)) {
         let said = place.refused(&["-t", name]);
-        assert!(
-            said.contains(&format!("does not have the technique `{name}` yet")),
-            "{said}"
-        );
+        assert!(said.contains(&format!("does not have the technique `{name}` yet")), "{said}");
     }
     assert_eq!(place.names("."), ["small.toml"]);
 }
@@ -364,10 +318,7 @@ fn a_file_that_cannot_be_written_leaves_none_of_the_others() {
     let place = Place::new();
     fs::create_dir_all(place.path().join("out/result.json")).unwrap();
     let said = place.refused(&[]);
-    assert!(
-        said.contains("result.json: this file cannot be written: a folder has this name"),
-        "{said}"
-    );
+    assert!(said.contains("result.json: this file cannot be written: a folder has this name"), "{said}");
     assert_eq!(place.names("out"), ["result.json"]);
 }
 

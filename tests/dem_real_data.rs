@@ -21,10 +21,8 @@ struct Data {
 
 /// `None`, with a word why, where the file or the unpacker is not to be had.
 fn data(name: &str) -> Option<Data> {
-    let folder = std::env::var_os("DRAPERY_DATA").map_or_else(
-        || Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data"),
-        PathBuf::from,
-    );
+    let folder = std::env::var_os("DRAPERY_DATA")
+        .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data"), PathBuf::from);
     let packed = folder.join(name);
     if !packed.is_file() {
         println!("skipped: no {name} in the data folder");
@@ -34,28 +32,18 @@ fn data(name: &str) -> Option<Data> {
         "xz" => ("xz", "-dc"),
         "zip" => ("unzip", "-p"),
         _ => {
-            return Some(Data {
-                path: packed,
-                _folder: None,
-            });
+            return Some(Data { path: packed, _folder: None });
         }
     };
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(packed.file_stem()?);
     let into = std::fs::File::create(&path).unwrap();
-    let status = Command::new(command)
-        .arg(option)
-        .arg(&packed)
-        .stdout(Stdio::from(into))
-        .status();
+    let status = Command::new(command).arg(option).arg(&packed).stdout(Stdio::from(into)).status();
     if !status.is_ok_and(|s| s.success()) {
         println!("skipped: {command} cannot unpack {name}");
         return None;
     }
-    Some(Data {
-        path,
-        _folder: Some(folder),
-    })
+    Some(Data { path, _folder: Some(folder) })
 }
 
 /// What another program reads in a file.
@@ -69,20 +57,11 @@ struct Reading {
 }
 
 fn whole(size: (usize, usize), sample: &'static str, heights: [f64; 2], nodata_count: usize) -> Reading {
-    Reading {
-        size,
-        sample,
-        heights,
-        nodata_count,
-        digits: 1e-9,
-    }
+    Reading { size, sample, heights, nodata_count, digits: 1e-9 }
 }
 
 fn tenths(size: (usize, usize), sample: &'static str, heights: [f64; 2], nodata_count: usize) -> Reading {
-    Reading {
-        digits: 0.0501,
-        ..whole(size, sample, heights, nodata_count)
-    }
+    Reading { digits: 0.0501, ..whole(size, sample, heights, nodata_count) }
 }
 
 /// Reads and describes a file and compares both with a reading; hands over the description.
@@ -109,25 +88,15 @@ fn check_window(path: &Path, all: &Posts, name: &str) {
     let span = |n: usize| (n / 3, n / 3 + 17);
     let ((i0, i1), (j0, j1)) = (span(all.columns()), span(all.rows()));
     let (a, b) = (all.plan(i0, j0), all.plan(i1, j1));
-    let window = DemOptions {
-        window: Some([a.x, a.y, b.x, b.y]),
-        ..options(name)
-    };
+    let window = DemOptions { window: Some([a.x, a.y, b.x, b.y]), ..options(name) };
     let part = match read(path, &window) {
         Ok(dem) => posts(dem),
         Err(error) => return assert!(error.what().contains("no post"), "{error}"),
     };
-    assert_eq!(
-        (part.columns(), part.rows()),
-        (i1 - i0 + 1, j1 - j0 + 1),
-        "{name}"
-    );
+    assert_eq!((part.columns(), part.rows()), (i1 - i0 + 1, j1 - j0 + 1), "{name}");
     for (i, j) in (j0..=j1).flat_map(|j| (i0..=i1).map(move |i| (i, j))) {
         let (inner, outer) = (part.world(i - i0, j - j0).z, all.world(i, j).z);
-        assert!(
-            inner == outer || inner.is_nan() && outer.is_nan(),
-            "{name} ({i}, {j})"
-        );
+        assert!(inner == outer || inner.is_nan() && outer.is_nan(), "{name} ({i}, {j})");
     }
 }
 
@@ -137,10 +106,7 @@ fn options(name: &str) -> DemOptions {
         n if n.contains("terrain_png") => Some(PngEncoding::Mapbox),
         _ => None,
     };
-    DemOptions {
-        encoding,
-        ..DemOptions::default()
-    }
+    DemOptions { encoding, ..DemOptions::default() }
 }
 
 fn posts(dem: Dem) -> Posts {
@@ -160,10 +126,7 @@ fn check_edges(summary: Option<DemSummary>, expected: [f64; 4], digits: f64) {
 
 #[test]
 fn swellendam_reads_in_utm_and_in_degrees() {
-    let utm = check(
-        "swellendam/srtm_41_19.tif",
-        &whole((837, 661), "int16", [0.0, 1699.0], 0),
-    );
+    let utm = check("swellendam/srtm_41_19.tif", &whole((837, 661), "int16", [0.0, 1699.0], 0));
     if let Some(utm) = &utm {
         assert_eq!(utm.crs_hint, Some(CrsHint::Epsg(32733)));
         assert!((utm.cell.unwrap()[0] - 81.993_426).abs() < 1e-6);
@@ -176,40 +139,19 @@ fn swellendam_reads_in_utm_and_in_degrees() {
 
 #[test]
 fn gredos_reads() {
-    let gredos = check(
-        "gredos/dem25.tif.xz",
-        &whole((601, 410), "float32", [514.0, 2410.0], 0),
-    );
+    let gredos = check("gredos/dem25.tif.xz", &whole((601, 410), "float32", [514.0, 2410.0], 0));
     check_edges(gredos, [262_846.5, 4_454_025.0, 277_871.5, 4_464_275.0], 0.051);
 }
 
 #[test]
 fn avalanche_catchments_read_from_tiff_and_text() {
     for (name, reading) in [
-        (
-            "avaAlr/avaAlr.tif.xz",
-            tenths((417, 915), "float64", [566.1, 2452.3], 116_844),
-        ),
-        (
-            "avaMal/avaMal.tif.xz",
-            tenths((567, 787), "float32", [1328.6, 2896.1], 167_357),
-        ),
-        (
-            "avaWog/avaWog.asc.xz",
-            tenths((490, 555), "text", [1248.6, 2543.8], 94_079),
-        ),
-        (
-            "avaGar/avaGar.asc.xz",
-            tenths((520, 387), "text", [1234.0, 2672.2], 82_888),
-        ),
-        (
-            "avaKot/avaKot.asc.xz",
-            tenths((439, 517), "text", [1052.2, 2207.0], 90_023),
-        ),
-        (
-            "avaPfa/avaPfa.asc.xz",
-            tenths((433, 350), "text", [1278.2, 1393.6], 52_303),
-        ),
+        ("avaAlr/avaAlr.tif.xz", tenths((417, 915), "float64", [566.1, 2452.3], 116_844)),
+        ("avaMal/avaMal.tif.xz", tenths((567, 787), "float32", [1328.6, 2896.1], 167_357)),
+        ("avaWog/avaWog.asc.xz", tenths((490, 555), "text", [1248.6, 2543.8], 94_079)),
+        ("avaGar/avaGar.asc.xz", tenths((520, 387), "text", [1234.0, 2672.2], 82_888)),
+        ("avaKot/avaKot.asc.xz", tenths((439, 517), "text", [1052.2, 2207.0], 90_023)),
+        ("avaPfa/avaPfa.asc.xz", tenths((433, 350), "text", [1278.2, 1393.6], 52_303)),
     ] {
         check(&format!("avalanche/{name}"), &reading);
     }
@@ -217,10 +159,7 @@ fn avalanche_catchments_read_from_tiff_and_text() {
 
 #[test]
 fn glaciers_read() {
-    let oetztal = check(
-        "oetztal/srtm_oetztal.tif",
-        &whole((582, 444), "int16", [387.0, 3727.0], 0),
-    );
+    let oetztal = check("oetztal/srtm_oetztal.tif", &whole((582, 444), "int16", [387.0, 3727.0], 0));
     check_edges(oetztal, [10.6225, 46.6567, 11.1075, 47.0267], 5.1e-5);
     let name = "baltoro/baltoro_srtm_clip.tif";
     let baltoro = check(name, &whole((860, 430), "int16", [3197.0, 8569.0], 0));
@@ -243,14 +182,7 @@ fn new_zealand_has_nan_voids_and_a_described_crs() {
         let Some(CrsHint::Proj(proj)) = &nz.crs_hint else {
             panic!("{:?}", nz.crs_hint);
         };
-        for part in [
-            "+proj=tmerc",
-            "+lon_0=173",
-            "+k=0.9996",
-            "+x_0=1600000",
-            "+y_0=10000000",
-            "GRS80",
-        ] {
+        for part in ["+proj=tmerc", "+lon_0=173", "+k=0.9996", "+x_0=1600000", "+y_0=10000000", "GRS80"] {
             assert!(proj.contains(part), "{proj}");
         }
     }
@@ -301,10 +233,8 @@ fn bigtujunga_reads_from_small_tiles() {
 
 #[test]
 fn slovenia_reads_packed_and_with_voids() {
-    let hundredths = |voids| Reading {
-        digits: 0.00501,
-        ..whole((1000, 1000), "float32", [254.97, 325.05], voids)
-    };
+    let hundredths =
+        |voids| Reading { digits: 0.00501, ..whole((1000, 1000), "float32", [254.97, 325.05], voids) };
     let packed = check("slovenia_1m/TM1_564_146.tif", &hundredths(0));
     check_edges(packed, [563_999.5, 145_999.5, 564_999.5, 146_999.5], 0.051);
     check("slovenia_1m/TM1_564_146_nodata.tif.xz", &hundredths(500));

@@ -10,32 +10,18 @@ use drapery::visibility::{Hit, Sight, Visible, see_on_device};
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
 
-const FORMATS: [DepthFormat; 4] = [
-    DepthFormat::F32Reversed,
-    DepthFormat::F32,
-    DepthFormat::Unorm24,
-    DepthFormat::Unorm16,
-];
+const FORMATS: [DepthFormat; 4] =
+    [DepthFormat::F32Reversed, DepthFormat::F32, DepthFormat::Unorm24, DepthFormat::Unorm16];
 const DOUBLE: Device = device(Precision::F64, 0, DepthFormat::F32Reversed);
 
 const fn device(precision: Precision, subpixel_bits: u32, depth: DepthFormat) -> Device {
-    Device {
-        precision,
-        subpixel_bits,
-        depth,
-        stencil_bits: 8,
-        max_line_width_px: 10.0,
-    }
+    Device { precision, subpixel_bits, depth, stencil_bits: 8, max_line_width_px: 10.0 }
 }
 
 /// Every precision, snapping and depth buffer.
 fn devices() -> impl Iterator<Item = Device> {
     let precisions = [Precision::F64, Precision::F32].into_iter();
-    precisions.flat_map(|p| {
-        [0, 4, 8]
-            .into_iter()
-            .flat_map(move |bits| FORMATS.map(|f| device(p, bits, f)))
-    })
+    precisions.flat_map(|p| [0, 4, 8].into_iter().flat_map(move |bits| FORMATS.map(|f| device(p, bits, f))))
 }
 
 fn grid(n: usize, at: DVec2, cell: f64, height: impl Fn(usize, usize) -> f64) -> Mesh {
@@ -48,13 +34,7 @@ fn grid(n: usize, at: DVec2, cell: f64, height: impl Fn(usize, usize) -> f64) ->
 
 fn viewpoint(eye: [f64; 3], target: [f64; 3], near: f64, far: f64) -> Viewpoint {
     let point = |p: [f64; 3]| World::new(p[0], p[1], p[2]);
-    Viewpoint {
-        eye: point(eye),
-        target: point(target),
-        up: DVec3::new(0.01, 0.02, 1.0),
-        near,
-        far,
-    }
+    Viewpoint { eye: point(eye), target: point(target), up: DVec3::new(0.01, 0.02, 1.0), near, far }
 }
 
 fn seen_exactly(frame: &ViewFrame, mesh: &Mesh) -> Visible {
@@ -88,10 +68,7 @@ fn outline(frame: &ViewFrame, triangle: [World; 3]) -> Vec<Screen> {
         polygon = cut;
     }
     let to_world = |v: &View| frame.eye() + (frame.right() * v.x + frame.up() * v.y - frame.forward() * v.z);
-    polygon
-        .iter()
-        .filter_map(|v| frame.screen_from_world(to_world(v)))
-        .collect()
+    polygon.iter().filter_map(|v| frame.screen_from_world(to_world(v))).collect()
 }
 
 /// How far a screen point is from the outline of a triangle; infinite for none.
@@ -106,9 +83,7 @@ fn border_distance(frame: &ViewFrame, mesh: &Mesh, id: u32, at: Screen) -> f64 {
         let t = (along.dot(to) / along.length_squared()).clamp(0.0, 1.0);
         (to - along * if t.is_nan() { 0.0 } else { t }).length()
     };
-    (0..outline.len())
-        .map(distance)
-        .fold(f64::INFINITY, |m, d| if d < m { d } else { m })
+    (0..outline.len()).map(distance).fold(f64::INFINITY, |m, d| if d < m { d } else { m })
 }
 
 /// The greatest distance from the borders of both triangles of a sample where two lattices see different ones.
@@ -132,19 +107,9 @@ fn height() -> impl Strategy<Value = f64> {
 fn scene() -> impl Strategy<Value = Option<(Mesh, ViewFrame)>> {
     let near = prop_oneof![Just(1e-2), 0.1..4.0f64];
     let far = prop_oneof![Just(f64::INFINITY), 5.0..9.0f64];
-    let (eye, target) = (
-        prop::array::uniform3(-6.0..6.0f64),
-        prop::array::uniform3(-1.0..1.0f64),
-    );
-    (
-        prop::collection::vec(height(), 49),
-        eye,
-        target,
-        near,
-        far,
-        any::<bool>(),
-    )
-        .prop_map(|(heights, eye, target, near, far, is_perspective)| {
+    let (eye, target) = (prop::array::uniform3(-6.0..6.0f64), prop::array::uniform3(-1.0..1.0f64));
+    (prop::collection::vec(height(), 49), eye, target, near, far, any::<bool>()).prop_map(
+        |(heights, eye, target, near, far, is_perspective)| {
             let mesh = grid(7, DVec2::ZERO, 1.0, |i, j| heights[j * 7 + i]);
             let view = viewpoint(eye, target, near, far);
             let frame = if is_perspective {
@@ -153,7 +118,8 @@ fn scene() -> impl Strategy<Value = Option<(Mesh, ViewFrame)>> {
                 ViewFrame::orthographic(&view, 8.0, (48, 40))
             };
             frame.ok().map(|frame| (mesh, frame))
-        })
+        },
+    )
 }
 
 proptest! {
@@ -203,35 +169,22 @@ proptest! {
 
 #[test]
 fn snapping_changes_some_samples() {
-    let mesh = grid(65, DVec2::ZERO, 1.0, |i, j| {
-        f64::from((i * 7 + j * 13) as u32 % 5) / 3.0
-    });
+    let mesh = grid(65, DVec2::ZERO, 1.0, |i, j| f64::from((i * 7 + j * 13) as u32 % 5) / 3.0);
     let view = viewpoint([3.0, -40.0, 25.0], [0.0, 0.0, 0.0], 0.1, f64::INFINITY);
     let frame = ViewFrame::perspective(&view, 60.0, (256, 256)).unwrap();
     let exact = seen_exactly(&frame, &mesh);
     for bits in [4, 8] {
-        let snapped = seen_on(
-            &frame,
-            &mesh,
-            &device(Precision::F64, bits, DepthFormat::F32Reversed),
-            64,
-        );
+        let snapped = seen_on(&frame, &mesh, &device(Precision::F64, bits, DepthFormat::F32Reversed), 64);
         let (count, distance) = farthest_difference(&frame, &mesh, &exact, &snapped);
         let snap = std::f64::consts::SQRT_2 / 2.0 / f64::from(1 << bits);
-        assert!(
-            count > 0 && distance < snap + 1e-9,
-            "{bits} bits: {count} samples, {distance} px"
-        );
+        assert!(count > 0 && distance < snap + 1e-9, "{bits} bits: {count} samples, {distance} px");
     }
 }
 
 /// How many triangles cover each sample when each is drawn alone.
 fn cover_counts<T: Real>(frame: &ViewFrame, mesh: &Mesh, device: &Device, lattice: &Lattice) -> Vec<u32> {
     let pipeline = Pipeline::<T>::new(frame, mesh, device);
-    let window = Window {
-        columns: 0..lattice.columns,
-        rows: 0..lattice.rows,
-    };
+    let window = Window { columns: 0..lattice.columns, rows: 0..lattice.rows };
     let mut counts = vec![0; lattice.columns * lattice.rows];
     let mut samples = Samples::default();
     for id in 0..mesh.triangle_ids() {
@@ -291,28 +244,18 @@ fn samples_on_edges_and_vertices_belong_to_the_triangle_of_exact_mathematics() {
 
 #[test]
 fn a_closed_surface_from_above_is_covered_once_with_snapping() {
-    let mesh = grid(13, DVec2::ZERO, 1.0, |i, j| {
-        f64::from((i * 31 + j * 17) as u32 % 7) / 9.0
-    });
+    let mesh = grid(13, DVec2::ZERO, 1.0, |i, j| f64::from((i * 31 + j * 17) as u32 % 7) / 9.0);
     let view = viewpoint([0.3, -0.2, 12.0], [0.0, 0.0, 0.0], 0.5, f64::INFINITY);
     let frame = ViewFrame::perspective(&view, 40.0, (64, 64)).unwrap();
     // A fine lattice: a crack as narrow as a snap would show.
-    let lattice = Lattice {
-        x: 0.0,
-        y: 0.0,
-        step: 1.0 / 8.0,
-        columns: 128,
-        rows: 128,
-    };
+    let lattice = Lattice { x: 0.0, y: 0.0, step: 1.0 / 8.0, columns: 128, rows: 128 };
     assert_covered_once(&frame, &mesh, &lattice, [4, 8]);
     assert_covered_once(&frame, &mesh, &Lattice::centres(&frame, 0), [4, 8]);
 }
 
 #[test]
 fn a_sixteen_bit_depth_buffer_fights_where_a_reversed_float_one_does_not() {
-    let mesh = grid(101, DVec2::ZERO, 20.0, |i, j| {
-        60.0 * f64::from((i / 3 + j / 2) as u32 % 2)
-    });
+    let mesh = grid(101, DVec2::ZERO, 20.0, |i, j| 60.0 * f64::from((i / 3 + j / 2) as u32 % 2));
     // From the north: far triangles have the lower numbers and win where depths are equal.
     let view = viewpoint([0.0, 1500.0, 300.0], [0.0, 0.0, 0.0], 0.1, 1e6);
     let frame = ViewFrame::perspective(&view, 60.0, (256, 256)).unwrap();
@@ -348,10 +291,7 @@ fn assert_sound(frame: &ViewFrame, mesh: &Mesh, what: &str) {
             DepthFormat::Unorm24 => 16_777_215.0,
             DepthFormat::Unorm16 => 65_535.0,
         };
-        assert!(
-            seen.keys().iter().all(|k| (0.0..=largest).contains(k)),
-            "{what}: {device:?}"
-        );
+        assert!(seen.keys().iter().all(|k| (0.0..=largest).contains(k)), "{what}: {device:?}");
     }
 }
 
@@ -371,17 +311,9 @@ fn no_camera_however_odd_brings_nan_into_a_buffer() {
             for far in [f64::INFINITY, 7.0] {
                 let view = viewpoint(eye, [x + 0.1, y + 3.0, 0.5], 0.1, far);
                 for fov in [1.0, 60.0, 179.0] {
-                    assert_sound(
-                        &ViewFrame::perspective(&view, fov, (23, 17)).unwrap(),
-                        &mesh,
-                        what,
-                    );
+                    assert_sound(&ViewFrame::perspective(&view, fov, (23, 17)).unwrap(), &mesh, what);
                 }
-                assert_sound(
-                    &ViewFrame::orthographic(&view, 9.0, (23, 17)).unwrap(),
-                    &mesh,
-                    what,
-                );
+                assert_sound(&ViewFrame::orthographic(&view, 9.0, (23, 17)).unwrap(), &mesh, what);
             }
         }
     }
@@ -398,10 +330,7 @@ fn a_near_plane_through_posts_cuts_the_terrain_there() {
     let seen = seen_on(&frame, &mesh, &DOUBLE, 64).triangles();
     assert!(seen.iter().any(|id| *id != SKY));
     // Two triangles a cell, 16 a row: rows 0 and 1 lie before the near plane.
-    assert!(
-        seen.iter().all(|id| *id >= 32),
-        "what lies before the near plane is not seen"
-    );
+    assert!(seen.iter().all(|id| *id >= 32), "what lies before the near plane is not seen");
 }
 
 /// The greatest distance of plan points from the exact ones, over samples that see the same triangle, relative to depth.
@@ -430,9 +359,7 @@ fn worst_plan_point(frame: &ViewFrame, mesh: &Mesh, device: &Device) -> f64 {
 
 #[test]
 fn plan_points_are_as_good_as_the_precision() {
-    let mesh = grid(33, DVec2::ZERO, 30.0, |i, j| {
-        f64::from((i * 5 + j * 3) as u32 % 11) * 2.0
-    });
+    let mesh = grid(33, DVec2::ZERO, 30.0, |i, j| f64::from((i * 5 + j * 3) as u32 % 11) * 2.0);
     let view = viewpoint([10.0, -600.0, 350.0], [0.0, 0.0, 0.0], 1.0, f64::INFINITY);
     let frames = [
         ViewFrame::perspective(&view, 50.0, (96, 96)).unwrap(),
@@ -441,11 +368,7 @@ fn plan_points_are_as_good_as_the_precision() {
     for frame in frames {
         let double = worst_plan_point(&frame, &mesh, &DOUBLE);
         assert!(double < 1e-6, "double: {double}");
-        let single = worst_plan_point(
-            &frame,
-            &mesh,
-            &device(Precision::F32, 0, DepthFormat::F32Reversed),
-        );
+        let single = worst_plan_point(&frame, &mesh, &device(Precision::F32, 0, DepthFormat::F32Reversed));
         assert!(single > double && single < 2e-5, "single: {single}");
     }
 }
@@ -454,28 +377,12 @@ fn plan_points_are_as_good_as_the_precision() {
 fn single_precision_far_from_the_origin_is_off_by_what_its_spacing_explains() {
     let offset = DVec2::new(6_378_000.0, 0.0);
     let mesh = grid(33, offset, 30.0, |_, _| 0.0);
-    let view = viewpoint(
-        [6_378_000.0, -600.0, 350.0],
-        [6_378_000.0, 0.0, 0.0],
-        1.0,
-        f64::INFINITY,
-    );
+    let view = viewpoint([6_378_000.0, -600.0, 350.0], [6_378_000.0, 0.0, 0.0], 1.0, f64::INFINITY);
     let frame = ViewFrame::perspective(&view, 50.0, (96, 96)).unwrap();
-    let double = worst_plan_point(
-        &frame,
-        &mesh,
-        &device(Precision::F64, 8, DepthFormat::F32Reversed),
-    );
-    let single = worst_plan_point(
-        &frame,
-        &mesh,
-        &device(Precision::F32, 8, DepthFormat::F32Reversed),
-    );
+    let double = worst_plan_point(&frame, &mesh, &device(Precision::F64, 8, DepthFormat::F32Reversed));
+    let single = worst_plan_point(&frame, &mesh, &device(Precision::F32, 8, DepthFormat::F32Reversed));
     // A unit in the last place at 6.378e6 is half a metre, in about 1000 m of distance: off by metres, not more.
-    assert!(
-        double < 1e-3 && single > 1e-4 && single < 2e-2,
-        "{double} {single}"
-    );
+    assert!(double < 1e-3 && single > 1e-4 && single < 2e-2, "{double} {single}");
 }
 
 #[test]

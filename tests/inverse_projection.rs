@@ -23,19 +23,8 @@ fn posts(n: usize, cell: f64, height: impl Fn(f64, f64) -> f64) -> Surface {
 
 fn camera(eye: [f64; 3], target: [f64; 3], projection: Projection) -> Camera {
     let point = |p: [f64; 3]| World::new(p[0], p[1], p[2]);
-    let up = if eye[0] == target[0] && eye[1] == target[1] {
-        DVec3::Y
-    } else {
-        DVec3::Z
-    };
-    Camera {
-        eye: point(eye),
-        target: point(target),
-        up,
-        projection,
-        near_m: 0.1,
-        far_m: None,
-    }
+    let up = if eye[0] == target[0] && eye[1] == target[1] { DVec3::Y } else { DVec3::Z };
+    Camera { eye: point(eye), target: point(target), up, projection, near_m: 0.1, far_m: None }
 }
 
 fn scene(size: (usize, usize), camera: Camera, layers: Vec<Layer>, settings: InverseProjection) -> Scene {
@@ -43,61 +32,31 @@ fn scene(size: (usize, usize), camera: Camera, layers: Vec<Layer>, settings: Inv
         name: "test".into(),
         origin: DVec2::ZERO,
         plan_space: "metres".into(),
-        image: ImageSettings {
-            width: size.0,
-            height: size.1,
-            background: Color([0.0, 0.0, 1.0, 1.0]),
-        },
+        image: ImageSettings { width: size.0, height: size.1, background: Color([0.0, 0.0, 1.0, 1.0]) },
         camera,
         diagonal: Diagonal::SwNe,
         ground: Ground::Color(WHITE),
         layers,
         compositing: Compositing::default(),
         device: Device::default(),
-        technique: TechniqueSettings {
-            inverse_projection: settings,
-        },
+        technique: TechniqueSettings { inverse_projection: settings },
         notes: Vec::new(),
     }
 }
 
 fn layer(shape: Shape, style: Style) -> Layer {
-    Layer {
-        name: "layer".into(),
-        style,
-        features: vec![Feature { index: 0, shape }],
-    }
+    Layer { name: "layer".into(), style, features: vec![Feature { index: 0, shape }] }
 }
 
 fn line(points: &[(f64, f64)], width: f64) -> Layer {
-    let line = Line {
-        color: BLACK,
-        width: Width::Metres(width),
-        join: Join::Bevel,
-        cap: Cap::Butt,
-    };
-    layer(
-        Shape::Line(vec![plan(points)]),
-        Style {
-            line: Some(line),
-            ..Style::default()
-        },
-    )
+    let line = Line { color: BLACK, width: Width::Metres(width), join: Join::Bevel, cap: Cap::Butt };
+    layer(Shape::Line(vec![plan(points)]), Style { line: Some(line), ..Style::default() })
 }
 
 fn polygon(rings: &[&[(f64, f64)]]) -> Layer {
-    let fill = Fill {
-        color: BLACK,
-        rule: Rule::EvenOdd,
-    };
+    let fill = Fill { color: BLACK, rule: Rule::EvenOdd };
     let rings = rings.iter().map(|r| plan(r)).collect();
-    layer(
-        Shape::Polygon(rings),
-        Style {
-            fill: Some(fill),
-            ..Style::default()
-        },
-    )
+    layer(Shape::Polygon(rings), Style { fill: Some(fill), ..Style::default() })
 }
 
 fn plan(points: &[(f64, f64)]) -> Vec<Plan> {
@@ -108,13 +67,7 @@ fn draw(scene: Scene, surface: Surface, tile: usize) -> Frame {
     let stage = Stage::new(scene, surface).unwrap();
     let prepared = technique::prepare(Kind::InverseProjection, &stage).unwrap();
     let buffers: Vec<String> = prepared.buffer_names().iter().map(|s| (*s).to_owned()).collect();
-    prepared
-        .frame(&FrameOptions {
-            tile,
-            buffers: &buffers,
-            progress: &|_| {},
-        })
-        .unwrap()
+    prepared.frame(&FrameOptions { tile, buffers: &buffers, progress: &|_| {} }).unwrap()
 }
 
 fn plane<'a>(frame: &'a Frame, name: &str) -> &'a Plane {
@@ -137,18 +90,8 @@ fn classes(frame: &Frame) -> &[u8] {
 
 /// Straight down on the plan, one pixel a metre; pixel (0, 0) is the north-west corner.
 fn nadir(size: usize, layers: Vec<Layer>, settings: InverseProjection) -> Frame {
-    let camera = camera(
-        [0.0, 0.0, 100.0],
-        [0.0; 3],
-        Projection::Orthographic {
-            height_m: size as f64,
-        },
-    );
-    draw(
-        scene((size, size), camera, layers, settings),
-        posts(9, 4.0, |_, _| 0.0),
-        16,
-    )
+    let camera = camera([0.0, 0.0, 100.0], [0.0; 3], Projection::Orthographic { height_m: size as f64 });
+    draw(scene((size, size), camera, layers, settings), posts(9, 4.0, |_, _| 0.0), 16)
 }
 
 fn exact() -> InverseProjection {
@@ -163,9 +106,7 @@ fn exact() -> InverseProjection {
 /// The red channel (0 black, 9 white) as a picture of digits.
 fn ascii(frame: &Frame) -> Vec<String> {
     let digit = |p: &[u8; 4]| char::from(b'0' + (u32::from(p[0]) * 9 / 255) as u8);
-    (0..frame.image.height())
-        .map(|y| frame.image.row(y).iter().map(digit).collect())
-        .collect()
+    (0..frame.image.height()).map(|y| frame.image.row(y).iter().map(digit).collect()).collect()
 }
 
 #[test]
@@ -173,35 +114,18 @@ fn a_polygon_with_a_hole_covers_its_pixels_wholly_partly_or_not() {
     let outer = [(-3.0, -3.0), (3.0, -3.0), (3.0, 2.5), (-3.0, 2.5)];
     let hole = [(-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0)];
     let frame = nadir(8, vec![polygon(&[&outer, &hole])], exact());
-    let expected = [
-        "99999999", "94444449", "90000009", "90099009", "90099009", "90000009", "90000009", "99999999",
-    ];
+    let expected =
+        ["99999999", "94444449", "90000009", "90099009", "90099009", "90000009", "90000009", "99999999"];
     assert_eq!(ascii(&frame), expected);
-    assert_eq!(
-        &classes(&frame)[8 + 1..8 + 7],
-        [1; 6],
-        "the row that the border cuts is P"
-    );
-    assert_eq!(
-        classes(&frame)[8 * 3 + 4],
-        1,
-        "the hole's border touches its pixels"
-    );
+    assert_eq!(&classes(&frame)[8 + 1..8 + 7], [1; 6], "the row that the border cuts is P");
+    assert_eq!(classes(&frame)[8 * 3 + 4], 1, "the hole's border touches its pixels");
 }
 
 #[test]
 fn a_pixel_deep_inside_is_f_and_one_far_away_is_n() {
-    let frame = nadir(
-        8,
-        vec![polygon(&[&[(-3.5, -3.5), (3.5, -3.5), (3.5, 3.5), (-3.5, 3.5)]])],
-        exact(),
-    );
+    let frame = nadir(8, vec![polygon(&[&[(-3.5, -3.5), (3.5, -3.5), (3.5, 3.5), (-3.5, 3.5)]])], exact());
     assert_eq!(classes(&frame)[8 * 4 + 4], 2);
-    let far = nadir(
-        8,
-        vec![polygon(&[&[(-3.5, -3.5), (-3.2, -3.5), (-3.5, -3.2)]])],
-        exact(),
-    );
+    let far = nadir(8, vec![polygon(&[&[(-3.5, -3.5), (-3.2, -3.5), (-3.5, -3.2)]])], exact());
     assert_eq!(classes(&far)[8 * 2 + 6], 0);
 }
 
@@ -210,10 +134,7 @@ fn the_papers_quadrilateral_shifts_the_picture_half_a_pixel_to_the_lower_left() 
     // Fig. 6b: the pixel takes the plan from its own centre to that of its upper right neighbour, so an edge
     // on a pixel's border lies in the middle of a quadrilateral.
     let half = [(-9.0, -9.0), (0.0, -9.0), (0.0, 9.0), (-9.0, 9.0)];
-    let settings = InverseProjection {
-        corners: Corners::Centres,
-        ..exact()
-    };
+    let settings = InverseProjection { corners: Corners::Centres, ..exact() };
     assert_eq!(ascii(&nadir(4, vec![polygon(&[&half])], settings))[2], "0499");
     assert_eq!(ascii(&nadir(4, vec![polygon(&[&half])], exact()))[2], "0099");
 }
@@ -221,20 +142,8 @@ fn the_papers_quadrilateral_shifts_the_picture_half_a_pixel_to_the_lower_left() 
 #[test]
 fn edge_normals_with_the_pedal_rule_agree_with_the_winding_number_along_a_straight_line() {
     let road = || vec![line(&[(-20.0, -3.0), (20.0, 5.0)], 1.7)];
-    let by = |point_in_polygon| {
-        nadir(
-            16,
-            road(),
-            InverseProjection {
-                point_in_polygon,
-                ..exact()
-            },
-        )
-    };
-    assert_eq!(
-        by(PointInPolygon::EdgeNormals).image,
-        by(PointInPolygon::Winding).image
-    );
+    let by = |point_in_polygon| nadir(16, road(), InverseProjection { point_in_polygon, ..exact() });
+    assert_eq!(by(PointInPolygon::EdgeNormals).image, by(PointInPolygon::Winding).image);
 }
 
 #[test]
@@ -247,13 +156,7 @@ fn plan_points_on_a_plane_and_a_ramp_are_those_of_the_closed_form() {
             posts(65, 8.0, |_, y| slope * y),
             32,
         );
-        let view = camera
-            .view(&ImageSettings {
-                width: 48,
-                height: 32,
-                background: WHITE,
-            })
-            .unwrap();
+        let view = camera.view(&ImageSettings { width: 48, height: 32, background: WHITE }).unwrap();
         for (k, at) in doubles(&frame, "plan").chunks(2).enumerate() {
             if doubles(&frame, "depth")[k].is_infinite() {
                 continue;
@@ -275,11 +178,7 @@ fn plan_points_on_a_plane_and_a_ramp_are_those_of_the_closed_form() {
 #[test]
 fn the_sky_and_pixels_whose_quadrilateral_reaches_it_are_told_apart() {
     // A level view over a plain: the horizon's pixels have upper neighbours in the sky.
-    let camera = camera(
-        [0.0, -30.0, 5.0],
-        [0.0, 30.0, 5.0],
-        Projection::Perspective { fov_y_deg: 60.0 },
-    );
+    let camera = camera([0.0, -30.0, 5.0], [0.0, 30.0, 5.0], Projection::Perspective { fov_y_deg: 60.0 });
     let road = line(&[(0.0, -100.0), (0.0, 100.0)], 4.0);
     let frame = draw(
         scene((32, 32), camera, vec![road], InverseProjection::default()),
@@ -287,21 +186,9 @@ fn the_sky_and_pixels_whose_quadrilateral_reaches_it_are_told_apart() {
         32,
     );
     assert_eq!(*frame.image.at(16, 0), [0, 0, 255, 255], "sky");
-    let refused = frame
-        .counts
-        .iter()
-        .find(|(name, _)| *name == "refused")
-        .unwrap()
-        .1;
-    assert!(
-        refused > 0,
-        "the last row of terrain under the sky has no quadrilateral"
-    );
-    assert_eq!(
-        *frame.image.at(16, 31),
-        [0, 0, 0, 255],
-        "the road in front of the eye"
-    );
+    let refused = frame.counts.iter().find(|(name, _)| *name == "refused").unwrap().1;
+    assert!(refused > 0, "the last row of terrain under the sky has no quadrilateral");
+    assert_eq!(*frame.image.at(16, 31), [0, 0, 0, 255], "the road in front of the eye");
     for p in frame.planes.iter().flat_map(|p| match &p.values {
         Values::F64(v) if p.name != "depth" => v.clone(),
         _ => Vec::new(),
@@ -314,17 +201,9 @@ fn the_sky_and_pixels_whose_quadrilateral_reaches_it_are_told_apart() {
 fn a_silhouette_is_refused_and_not_smeared() {
     // Two plains 40 m apart in height, seen along their common edge: neighbouring pixels are hundreds of metres apart.
     let cliff = |y: f64| if y < 0.0 { 40.0 } else { 0.0 };
-    let camera = camera(
-        [0.0, -60.0, 70.0],
-        [0.0, 300.0, 0.0],
-        Projection::Perspective { fov_y_deg: 50.0 },
-    );
+    let camera = camera([0.0, -60.0, 70.0], [0.0, 300.0, 0.0], Projection::Perspective { fov_y_deg: 50.0 });
     let across = line(&[(-500.0, 40.0), (500.0, 40.0)], 16.0);
-    let settings = |silhouette| InverseProjection {
-        samples: 5,
-        silhouette,
-        ..InverseProjection::default()
-    };
+    let settings = |silhouette| InverseProjection { samples: 5, silhouette, ..InverseProjection::default() };
     let by = |silhouette| {
         draw(
             scene((64, 64), camera, vec![across.clone()], settings(silhouette)),
@@ -332,19 +211,10 @@ fn a_silhouette_is_refused_and_not_smeared() {
             32,
         )
     };
-    let (centre, smear) = (
-        by(drapery::scene::Silhouette::Centre),
-        by(drapery::scene::Silhouette::Smear),
-    );
+    let (centre, smear) = (by(drapery::scene::Silhouette::Centre), by(drapery::scene::Silhouette::Smear));
     // The line lies hidden behind the cliff's edge.
-    assert!(
-        centre.image.values().iter().all(|p| p[0] == 255 || p[2] == 255),
-        "nothing of it is seen"
-    );
-    assert!(
-        smear.image.values().iter().any(|p| p[0] < 255 && p[2] < 255),
-        "the paper's smear shows it"
-    );
+    assert!(centre.image.values().iter().all(|p| p[0] == 255 || p[2] == 255), "nothing of it is seen");
+    assert!(smear.image.values().iter().any(|p| p[0] < 255 && p[2] < 255), "the paper's smear shows it");
 }
 
 #[test]
@@ -352,18 +222,9 @@ fn every_buffer_has_the_same_bits_for_any_tiles_and_threads() {
     let bumps = |x: f64, y: f64| ((x / 7.0).floor() * 3.0 + (y / 5.0).floor() * 7.0).rem_euclid(11.0);
     let road = line(&[(-60.0, -50.0), (-20.0, 30.0), (10.0, -40.0), (50.0, 60.0)], 3.0);
     let lake = polygon(&[&[(-30.0, 0.0), (30.0, -10.0), (20.0, 40.0)]]);
-    let camera = camera(
-        [20.0, -120.0, 80.0],
-        [0.0; 3],
-        Projection::Perspective { fov_y_deg: 45.0 },
-    );
+    let camera = camera([20.0, -120.0, 80.0], [0.0; 3], Projection::Perspective { fov_y_deg: 45.0 });
     let run = |tile, threads| {
-        let scene = scene(
-            (120, 90),
-            camera,
-            vec![lake.clone(), road.clone()],
-            InverseProjection::default(),
-        );
+        let scene = scene((120, 90), camera, vec![lake.clone(), road.clone()], InverseProjection::default());
         let surface = posts(41, 4.0, bumps);
         drapery::parallel::with_threads(threads, || {
             let frame = draw(scene, surface, tile);
@@ -375,10 +236,6 @@ fn every_buffer_has_the_same_bits_for_any_tiles_and_threads() {
     };
     let reference = run(128, 1);
     for (tile, threads) in [(16, 1), (37, 2), (64, 3), (128, 7), (512, 16)] {
-        assert_eq!(
-            run(tile, threads),
-            reference,
-            "tiles of {tile}, {threads} threads"
-        );
+        assert_eq!(run(tile, threads), reference, "tiles of {tile}, {threads} threads");
     }
 }

@@ -28,10 +28,8 @@ impl Folder {
     }
 
     fn fetch(&self, name: &str) -> bool {
-        let data = std::env::var_os("DRAPERY_DATA").map_or_else(
-            || Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data"),
-            PathBuf::from,
-        );
+        let data = std::env::var_os("DRAPERY_DATA")
+            .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data"), PathBuf::from);
         let from = data.join(name);
         if !from.is_file() {
             println!("skipped: no {name} in the data folder");
@@ -49,11 +47,7 @@ impl Folder {
             }
         };
         let into = std::fs::File::create(self.path(&file_name(&from.with_extension("")))).unwrap();
-        let status = Command::new(unpacker.0)
-            .arg(unpacker.1)
-            .arg(&from)
-            .stdout(Stdio::from(into))
-            .status();
+        let status = Command::new(unpacker.0).arg(unpacker.1).arg(&from).stdout(Stdio::from(into)).status();
         let done = status.is_ok_and(|s| s.success());
         if !done {
             println!("skipped: {} cannot unpack {name}", unpacker.0);
@@ -79,11 +73,7 @@ impl Folder {
             .current_dir(self.0.path())
             .output()
             .unwrap();
-        assert!(
-            output.status.success(),
-            "{}",
-            String::from_utf8_lossy(&output.stderr)
-        );
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
         String::from_utf8(output.stdout).unwrap()
     }
 }
@@ -98,10 +88,7 @@ fn scene(terrain: &str, vectors: &[&str]) -> String {
             "[[layer]]\nsource = \"{source}\"\nline = {{ color = \"#ff7f00\", width_m = 12.0 }}\nfill = {{ color = \"#3388ff\" }}\n"
         )
     };
-    format!(
-        "schema = 1\nterrain = {{ {terrain} }}\n{}",
-        vectors.iter().map(layer).collect::<String>()
-    )
+    format!("schema = 1\nterrain = {{ {terrain} }}\n{}", vectors.iter().map(layer).collect::<String>())
 }
 
 fn vertices(layer: &Layer) -> usize {
@@ -113,11 +100,7 @@ fn vertices(layer: &Layer) -> usize {
 
 /// The first vertex of the feature with this number, absolute.
 fn start(scene: &Scene, layer: usize, index: usize) -> Plan {
-    let feature = scene.layers[layer]
-        .features
-        .iter()
-        .find(|f| f.index == index)
-        .unwrap();
+    let feature = scene.layers[layer].features.iter().find(|f| f.index == index).unwrap();
     match &feature.shape {
         Shape::Polygon(parts) | Shape::Line(parts) => parts[0][0] + scene.origin,
     }
@@ -152,20 +135,11 @@ fn swellendam_is_one_place_in_its_own_projection() {
     };
     let files = ["roads_33S.shp", "farms_33S.shp", "urban_33S.shp"];
     let (scene, surface) = folder.load(&scene("source = \"srtm_41_19.tif\"", &files));
-    assert_eq!(
-        scene.layers.iter().map(|l| l.features.len()).collect::<Vec<_>>(),
-        [345, 2008, 6]
-    );
+    assert_eq!(scene.layers.iter().map(|l| l.features.len()).collect::<Vec<_>>(), [345, 2008, 6]);
     assert_eq!(vertices(&scene.layers[0]), 9093);
-    near(
-        start(&scene, 0, 0),
-        (971_207.485_331_881_3, 6_232_683.923_680_245),
-        1e-8,
-    );
+    near(start(&scene, 0, 0), (971_207.485_331_881_3, 6_232_683.923_680_245), 1e-8);
     assert_eq!(scene.origin.fract(), DVec2::ZERO);
-    let Surface::Grid(posts) = surface else {
-        panic!("points")
-    };
+    let Surface::Grid(posts) = surface else { panic!("points") };
     let corner = posts.plan(0, 0) + scene.origin;
     near(corner, (969_491.3 + 41.0, 6_196_099.3 + 41.0), 0.1);
     assert!(!noted(&scene, "reprojected"), "{:?}", scene.notes);
@@ -184,30 +158,18 @@ fn swellendam_in_degrees_takes_vectors_in_metres() {
     };
     let (scene, _) = folder.load(&scene("source = \"srtm_41_19_4326.tif\"", &["roads_33S.shp"]));
     assert!(
-        scene
-            .plan_space
-            .starts_with("local plane at longitude 20.454, latitude -34.01 "),
+        scene.plan_space.starts_with("local plane at longitude 20.454, latitude -34.01 "),
         "{}",
         scene.plan_space
     );
-    assert!(
-        noted(&scene, "layer `roads_33S`: reprojected from"),
-        "{:?}",
-        scene.notes
-    );
+    assert!(noted(&scene, "layer `roads_33S`: reprojected from"), "{:?}", scene.notes);
     // PROJ's longitudes and latitudes, times the metres in a degree there.
     near(start(&scene, 0, 0), (-33_028.424_242_5, 7_671.344_297_0), 1e-3);
     near(start(&scene, 0, 100), (-30_220.759_468_6, 25_185.445_726_4), 1e-3);
     near(start(&scene, 0, 344), (32_564.693_586_9, -22_712.970_601_5), 1e-3);
-    let (starter, _) = starts(
-        &folder,
-        &["srtm_41_19_4326.tif", "roads_33S.shp", "training_data.gpkg"],
-    );
+    let (starter, _) = starts(&folder, &["srtm_41_19_4326.tif", "roads_33S.shp", "training_data.gpkg"]);
     let names: Vec<&str> = starter.layers.iter().map(|l| l.name.as_str()).collect();
-    assert_eq!(
-        names,
-        ["roads_33S", "buildings", "restaurants", "roads", "schools"]
-    );
+    assert_eq!(names, ["roads_33S", "buildings", "restaurants", "roads", "schools"]);
     assert_eq!(starter.layers[3].features.len(), 717);
 }
 
@@ -225,9 +187,7 @@ fn a_terrain_in_degrees_can_be_resampled_to_the_plan_of_another() {
     let (scene_a, a) = folder.load(&text);
     assert!(noted(&scene_a, "resampled (bilinear)"), "{:?}", scene_a.notes);
     let (scene_b, b) = folder.load(&scene("source = \"srtm_41_19.tif\"", &[]));
-    let (Surface::Grid(a), Surface::Grid(b)) = (a, b) else {
-        panic!("points")
-    };
+    let (Surface::Grid(a), Surface::Grid(b)) = (a, b) else { panic!("points") };
     let (mut seen, mut sum) = (0, 0.0);
     for j in (0..a.rows()).step_by(3) {
         for i in (0..a.columns()).step_by(3) {
@@ -241,11 +201,7 @@ fn a_terrain_in_degrees_can_be_resampled_to_the_plan_of_another() {
         }
     }
     // The same mountains, though one file was itself warped from the other: what is left is the slope across half a cell.
-    assert!(
-        seen > 3000 && sum / f64::from(seen) < 4.0,
-        "{} m off at {seen} posts",
-        sum / f64::from(seen)
-    );
+    assert!(seen > 3000 && sum / f64::from(seen) < 4.0, "{} m off at {seen} posts", sum / f64::from(seen));
 }
 
 #[test]
@@ -255,9 +211,7 @@ fn gredos_has_its_watersheds_on_cell_corners() {
     };
     let (scene, surface) = folder.load(&scene("source = \"dem25.tif\"", &["watersheds_106.shp"]));
     assert_eq!(scene.layers[0].features.len(), 106);
-    let Surface::Grid(posts) = surface else {
-        panic!("points")
-    };
+    let Surface::Grid(posts) = surface else { panic!("points") };
     let on_corner = |p: Plan| {
         let off = (p - posts.first) / 25.0 + 0.5;
         (off - off.round()).abs().max_element() < 1e-9
@@ -266,9 +220,7 @@ fn gredos_has_its_watersheds_on_cell_corners() {
     let all = features.iter().flat_map(|f| match &f.shape {
         Shape::Polygon(parts) | Shape::Line(parts) => parts.iter().flatten().copied(),
     });
-    let (on, count) = all.fold((0, 0), |(on, count), p| {
-        (on + usize::from(on_corner(p)), count + 1)
-    });
+    let (on, count) = all.fold((0, 0), |(on, count), p| (on + usize::from(on_corner(p)), count + 1));
     assert!(on * 100 > count * 95, "{on} of {count} vertices");
 }
 
@@ -287,9 +239,7 @@ fn a_catchment_without_a_crs_meets_its_release_areas() {
     assert!(noted(&bare, "of the terrain no CRS is known"), "{:?}", bare.notes);
     let (told, same) = folder.load(&scene("source = \"avaWog.asc\", crs = \"EPSG:31287\"", &files));
     assert_eq!((&bare.layers, &bare.camera), (&told.layers, &told.camera));
-    let (Surface::Grid(a), Surface::Grid(b)) = (surface, same) else {
-        panic!("points")
-    };
+    let (Surface::Grid(a), Surface::Grid(b)) = (surface, same) else { panic!("points") };
     assert_eq!(a.first, b.first);
     assert!(bare.layers.iter().all(|layer| !layer.features.is_empty()));
     let (starter, _) = starts(&folder, &["avaWog.asc", "relWog.shp"]);
@@ -305,14 +255,8 @@ fn glaciers_lie_on_their_mountains() {
     ]) else {
         return;
     };
-    let (scene, _) = starts(
-        &folder,
-        &["srtm_oetztal.tif", "rgi_oetztal.shp", "rgi_intersect_oetztal.shp"],
-    );
-    assert_eq!(
-        scene.layers.iter().map(|l| l.features.len()).collect::<Vec<_>>(),
-        [20, 112]
-    );
+    let (scene, _) = starts(&folder, &["srtm_oetztal.tif", "rgi_oetztal.shp", "rgi_intersect_oetztal.shp"]);
+    assert_eq!(scene.layers.iter().map(|l| l.features.len()).collect::<Vec<_>>(), [20, 112]);
     assert!(scene.plan_space.starts_with("local plane"));
 }
 
@@ -331,32 +275,15 @@ fn a_tile_of_colours_is_placed_by_its_bounds() {
     );
     let summit = "eye_geo = [138.7274, 35.2, 9000.0]\ntarget_geo = [138.7274, 35.3606, 3776.0]";
     let (scene, surface) = folder.load(&format!("{}\n[camera]\n{summit}", scene(&place, &[])));
-    let Surface::Grid(posts) = surface else {
-        panic!("points")
-    };
+    let Surface::Grid(posts) = surface else { panic!("points") };
     let highest = (0..posts.heights().len())
         .map(|k| posts.world(k % posts.columns(), k / posts.columns()))
         .max_by(|a, b| a.z.total_cmp(&b.z))
         .unwrap();
-    assert!(
-        (highest.plan() - scene.camera.target.plan()).length() < 1000.0,
-        "{highest:?}"
-    );
-    assert!(
-        noted(&scene, "22.4 % longer than the ground"),
-        "{:?}",
-        scene.notes
-    );
-    assert!(
-        folder
-            .drapery(&["new", "fuji_mapbox.png"])
-            .contains("encoding = \"mapbox\"")
-    );
-    assert!(
-        folder
-            .drapery(&["info", "fuji_mapbox.png"])
-            .contains("mapbox, the one that gives heights")
-    );
+    assert!((highest.plan() - scene.camera.target.plan()).length() < 1000.0, "{highest:?}");
+    assert!(noted(&scene, "22.4 % longer than the ground"), "{:?}", scene.notes);
+    assert!(folder.drapery(&["new", "fuji_mapbox.png"]).contains("encoding = \"mapbox\""));
+    assert!(folder.drapery(&["info", "fuji_mapbox.png"]).contains("mapbox, the one that gives heights"));
 }
 
 #[test]
@@ -366,14 +293,8 @@ fn an_srtm_tile_is_drawn_in_its_local_plane() {
     };
     let (scene, surface) = starts(&folder, &["N43E006.hgt"]);
     assert_eq!(scene.origin, DVec2::ZERO);
-    assert!(
-        scene
-            .plan_space
-            .starts_with("local plane at longitude 6.5, latitude 43.5 of EPSG:4326")
-    );
-    let Surface::Grid(posts) = surface else {
-        panic!("points")
-    };
+    assert!(scene.plan_space.starts_with("local plane at longitude 6.5, latitude 43.5 of EPSG:4326"));
+    let Surface::Grid(posts) = surface else { panic!("points") };
     assert_eq!((posts.columns(), posts.rows()), (1201, 1201));
 }
 
@@ -384,9 +305,7 @@ fn posts_written_as_points_make_the_same_place() {
     };
     let window = "window = [1000000.0, 6220000.0, 1001000.0, 6221000.0]";
     let (grid_scene, surface) = folder.load(&scene(&format!("source = \"srtm_41_19.tif\", {window}"), &[]));
-    let Surface::Grid(posts) = surface else {
-        panic!("points")
-    };
+    let Surface::Grid(posts) = surface else { panic!("points") };
     let mut text = String::new();
     for k in 0..posts.heights().len() {
         let p = posts.world(k % posts.columns(), k / posts.columns());
@@ -396,9 +315,7 @@ fn posts_written_as_points_make_the_same_place() {
     std::fs::write(folder.path("p.xyz"), text).unwrap();
     let (scene, surface) = folder.load(&scene("source = \"p.xyz\", crs = \"EPSG:32733\"", &[]));
     assert_eq!(scene.origin, grid_scene.origin);
-    let Surface::Points(points) = &surface else {
-        panic!("a grid")
-    };
+    let Surface::Points(points) = &surface else { panic!("a grid") };
     assert!((points[5].plan() - posts.plan(5, 0)).length() < 1e-8);
     Stage::new(scene, surface).unwrap();
 }
@@ -413,20 +330,13 @@ fn info_tells_what_files_hold() {
         return;
     };
     let terrain = folder.drapery(&["info", "srtm_oetztal.tif"]);
-    for words in [
-        "posts       582 x 444 (258408)",
-        "heights     387 to 3727",
-        "EPSG:4326",
-        "local plane at",
-        "% off",
-    ] {
+    for words in
+        ["posts       582 x 444 (258408)", "heights     387 to 3727", "EPSG:4326", "local plane at", "% off"]
+    {
         assert!(terrain.contains(words), "{words}: {terrain}");
     }
     let vectors = folder.drapery(&["info", "training_data.gpkg"]);
-    assert!(
-        vectors.contains("layer `roads`\n  features    717 (717 lines)"),
-        "{vectors}"
-    );
+    assert!(vectors.contains("layer `roads`\n  features    717 (717 lines)"), "{vectors}");
     let bare = folder.drapery(&["info", "avaWog.asc"]);
     assert!(
         bare.contains("-9999; 94079 posts (34.6 %) without data") && bare.contains("CRS         not stated"),

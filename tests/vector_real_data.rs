@@ -12,10 +12,8 @@ use std::process::Command;
 
 /// A file of the data folder, unpacked beside its .prj into `scratch` where it is packed; `None` where it cannot be had.
 fn data(scratch: &Path, name: &str) -> Option<PathBuf> {
-    let folder = std::env::var_os("DRAPERY_DATA").map_or_else(
-        || Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data"),
-        PathBuf::from,
-    );
+    let folder = std::env::var_os("DRAPERY_DATA")
+        .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data"), PathBuf::from);
     let plain = folder.join(name);
     if plain.is_file() {
         return Some(plain);
@@ -53,12 +51,7 @@ fn only(path: &Path) -> VectorSummary {
 fn check(name: &str, features: usize, vertices: usize, epsg: u32) {
     with_data(name, |path| {
         let found = only(path);
-        assert_eq!(
-            (found.features, found.vertices),
-            (features, vertices),
-            "{name}: {:?}",
-            found.notes
-        );
+        assert_eq!((found.features, found.vertices), (features, vertices), "{name}: {:?}", found.notes);
         let crs = found.crs.expect(name);
         assert!(crs.is_same(&Crs::from_epsg(epsg).unwrap()), "{name}: {crs:?}");
     });
@@ -110,10 +103,7 @@ fn a_geopackage_of_many_layers_is_read_by_name() {
         let all = describe(path).unwrap();
         let layer = |name: &str| all.iter().find(|s| s.layer.as_deref() == Some(name)).unwrap();
         assert_eq!((layer("roads").features, layer("roads").vertices), (717, 9652));
-        assert_eq!(
-            (layer("buildings").features, layer("buildings").vertices),
-            (4708, 31868)
-        );
+        assert_eq!((layer("buildings").features, layer("buildings").vertices), (4708, 31868));
         assert_eq!(layer("roads").crs.as_ref().and_then(Crs::epsg), Some(4326));
     });
 }
@@ -161,10 +151,9 @@ fn points_are_left_out_with_a_count() {
 /// of 1938 vertices, and stop at the 31st water. The records themselves are whole.
 #[test]
 fn a_shapefile_with_a_foreign_index_is_read_whole_and_reported_by_feature() {
-    for (name, features, vertices, first_wrong) in [
-        ("swellendam/water.shp", 37, 554, 30),
-        ("swellendam/rivers.shp", 20, 4404, 12),
-    ] {
+    for (name, features, vertices, first_wrong) in
+        [("swellendam/water.shp", 37, 554, 30), ("swellendam/rivers.shp", 20, 4404, 12)]
+    {
         with_data(name, |path| {
             let found = only(path);
             assert_eq!((found.features, found.vertices), (features, vertices), "{name}");
@@ -179,10 +168,6 @@ fn metres_under_degrees_load_with_a_note() {
     with_data("avalanche/avaMal/pathAB.shp", |path| {
         let found = read(path, None).unwrap();
         assert_eq!(found.features.len(), 2);
-        assert!(
-            found.notes.iter().any(|n| n.contains("off the globe")),
-            "{:?}",
-            found.notes
-        );
+        assert!(found.notes.iter().any(|n| n.contains("off the globe")), "{:?}", found.notes);
     });
 }

@@ -27,12 +27,8 @@ fn det(a: &V, b: &V, c: &V) -> RBig {
 /// The parameter at which the ray meets the closed triangle, in rational arithmetic (Cramer's rule).
 fn meets(ray: &Ray, [a, b, c]: &[World; 3]) -> Option<RBig> {
     let (from, a, b, c) = (exact(ray.from), exact(*a), exact(*b), exact(*c));
-    let (along, u, v, s) = (
-        minus(&exact(ray.through), &from),
-        minus(&b, &a),
-        minus(&c, &a),
-        minus(&from, &a),
-    );
+    let (along, u, v, s) =
+        (minus(&exact(ray.through), &from), minus(&b, &a), minus(&c, &a), minus(&from, &a));
     // s + t along = p u + q v
     let d = det(&along, &u, &v);
     if d == RBig::ZERO {
@@ -47,10 +43,7 @@ fn meets(ray: &Ray, [a, b, c]: &[World; 3]) -> Option<RBig> {
 /// Every triangle that an exact brute-force ray caster accepts as the first.
 fn firsts(frame: &ViewFrame, mesh: &Mesh, ray: &Ray) -> Vec<u32> {
     let unit = RBig::try_from(frame.reach()).unwrap();
-    let (near, far) = (
-        RBig::try_from(frame.near()).unwrap(),
-        RBig::try_from(frame.far()).ok(),
-    );
+    let (near, far) = (RBig::try_from(frame.near()).unwrap(), RBig::try_from(frame.far()).ok());
     let mut best: Option<RBig> = None;
     let mut ids = Vec::new();
     for id in 0..mesh.triangle_ids() {
@@ -77,11 +70,7 @@ fn firsts(frame: &ViewFrame, mesh: &Mesh, ray: &Ray) -> Vec<u32> {
 fn is_on_border(ray: &Ray, [a, b, c]: [World; 3]) -> bool {
     let (from, through) = (exact(ray.from), exact(ray.through));
     [(a, b), (b, c), (c, a)].iter().any(|&(p, q)| {
-        det(
-            &minus(&exact(p), &from),
-            &minus(&exact(q), &from),
-            &minus(&through, &from),
-        ) == RBig::ZERO
+        det(&minus(&exact(p), &from), &minus(&exact(q), &from), &minus(&through, &from)) == RBig::ZERO
     })
 }
 
@@ -96,18 +85,8 @@ fn check(frame: &ViewFrame, mesh: &Mesh, tile: usize) -> Result<(), TestCaseErro
             let expected = firsts(frame, mesh, &ray);
             let seen = ids[r * lattice.columns + c];
             let agrees = expected.contains(&seen) || expected.is_empty() && seen == SKY;
-            let fine = agrees
-                || expected
-                    .iter()
-                    .any(|&id| is_on_border(&ray, mesh.triangle(id).unwrap()));
-            prop_assert!(
-                fine,
-                "sample ({}, {}) sees {}, exact ray casting {:?}",
-                c,
-                r,
-                seen,
-                expected
-            );
+            let fine = agrees || expected.iter().any(|&id| is_on_border(&ray, mesh.triangle(id).unwrap()));
+            prop_assert!(fine, "sample ({}, {}) sees {}, exact ray casting {:?}", c, r, seen, expected);
             prop_assert_eq!(seen == SKY, keys[r * lattice.columns + c] == f32::NEG_INFINITY);
         }
     }
@@ -117,22 +96,13 @@ fn check(frame: &ViewFrame, mesh: &Mesh, tile: usize) -> Result<(), TestCaseErro
 fn grid(n: usize, diagonal: Diagonal, heights: &[f64]) -> Mesh {
     let heights: Vec<f64> = heights.iter().copied().cycle().take(n * n).collect();
     let first = Plan::new(-((n - 1) as f64) / 2.0, -((n - 1) as f64) / 2.0);
-    Mesh::new(
-        Surface::Grid(Posts::new((n, n), first, (DVec2::X, DVec2::Y), heights).unwrap()),
-        diagonal,
-    )
-    .unwrap()
+    Mesh::new(Surface::Grid(Posts::new((n, n), first, (DVec2::X, DVec2::Y), heights).unwrap()), diagonal)
+        .unwrap()
 }
 
 fn camera(eye: [f64; 3], target: [f64; 3], near: f64, far: f64) -> Viewpoint {
     let point = |p: [f64; 3]| World::new(p[0], p[1], p[2]);
-    Viewpoint {
-        eye: point(eye),
-        target: point(target),
-        up: DVec3::new(0.01, 0.02, 1.0),
-        near,
-        far,
-    }
+    Viewpoint { eye: point(eye), target: point(target), up: DVec3::new(0.01, 0.02, 1.0), near, far }
 }
 
 fn height() -> impl Strategy<Value = f64> {

@@ -11,11 +11,6 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments) -> Outcome {
     let mut script = Vec::new();
-    clap_complete::generate(
-        arguments.shell,
-        &mut super::Cli::command(),
-        "drapery",
-        &mut script,
-    );
+    clap_complete::generate(arguments.shell, &mut super::Cli::command(), "drapery", &mut script);
     super::print(&String::from_utf8_lossy(&script))
 }

@@ -61,10 +61,7 @@ struct Table {
 
 impl Table {
     fn new(headline: String) -> Self {
-        Self {
-            headline,
-            rows: Vec::new(),
-        }
+        Self { headline, rows: Vec::new() }
     }
 
     fn row(&mut self, name: &'static str, text: impl Into<String>) {
@@ -77,11 +74,7 @@ impl Table {
 
     fn text(&self) -> String {
         let line = |(name, text): &(&str, String)| format!("  {name:<11} {text}\n");
-        format!(
-            "{}\n{}",
-            self.headline,
-            self.rows.iter().map(line).collect::<String>()
-        )
+        format!("{}\n{}", self.headline, self.rows.iter().map(line).collect::<String>())
     }
 }
 
@@ -141,20 +134,15 @@ fn no_data(summary: &DemSummary) -> String {
     let declared = summary.nodata.as_deref().unwrap_or("no value declared");
     match summary.nodata_count {
         0 => format!("{declared}; all posts hold data"),
-        count => format!(
-            "{declared}; {} ({share:.1} %) without data",
-            counted(count, "post")
-        ),
+        count => format!("{declared}; {} ({share:.1} %) without data", counted(count, "post")),
     }
 }
 
 /// The CRS, and the plan that a scene of this terrain has.
 fn plan(summary: &DemSummary, table: &mut Table) {
     let Some(hint) = &summary.crs_hint else {
-        return table.row(
-            "CRS",
-            "not stated: say it in the scene (terrain.crs), or coordinates are taken as metres",
-        );
+        return table
+            .row("CRS", "not stated: say it in the scene (terrain.crs), or coordinates are taken as metres");
     };
     let crs = match load::crs_of(hint) {
         Ok(crs) => crs,
@@ -178,10 +166,7 @@ fn local_plane(space: &PlanSpace, summary: &DemSummary, table: &mut Table) {
         return;
     };
     table.row("plan", space.describe());
-    table.row(
-        "",
-        format!("a degree is {east:.3} m east, {northward:.3} m north"),
-    );
+    table.row("", format!("a degree is {east:.3} m east, {northward:.3} m north"));
     table.row(
         "",
         format!(
@@ -191,10 +176,7 @@ fn local_plane(space: &PlanSpace, summary: &DemSummary, table: &mut Table) {
         ),
     );
     if let Some([x, y]) = summary.cell {
-        table.row(
-            "",
-            format!("a cell is {:.3} m x {:.3} m", x * east, y * northward),
-        );
+        table.row("", format!("a cell is {:.3} m x {:.3} m", x * east, y * northward));
     }
 }
 
@@ -204,19 +186,12 @@ fn of_vectors(path: &Path) -> Result<Vec<Table>> {
 }
 
 fn of_layer(path: &Path, summary: &VectorSummary) -> Table {
-    let layer = summary
-        .layer
-        .as_ref()
-        .map_or(String::new(), |name| format!(", layer `{name}`"));
+    let layer = summary.layer.as_ref().map_or(String::new(), |name| format!(", layer `{name}`"));
     let mut table = Table::new(format!("{}: vectors, {}{layer}", path.display(), summary.format));
     let counts = [(summary.polygons, "polygon"), (summary.lines, "line")];
     let counts = counts.iter().filter(|(count, _)| *count > 0);
     let kinds: Vec<String> = counts.map(|(count, kind)| counted(*count, kind)).collect();
-    let kinds = if kinds.is_empty() {
-        "none that is drawn".into()
-    } else {
-        kinds.join(", ")
-    };
+    let kinds = if kinds.is_empty() { "none that is drawn".into() } else { kinds.join(", ") };
     table.row("features", format!("{} ({kinds})", summary.features));
     table.row("parts", summary.parts.to_string());
     table.row("vertices", summary.vertices.to_string());
@@ -236,10 +211,7 @@ fn of_scene(scene: &SceneFile) -> Table {
     let mut table = Table::new(format!("{}: scene", scene.name));
     table.row("image", format!("{} x {}", scene.image.width, scene.image.height));
     table.row("camera", camera(&scene.camera));
-    table.row(
-        "plan",
-        scene.crs.clone().unwrap_or_else(|| "the terrain's".into()),
-    );
+    table.row("plan", scene.crs.clone().unwrap_or_else(|| "the terrain's".into()));
     table.row(
         "terrain",
         match &scene.terrain.source {
@@ -255,10 +227,7 @@ fn of_scene(scene: &SceneFile) -> Table {
     for layer in &scene.layers {
         let source = match &layer.source {
             LayerSource::File { file, layer: None } => file.written.clone(),
-            LayerSource::File {
-                file,
-                layer: Some(layer),
-            } => format!("{}, layer `{layer}`", file.written),
+            LayerSource::File { file, layer: Some(layer) } => format!("{}, layer `{layer}`", file.written),
             LayerSource::Inline(shapes) => format!("{} features", shapes.len()),
             LayerSource::Generate(_) => "generated".into(),
         };
@@ -287,13 +256,7 @@ fn counted(count: usize, what: &str) -> String {
 }
 
 fn spans([x0, y0, x1, y1]: [f64; 4]) -> String {
-    format!(
-        "x {} to {}, y {} to {}",
-        number(x0),
-        number(x1),
-        number(y0),
-        number(y1)
-    )
+    format!("x {} to {}, y {} to {}", number(x0), number(x1), number(y0), number(y1))
 }
 
 /// A number with at most eight decimals.
@@ -309,10 +272,7 @@ mod tests {
 
     #[test]
     fn numbers_end_where_they_say_nothing_more() {
-        assert_eq!(
-            [1200.0, -0.5, 1e-12, -1e-12].map(number),
-            ["1200", "-0.5", "0", "0"]
-        );
+        assert_eq!([1200.0, -0.5, 1e-12, -1e-12].map(number), ["1200", "-0.5", "0", "0"]);
         assert_eq!(number(1.0 / 1200.0), "0.00083333");
     }
 }

@@ -64,9 +64,7 @@ pub(crate) fn main() -> ExitCode {
 
 fn call() -> ExitCode {
     let arguments: Vec<OsString> = std::env::args_os().collect();
-    let parsed = Cli::command()
-        .color(wanted_color(&arguments))
-        .try_get_matches_from(arguments);
+    let parsed = Cli::command().color(wanted_color(&arguments)).try_get_matches_from(arguments);
     let cli = match parsed.and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
         Err(usage) => return stop::usage(&usage),
@@ -86,29 +84,17 @@ fn run(command: Command) -> Outcome {
 
 /// The colour choice for the parser's own messages, which are printed before there are parsed arguments.
 fn wanted_color(arguments: &[OsString]) -> ColorChoice {
-    let words: Vec<&str> = arguments
-        .iter()
-        .filter_map(|argument| argument.to_str())
-        .collect();
-    let after = words
-        .iter()
-        .position(|word| *word == "--color")
-        .and_then(|at| words.get(at + 1).copied());
+    let words: Vec<&str> = arguments.iter().filter_map(|argument| argument.to_str()).collect();
+    let after = words.iter().position(|word| *word == "--color").and_then(|at| words.get(at + 1).copied());
     let joined = words.iter().find_map(|word| word.strip_prefix("--color="));
-    joined
-        .or(after)
-        .and_then(|word| word.parse().ok())
-        .unwrap_or(ColorChoice::Auto)
+    joined.or(after).and_then(|word| word.parse().ok()).unwrap_or(ColorChoice::Auto)
 }
 
 /// Prints data on stdout.
 fn print(text: &str) -> Outcome {
     use std::io::Write;
     let mut stdout = std::io::stdout().lock();
-    stdout
-        .write_all(text.as_bytes())
-        .and_then(|()| stdout.flush())
-        .map_err(Stop::stdout)?;
+    stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()).map_err(Stop::stdout)?;
     Ok(Status::Passed)
 }
 

@@ -46,11 +46,7 @@ struct Terrain<'a> {
 impl<'a> Terrain<'a> {
     fn of(path: &'a Path) -> Result<Self> {
         let (summary, encoding) = dem::describe_guessing(path, &DemOptions::default())?;
-        Ok(Self {
-            path,
-            summary,
-            encoding,
-        })
+        Ok(Self { path, summary, encoding })
     }
 
     /// The plan that the scene will have, where the file states a CRS.
@@ -63,10 +59,7 @@ impl<'a> Terrain<'a> {
     fn diagonal(&self) -> f64 {
         let [x0, y0, x1, y1] = self.summary.bounds;
         let plan = self.plan();
-        let metre = plan
-            .as_ref()
-            .and_then(|plan| plan.crs().metres_per_unit())
-            .unwrap_or(1.0);
+        let metre = plan.as_ref().and_then(|plan| plan.crs().metres_per_unit()).unwrap_or(1.0);
         let local = plan.as_ref().and_then(PlanSpace::metres_per_degree);
         let (east, north) = local.unwrap_or((metre, metre));
         let (x, y) = ((x1 - x0) * east, (y1 - y0) * north);
@@ -159,10 +152,7 @@ fn crs_lines(terrain: &Terrain<'_>, vectors: &[(&Path, VectorSummary)]) -> Resul
     }
     let guess = vectors.iter().find_map(|(path, summary)| {
         let code = summary.crs.as_ref().and_then(Crs::epsg)?;
-        summary
-            .bounds
-            .meets(&bounds(&terrain.summary))
-            .then_some((*path, code))
+        summary.bounds.meets(&bounds(&terrain.summary)).then_some((*path, code))
     });
     Ok(match guess {
         Some((path, code)) => format!(
@@ -175,10 +165,7 @@ fn crs_lines(terrain: &Terrain<'_>, vectors: &[(&Path, VectorSummary)]) -> Resul
 
 fn bounds(summary: &DemSummary) -> PlanBox {
     let [x0, y0, x1, y1] = summary.bounds;
-    PlanBox {
-        min: Plan::new(x0, y0),
-        max: Plan::new(x1, y1),
-    }
+    PlanBox { min: Plan::new(x0, y0), max: Plan::new(x1, y1) }
 }
 
 /// What a PNG does not say itself.
@@ -198,21 +185,15 @@ fn encoding_lines(terrain: &Terrain<'_>) -> String {
 /// The table of a layer; `(number, width)`: its place among the layers, and how wide a line is to be seen.
 fn layer(name: &str, path: &Path, summary: &VectorSummary, (number, width): (usize, f64)) -> Result<String> {
     if summary.features > 0 && summary.polygons + summary.lines == 0 {
-        let what = summary
-            .layer
-            .as_ref()
-            .map_or(String::new(), |layer| format!(", layer {}", quoted_text(layer)));
+        let what =
+            summary.layer.as_ref().map_or(String::new(), |layer| format!(", layer {}", quoted_text(layer)));
         return Ok(format!(
             "\n# {}{what} holds nothing that is drawn: polygons and lines are.\n",
             quoted(path)?
         ));
     }
     let (fill, border, line) = COLORS[number % COLORS.len()];
-    let mut text = format!(
-        "\n[[layer]]\nname = {}\nsource = {}\n",
-        quoted_text(name),
-        quoted(path)?
-    );
+    let mut text = format!("\n[[layer]]\nname = {}\nsource = {}\n", quoted_text(name), quoted(path)?);
     if let Some(layer) = &summary.layer {
         text += &format!("layer = {}\n", quoted_text(layer));
     }
@@ -242,17 +223,14 @@ fn require(path: &Path) -> Result<()> {
 }
 
 fn name_of(path: &Path) -> String {
-    path.file_stem()
-        .map_or_else(|| "layer".into(), |stem| stem.to_string_lossy().into_owned())
+    path.file_stem().map_or_else(|| "layer".into(), |stem| stem.to_string_lossy().into_owned())
 }
 
 /// The name, or the name with a number where it is taken.
 fn unused(name: &str, taken: &[String]) -> String {
     let numbered = (2..).map(|number| format!("{name}-{number}"));
     let mut candidates = std::iter::once(name.to_owned()).chain(numbered);
-    candidates
-        .find(|candidate| !taken.contains(candidate))
-        .unwrap_or_default()
+    candidates.find(|candidate| !taken.contains(candidate)).unwrap_or_default()
 }
 
 /// A path as a TOML string.
@@ -267,9 +245,7 @@ fn quoted(path: &Path) -> Result<String> {
 
 /// A text on one line, for a comment: names in files may hold anything.
 fn harmless(text: &str) -> String {
-    text.chars()
-        .map(|c| if c.is_control() { ' ' } else { c })
-        .collect()
+    text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
 }
 
 /// A text as a TOML string on one line.
@@ -308,9 +284,7 @@ mod tests {
             let text = scene(&Terrain::of(&grid).unwrap(), &vectors).unwrap();
             let parsed = SceneFile::parse(&text, None, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
             assert_eq!(parsed.layers[1].name, format!("{name}-2"));
-            let LayerSource::File { file, .. } = &parsed.layers[0].source else {
-                panic!("no file")
-            };
+            let LayerSource::File { file, .. } = &parsed.layers[0].source else { panic!("no file") };
             assert_eq!(file.path, json);
         }
     }
@@ -322,9 +296,6 @@ mod tests {
 
     #[test]
     fn widths_have_two_digits() {
-        assert_eq!(
-            [145.6, 0.0123, 9.96, 0.0].map(two_digits),
-            [150.0, 0.012, 10.0, 1.0]
-        );
+        assert_eq!([145.6, 0.0123, 9.96, 0.0].map(two_digits), [150.0, 0.012, 10.0, 1.0]);
     }
 }

@@ -37,14 +37,8 @@ impl SceneInput {
             .map_err(|error| Error::new(format!("stdin cannot be read: {error}")))?;
         let text = decode(bytes, name)?;
         match SceneFile::parse(&text, Some(name), overrides) {
-            Ok(file) => Ok(Self {
-                file,
-                text: Some(text),
-            }),
-            Err(error) => Err(Stop::Refused {
-                error,
-                text: Some(text),
-            }),
+            Ok(file) => Ok(Self { file, text: Some(text) }),
+            Err(error) => Err(Stop::Refused { error, text: Some(text) }),
         }
     }
 

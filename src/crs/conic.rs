@@ -34,11 +34,7 @@ impl Lambert {
             ellipsoid.a * k_0 * parallel_radius(&ellipsoid, first) * exp(cone * ellipsoid.isometric(first))
                 / cone;
         let mut made = Self {
-            parallels: if parallels[0] <= parallels[1] {
-                parallels
-            } else {
-                [parallels[1], parallels[0]]
-            },
+            parallels: if parallels[0] <= parallels[1] { parallels } else { [parallels[1], parallels[0]] },
             lat_0,
             k_0,
             ellipsoid,

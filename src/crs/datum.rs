@@ -86,11 +86,8 @@ impl Helmert {
         if super::wrapped(left.x).abs() < 1e-10 && left.y.abs() < 1e-10 && guess.y.abs() <= 90.0 {
             return Ok(guess);
         }
-        Err(Error::new(format!(
-            "the datum shift does not converge at longitude {}, latitude {}",
-            p.x, p.y
-        ))
-        .help("places this near a pole need a polar projection on WGS 84"))
+        Err(Error::new(format!("the datum shift does not converge at longitude {}, latitude {}", p.x, p.y))
+            .help("places this near a pole need a polar projection on WGS 84"))
     }
 }
 
@@ -106,9 +103,7 @@ mod tests {
         let shift = Helmert::from_numbers(&MGI).unwrap();
         for p in [(11.9, 46.6), (-179.9999, 10.0), (179.9999, -60.0), (0.0, 89.0)] {
             let p = DVec2::new(p.0, p.1);
-            let back = shift
-                .own_from_wgs84(&bessel, shift.wgs84_from(&bessel, p))
-                .unwrap();
+            let back = shift.own_from_wgs84(&bessel, shift.wgs84_from(&bessel, p)).unwrap();
             assert!((back - p).length() < 1e-11, "{p} came back as {back}");
         }
     }

@@ -13,17 +13,11 @@ pub(crate) struct Ellipsoid {
 }
 
 impl Ellipsoid {
-    pub(crate) const WGS84: Self = Self {
-        a: 6_378_137.0,
-        f: 1.0 / 298.257_223_563,
-    };
+    pub(crate) const WGS84: Self = Self { a: 6_378_137.0, f: 1.0 / 298.257_223_563 };
 
     /// From the equatorial radius and the inverse flattening; 0 means a sphere.
     pub(crate) fn from_inverse_flattening(a: f64, rf: f64) -> Self {
-        Self {
-            a,
-            f: if rf == 0.0 { 0.0 } else { 1.0 / rf },
-        }
+        Self { a, f: if rf == 0.0 { 0.0 } else { 1.0 / rf } }
     }
 
     /// The first eccentricity squared.
@@ -77,10 +71,7 @@ impl Ellipsoid {
         let mut lat = beta;
         for _ in 0..3 {
             let (s, c) = (sin(beta), cos(beta));
-            lat = atan2(
-                p.z + second_e2 * self.b() * s * s * s,
-                r - self.e2() * self.a * c * c * c,
-            );
+            lat = atan2(p.z + second_e2 * self.b() * s * s * s, r - self.e2() * self.a * c * c * c);
             beta = atan2((1.0 - self.f) * sin(lat), cos(lat));
         }
         (atan2(p.y, p.x), lat)
@@ -106,11 +97,7 @@ impl Ellipsoid {
     /// The geographic latitude of a conformal latitude's tangent: Newton's method, Karney (2011), eqs. 19 to 21.
     pub(crate) fn latitude_of_conformal_tan(&self, taup: f64) -> f64 {
         let (e, e2m) = (self.e(), 1.0 - self.e2());
-        let mut tau = if taup.abs() > 70.0 {
-            taup * exp(e * atanh(e))
-        } else {
-            taup / e2m
-        };
+        let mut tau = if taup.abs() > 70.0 { taup * exp(e * atanh(e)) } else { taup / e2m };
         for _ in 0..6 {
             let here = self.conformal_from_tan(tau);
             let step = (taup - here) / (1.0 + here * here).sqrt() * (1.0 + e2m * tau * tau)

@@ -12,8 +12,6 @@ pub(crate) struct Known {
 pub(crate) fn known(code: u32) -> Option<Known> {
     let known = crs_definitions::from_code(u16::try_from(code).ok()?)?;
     // The list means Clarke 1880 (RGS) by PROJ's name of another Clarke 1880, whose pole lies 0.3 m off.
-    let proj = known
-        .proj4
-        .replace("+ellps=clrk80 ", "+a=6378249.145 +rf=293.465 ");
+    let proj = known.proj4.replace("+ellps=clrk80 ", "+a=6378249.145 +rf=293.465 ");
     Some(Known { proj, wkt: known.wkt })
 }

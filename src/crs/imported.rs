@@ -40,9 +40,7 @@ impl PartialEq for Imported {
 impl Imported {
     pub(crate) fn new(definition: &Definition, ellipsoid: &Ellipsoid) -> Result<Self> {
         let mut bare = definition.clone();
-        bare.forget(&[
-            "towgs84", "nadgrids", "datum", "ellps", "a", "b", "rf", "f", "R", "type",
-        ]);
+        bare.forget(&["towgs84", "nadgrids", "datum", "ellps", "a", "b", "rf", "f", "R", "type"]);
         let shape = format!("+a={} +b={}", ellipsoid.a, ellipsoid.b());
         Ok(Self {
             projected: load(&format!("{bare} {shape}"))?,
@@ -64,10 +62,7 @@ impl Imported {
     pub(crate) fn inverse(&self, p: DVec2) -> Option<DVec2> {
         let mut q = (p.x, p.y, 0.0);
         transform(&self.projected, &self.geographic, &mut q).ok()?;
-        Some(DVec2::new(
-            rounded(q.0.to_degrees(), DEGREE_QUANTA),
-            rounded(q.1.to_degrees(), DEGREE_QUANTA),
-        ))
+        Some(DVec2::new(rounded(q.0.to_degrees(), DEGREE_QUANTA), rounded(q.1.to_degrees(), DEGREE_QUANTA)))
     }
 }
 

@@ -69,9 +69,7 @@ impl Crs {
                 .help("write it as a PROJ string or as WKT, or reproject the data")
         })?;
         let mut crs = Self::from_definition(&Definition::parse(&known.proj)?).map_err(|e| {
-            e.help(format!(
-                "EPSG:{code} cannot be used: reproject the data, for example to UTM"
-            ))
+            e.help(format!("EPSG:{code} cannot be used: reproject the data, for example to UTM"))
         })?;
         crs.epsg = Some(code);
         let words = known.wkt.split('"').nth(1).unwrap_or("");
@@ -105,12 +103,8 @@ impl Crs {
             return Some(Self::crs84());
         }
         let short = upper.strip_prefix("EPSG:");
-        let urn = upper
-            .strip_prefix("URN:OGC:DEF:CRS:EPSG:")
-            .and_then(|t| t.split(':').nth(1));
-        let url = upper
-            .split_once("/DEF/CRS/EPSG/")
-            .and_then(|t| t.1.split('/').nth(1));
+        let urn = upper.strip_prefix("URN:OGC:DEF:CRS:EPSG:").and_then(|t| t.split(':').nth(1));
+        let url = upper.split_once("/DEF/CRS/EPSG/").and_then(|t| t.1.split('/').nth(1));
         let code: u32 = short.or(urn).or(url)?.trim().parse().ok()?;
         Some(Self::from_epsg(code))
     }
@@ -258,11 +252,8 @@ impl Crs {
     }
 
     fn outside(&self, p: DVec2) -> Error {
-        Error::new(format!(
-            "longitude {}, latitude {} lies outside the domain of {}",
-            p.x, p.y, self.name
-        ))
-        .help("clip the data, or choose a CRS made for that area")
+        Error::new(format!("longitude {}, latitude {} lies outside the domain of {}", p.x, p.y, self.name))
+            .help("clip the data, or choose a CRS made for that area")
     }
 }
 

@@ -73,11 +73,7 @@ impl PlanSpace {
         }
         let metres_per_degree = metres_per_degree_at(&crs, center_lat);
         let center = DVec2::new(center_lon, center_lat);
-        Ok(Self(Kind::Local(LocalPlane {
-            crs,
-            center,
-            metres_per_degree,
-        })))
+        Ok(Self(Kind::Local(LocalPlane { crs, center, metres_per_degree })))
     }
 
     /// What the plane is, for people.
@@ -136,11 +132,7 @@ impl PlanSpace {
     /// # Errors
     /// None today; a CRS that has no map to the plan is to be refused here.
     pub fn plan_from(&self, file: &Crs) -> Result<PlanFrom> {
-        Ok(PlanFrom {
-            file: file.clone(),
-            plan: self.clone(),
-            same: self.crs().is_same(file),
-        })
+        Ok(PlanFrom { file: file.clone(), plan: self.clone(), same: self.crs().is_same(file) })
     }
 
     /// The plan point of a longitude and latitude on WGS 84, degrees.
@@ -161,10 +153,7 @@ impl PlanSpace {
 
     fn affine(&self) -> Affine {
         match &self.0 {
-            Kind::Projected(crs) => Affine {
-                origin: DVec2::ZERO,
-                scale: DVec2::splat(crs.unit),
-            },
+            Kind::Projected(crs) => Affine { origin: DVec2::ZERO, scale: DVec2::splat(crs.unit) },
             Kind::Local(plane) => Affine {
                 origin: plane.center / plane.crs.unit,
                 scale: plane.metres_per_degree * plane.crs.unit,
@@ -183,9 +172,7 @@ impl PlanSpace {
             }
             off.x = wrapped(off.x * plane.crs.unit) / plane.crs.unit;
         }
-        Some(off * affine.scale)
-            .filter(|q| q.is_finite())
-            .ok_or_else(|| not_on_the_globe(p, self.crs()))
+        Some(off * affine.scale).filter(|q| q.is_finite()).ok_or_else(|| not_on_the_globe(p, self.crs()))
     }
 
     /// To the plane's own CRS.
@@ -230,8 +217,7 @@ impl PlanFrom {
 
     /// Whether plan coordinates are the file's, bit for bit.
     pub fn is_identity(&self) -> bool {
-        self.affine()
-            .is_some_and(|a| a.origin == DVec2::ZERO && a.scale == DVec2::ONE)
+        self.affine().is_some_and(|a| a.origin == DVec2::ZERO && a.scale == DVec2::ONE)
     }
 
     /// The plan point of a point in the file's CRS.
@@ -264,8 +250,7 @@ impl PlanFrom {
         if self.file.has_datum_of(from) {
             self.file.project(from.own_geographic(there)?)
         } else {
-            self.file
-                .native_from_geographic(from.geographic_from_native(there)?)
+            self.file.native_from_geographic(from.geographic_from_native(there)?)
         }
     }
 }

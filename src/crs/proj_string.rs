@@ -97,9 +97,7 @@ impl Definition {
         if (0.0..0.5).contains(&f) {
             return Ok(Ellipsoid { a, f });
         }
-        Err(Error::new(format!(
-            "an ellipsoid flattened by {f} is no figure of a planet"
-        )))
+        Err(Error::new(format!("an ellipsoid flattened by {f} is no figure of a planet")))
     }
 
     pub(crate) fn datum(&self, ellipsoid: &Ellipsoid) -> Result<Datum> {
@@ -163,9 +161,7 @@ fn positive(key: &str, value: f64) -> Result<f64> {
     if value > 0.0 && value < 1e12 {
         return Ok(value);
     }
-    Err(Error::new(format!(
-        "+{key}={value} in the PROJ string is not a positive size"
-    )))
+    Err(Error::new(format!("+{key}={value} in the PROJ string is not a positive size")))
 }
 
 fn shift_of_text(text: &str, ellipsoid: &Ellipsoid) -> Result<Datum> {
@@ -175,9 +171,7 @@ fn shift_of_text(text: &str, ellipsoid: &Ellipsoid) -> Result<Datum> {
 
 fn shift_of_numbers(numbers: &[f64], ellipsoid: &Ellipsoid) -> Result<Datum> {
     let shift = Helmert::from_numbers(numbers).ok_or_else(|| {
-        Error::new(format!(
-            "+towgs84 takes 3 or 7 numbers of sensible size, not {numbers:?}"
-        ))
+        Error::new(format!("+towgs84 takes 3 or 7 numbers of sensible size, not {numbers:?}"))
     })?;
     if shift.is_zero() && ellipsoid.agrees_with(&Ellipsoid::WGS84) {
         return Ok(Datum::Wgs84);
@@ -187,12 +181,10 @@ fn shift_of_numbers(numbers: &[f64], ellipsoid: &Ellipsoid) -> Result<Datum> {
 
 fn ellipsoid_named(name: &str) -> Result<Ellipsoid> {
     let found = ELLIPSOIDS.iter().find(|e| e.0.eq_ignore_ascii_case(name));
-    found
-        .map(|e| Ellipsoid::from_inverse_flattening(e.1, e.2))
-        .ok_or_else(|| {
-            Error::new(format!("the PROJ string's ellipsoid '{name}' is not known"))
-                .help("give its radius and inverse flattening as +a= and +rf=")
-        })
+    found.map(|e| Ellipsoid::from_inverse_flattening(e.1, e.2)).ok_or_else(|| {
+        Error::new(format!("the PROJ string's ellipsoid '{name}' is not known"))
+            .help("give its radius and inverse flattening as +a= and +rf=")
+    })
 }
 
 fn known_datum(name: &str) -> Result<(&'static str, &'static [f64])> {
@@ -237,32 +229,12 @@ const DATUMS: [(&str, &str, &[f64]); 10] = [
     ("NAD83", "GRS80", &[0.0, 0.0, 0.0]),
     ("NAD27", "clrk66", &[-8.0, 160.0, 176.0]),
     ("GGRS87", "GRS80", &[-199.87, 74.79, 246.62]),
-    (
-        "potsdam",
-        "bessel",
-        &[598.1, 73.7, 418.2, 0.202, 0.045, -2.455, 6.7],
-    ),
+    ("potsdam", "bessel", &[598.1, 73.7, 418.2, 0.202, 0.045, -2.455, 6.7]),
     ("carthage", "clrk80ign", &[-263.0, 6.0, 431.0]),
-    (
-        "hermannskogel",
-        "bessel",
-        &[577.326, 90.129, 463.919, 5.137, 1.474, 5.297, 2.4232],
-    ),
-    (
-        "ire65",
-        "mod_airy",
-        &[482.530, -130.596, 564.557, -1.042, -0.214, -0.631, 8.15],
-    ),
-    (
-        "nzgd49",
-        "intl",
-        &[59.47, -5.04, 187.44, 0.47, -0.1, 1.024, -4.5993],
-    ),
-    (
-        "OSGB36",
-        "airy",
-        &[446.448, -125.157, 542.060, 0.1502, 0.2470, 0.8421, -20.4894],
-    ),
+    ("hermannskogel", "bessel", &[577.326, 90.129, 463.919, 5.137, 1.474, 5.297, 2.4232]),
+    ("ire65", "mod_airy", &[482.530, -130.596, 564.557, -1.042, -0.214, -0.631, 8.15]),
+    ("nzgd49", "intl", &[59.47, -5.04, 187.44, 0.47, -0.1, 1.024, -4.5993]),
+    ("OSGB36", "airy", &[446.448, -125.157, 542.060, 0.1502, 0.2470, 0.8421, -20.4894]),
 ];
 
 const PRIME_MERIDIANS: [(&str, f64); 14] = [

@@ -34,10 +34,7 @@ impl Origin {
     fn new(definition: &Definition) -> Result<Self> {
         Ok(Self {
             lon_0: definition.number_or("lon_0", 0.0)?,
-            offset: DVec2::new(
-                definition.number_or("x_0", 0.0)?,
-                definition.number_or("y_0", 0.0)?,
-            ),
+            offset: DVec2::new(definition.number_or("x_0", 0.0)?, definition.number_or("y_0", 0.0)?),
         })
     }
 
@@ -146,10 +143,7 @@ fn utm(definition: &Definition, ellipsoid: Ellipsoid) -> Result<Projection> {
         lon_0: zone * 6.0 - 183.0,
         offset: DVec2::new(500_000.0, if south { 10_000_000.0 } else { 0.0 }),
     };
-    Ok(Projection::Transverse(
-        origin,
-        TransverseMercator::new(ellipsoid, 0.0, 0.9996),
-    ))
+    Ok(Projection::Transverse(origin, TransverseMercator::new(ellipsoid, 0.0, 0.9996)))
 }
 
 fn lambert(definition: &Definition, ellipsoid: Ellipsoid) -> Result<Projection> {
@@ -176,10 +170,7 @@ fn mercator(definition: &Definition, ellipsoid: Ellipsoid) -> Result<Projection>
         0.0 => definition.scale()?,
         lat => parallel_radius(&ellipsoid, lat.to_radians()),
     };
-    Ok(Projection::Mercator(
-        Origin::new(definition)?,
-        Mercator::new(ellipsoid, k_0),
-    ))
+    Ok(Projection::Mercator(Origin::new(definition)?, Mercator::new(ellipsoid, k_0)))
 }
 
 fn latitude(definition: &Definition, key: &str, default: f64) -> Result<f64> {

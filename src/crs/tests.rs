@@ -22,179 +22,41 @@ fn check(text: &str, lon: f64, lat: f64, x: f64, y: f64) {
 #[test]
 fn transverse_mercator_agrees_with_proj() {
     // reference: PROJ 9
-    check(
-        "EPSG:32733",
-        20.5,
-        -34.0,
-        1_008_207.250_195_427_8,
-        6_224_178.920_222_426,
-    );
+    check("EPSG:32733", 20.5, -34.0, 1_008_207.250_195_427_8, 6_224_178.920_222_426);
     check("EPSG:32733", 15.0, -1.0, 500_000.0, 9_889_469.841_197_625);
-    check(
-        "EPSG:32733",
-        13.2,
-        -79.5,
-        463_386.076_658_9,
-        1_173_655.417_880_704_6,
-    );
-    check(
-        "EPSG:32733",
-        25.0,
-        -33.9,
-        1_426_337.309_456_384_7,
-        6_203_567.979_338_501,
-    );
-    check(
-        "EPSG:32611",
-        -118.2,
-        34.3,
-        389_570.721_788_346_07,
-        3_796_071.921_889_133,
-    );
-    check(
-        "EPSG:32611",
-        -110.0,
-        40.0,
-        1_097_776.666_966_041_6,
-        4_451_293.437_195_173,
-    );
-    check(
-        "EPSG:3794",
-        14.5,
-        46.05,
-        461_307.139_403_884_94,
-        101_254.901_891_653_43,
-    );
-    check(
-        "EPSG:3794",
-        16.2,
-        46.8,
-        591_597.635_713_253_9,
-        185_194.011_852_379_9,
-    );
-    check(
-        "EPSG:2193",
-        174.78,
-        -41.3,
-        1_749_023.033_640_432_4,
-        5_426_411.161_363_149,
-    );
-    check(
-        "EPSG:2193",
-        166.5,
-        -46.0,
-        1_096_728.102_992_250_4,
-        4_885_373.763_791_157,
-    );
-    check(
-        "EPSG:2193",
-        -176.5,
-        -44.0,
-        2_441_977.480_125_731,
-        5_074_225.226_125_137,
-    );
-    check(
-        "EPSG:23030",
-        -5.3,
-        40.3,
-        304_517.023_596_622_63,
-        4_463_670.482_728_695_5,
-    );
-    check(
-        "EPSG:27700",
-        -1.5,
-        52.0,
-        434_321.869_053_483_94,
-        233_671.743_101_249_86,
-    );
-    check(
-        "EPSG:27700",
-        -5.7,
-        50.1,
-        135_440.051_935_812_63,
-        28_840.527_818_251_678,
-    );
+    check("EPSG:32733", 13.2, -79.5, 463_386.076_658_9, 1_173_655.417_880_704_6);
+    check("EPSG:32733", 25.0, -33.9, 1_426_337.309_456_384_7, 6_203_567.979_338_501);
+    check("EPSG:32611", -118.2, 34.3, 389_570.721_788_346_07, 3_796_071.921_889_133);
+    check("EPSG:32611", -110.0, 40.0, 1_097_776.666_966_041_6, 4_451_293.437_195_173);
+    check("EPSG:3794", 14.5, 46.05, 461_307.139_403_884_94, 101_254.901_891_653_43);
+    check("EPSG:3794", 16.2, 46.8, 591_597.635_713_253_9, 185_194.011_852_379_9);
+    check("EPSG:2193", 174.78, -41.3, 1_749_023.033_640_432_4, 5_426_411.161_363_149);
+    check("EPSG:2193", 166.5, -46.0, 1_096_728.102_992_250_4, 4_885_373.763_791_157);
+    check("EPSG:2193", -176.5, -44.0, 2_441_977.480_125_731, 5_074_225.226_125_137);
+    check("EPSG:23030", -5.3, 40.3, 304_517.023_596_622_63, 4_463_670.482_728_695_5);
+    check("EPSG:27700", -1.5, 52.0, 434_321.869_053_483_94, 233_671.743_101_249_86);
+    check("EPSG:27700", -5.7, 50.1, 135_440.051_935_812_63, 28_840.527_818_251_678);
 }
 
 #[test]
 fn conic_and_mercator_agree_with_proj() {
     // reference: PROJ 9
-    check(
-        "EPSG:31287",
-        11.3,
-        47.1,
-        245_726.780_329_389_96,
-        357_567.732_656_498_96,
-    );
-    check(
-        "EPSG:31287",
-        16.4,
-        48.2,
-        627_817.084_195_811,
-        482_293.839_064_645_1,
-    );
-    check(
-        "EPSG:2154",
-        2.3,
-        48.8,
-        648_583.262_125_228_5,
-        6_855_774.715_696_832,
-    );
-    check(
-        "EPSG:2154",
-        -4.5,
-        48.4,
-        145_709.788_949_823_24,
-        6_837_422.082_614_361,
-    );
-    check(
-        "EPSG:3857",
-        -122.0,
-        47.0,
-        -13_580_977.876_779_376,
-        5_942_074.072_431_109,
-    );
-    check(
-        "EPSG:3857",
-        179.9,
-        -84.0,
-        20_026_376.393_709_917,
-        -18_807_214.096_747_704,
-    );
-    check(
-        "EPSG:3395",
-        10.0,
-        50.0,
-        1_113_194.907_932_735_7,
-        6_413_524.594_163_64,
-    );
+    check("EPSG:31287", 11.3, 47.1, 245_726.780_329_389_96, 357_567.732_656_498_96);
+    check("EPSG:31287", 16.4, 48.2, 627_817.084_195_811, 482_293.839_064_645_1);
+    check("EPSG:2154", 2.3, 48.8, 648_583.262_125_228_5, 6_855_774.715_696_832);
+    check("EPSG:2154", -4.5, 48.4, 145_709.788_949_823_24, 6_837_422.082_614_361);
+    check("EPSG:3857", -122.0, 47.0, -13_580_977.876_779_376, 5_942_074.072_431_109);
+    check("EPSG:3857", 179.9, -84.0, 20_026_376.393_709_917, -18_807_214.096_747_704);
+    check("EPSG:3395", 10.0, 50.0, 1_113_194.907_932_735_7, 6_413_524.594_163_64);
 }
 
 #[test]
 fn imported_projections_agree_with_proj_to_a_tenth_of_a_millimetre() {
     // reference: PROJ 9
     for (text, lon, lat, x, y) in [
-        (
-            "EPSG:3035",
-            10.5,
-            47.2,
-            4_358_915.335_064_176_5,
-            2_676_397.674_318_239,
-        ),
-        (
-            "EPSG:3035",
-            25.0,
-            60.0,
-            5_152_827.253_890_325,
-            4_188_383.611_105_125_4,
-        ),
-        (
-            "EPSG:2056",
-            7.5,
-            46.9,
-            2_604_603.059_048_793_7,
-            1_194_176.530_537_348_7,
-        ),
+        ("EPSG:3035", 10.5, 47.2, 4_358_915.335_064_176_5, 2_676_397.674_318_239),
+        ("EPSG:3035", 25.0, 60.0, 5_152_827.253_890_325, 4_188_383.611_105_125_4),
+        ("EPSG:2056", 7.5, 46.9, 2_604_603.059_048_793_7, 1_194_176.530_537_348_7),
     ] {
         let p = projected(text, lon, lat);
         assert!((p - DVec2::new(x, y)).length() < 1e-4, "{text}: {p}");
@@ -208,20 +70,8 @@ fn imported_projections_agree_with_proj_to_a_tenth_of_a_millimetre() {
 fn datum_shifts_agree_with_proj() {
     // reference: PROJ 9, the same +towgs84 in its pipeline
     for (text, x, y, lon, lat) in [
-        (
-            "EPSG:31287",
-            290_000.0,
-            300_000.0,
-            11.896_897_621_697_232,
-            46.590_519_431_960_16,
-        ),
-        (
-            "EPSG:31287",
-            600_000.0,
-            480_000.0,
-            16.023_647_356_813_026,
-            48.188_137_328_129_145,
-        ),
+        ("EPSG:31287", 290_000.0, 300_000.0, 11.896_897_621_697_232, 46.590_519_431_960_16),
+        ("EPSG:31287", 600_000.0, 480_000.0, 16.023_647_356_813_026, 48.188_137_328_129_145),
         (
             "+proj=utm +zone=30 +ellps=intl +towgs84=-87,-98,-121,0,0,0,0 +units=m",
             270_000.0,
@@ -251,22 +101,10 @@ fn the_bits_of_our_own_projections_are_golden() {
         let p = projected(text, lon, lat);
         (p.x.to_bits(), p.y.to_bits())
     };
-    assert_eq!(
-        bits("EPSG:32733", 20.5, -34.0),
-        (4_696_907_646_427_045_227, 4_708_441_172_201_499_802)
-    );
-    assert_eq!(
-        bits("EPSG:2193", 174.78, -41.3),
-        (4_700_262_808_449_493_200, 4_707_584_575_592_973_850)
-    );
-    assert_eq!(
-        bits("EPSG:31287", 11.3, 47.1),
-        (4_687_683_120_720_074_110, 4_689_886_579_336_773_952)
-    );
-    assert_eq!(
-        bits("EPSG:3857", -122.0, 47.0),
-        (13_936_924_879_435_502_495, 4_708_138_264_427_673_111)
-    );
+    assert_eq!(bits("EPSG:32733", 20.5, -34.0), (4_696_907_646_427_045_227, 4_708_441_172_201_499_802));
+    assert_eq!(bits("EPSG:2193", 174.78, -41.3), (4_700_262_808_449_493_200, 4_707_584_575_592_973_850));
+    assert_eq!(bits("EPSG:31287", 11.3, 47.1), (4_687_683_120_720_074_110, 4_689_886_579_336_773_952));
+    assert_eq!(bits("EPSG:3857", -122.0, 47.0), (13_936_924_879_435_502_495, 4_708_138_264_427_673_111));
 }
 
 const UTM_33S: &str = r#"PROJCS["WGS_1984_UTM_Zone_33S",GEOGCS["GCS_WGS_1984",DATUM["D_WGS_1984",SPHEROID["WGS_1984",6378137,298.257223563]],PRIMEM["Greenwich",0],UNIT["Degree",0.017453292519943295]],PROJECTION["Transverse_Mercator"],PARAMETER["latitude_of_origin",0],PARAMETER["central_meridian",15],PARAMETER["scale_factor",0.9996],PARAMETER["false_easting",500000],PARAMETER["false_northing",10000000],UNIT["Meter",1]]"#;
@@ -299,10 +137,7 @@ fn wkt_is_the_same_crs_as_its_epsg_code() {
         ),
     ] {
         let (read, known) = (crs(wkt), Crs::from_epsg(code).unwrap());
-        assert!(
-            read.is_same(&known) && known.is_same(&read),
-            "{code}:\n{read:#?}\n{known:#?}"
-        );
+        assert!(read.is_same(&known) && known.is_same(&read), "{code}:\n{read:#?}\n{known:#?}");
         assert_eq!(read.note(), None);
     }
 }
@@ -327,11 +162,7 @@ fn every_wkt_of_the_epsg_list_is_the_same_crs_without_its_codes() {
         }
     }
     // What is left: shifts that the code's PROJ string has and its WKT does not, and rare projections.
-    assert!(
-        other.len() * 50 < same,
-        "{same} same, {} other: {other:?}",
-        other.len()
-    );
+    assert!(other.len() * 50 < same, "{same} same, {} other: {other:?}", other.len());
 }
 
 #[test]
@@ -358,10 +189,7 @@ fn all_spellings_of_longitude_and_latitude_are_one() {
         "http://www.opengis.net/def/crs/EPSG/0/4326",
         "+proj=longlat +datum=WGS84 +no_defs",
     ] {
-        assert!(
-            crs(text).is_same(&crs("EPSG:4326")) && crs(text).is_geographic(),
-            "{text}"
-        );
+        assert!(crs(text).is_same(&crs("EPSG:4326")) && crs(text).is_geographic(), "{text}");
     }
 }
 
@@ -388,10 +216,7 @@ fn what_is_not_a_crs_is_refused_in_words() {
         "+proj=tmerc +lat_0=1e9",
     ] {
         let error = Crs::parse(text).expect_err(text);
-        assert!(
-            !error.is_internal() && !error.what().is_empty(),
-            "{text}: {error}"
-        );
+        assert!(!error.is_internal() && !error.what().is_empty(), "{text}: {error}");
     }
 }
 
@@ -406,20 +231,9 @@ fn places_outside_the_domain_are_errors() {
     assert!(utm.native_from_geographic(DVec2::new(105.0, 0.0)).is_err());
     assert!(utm.native_from_geographic(DVec2::new(15.0, 91.0)).is_err());
     assert!(utm.native_from_geographic(DVec2::new(f64::NAN, 0.0)).is_err());
-    assert!(
-        utm.geographic_from_native(DVec2::new(f64::INFINITY, 0.0))
-            .is_err()
-    );
-    assert!(
-        crs("EPSG:3857")
-            .native_from_geographic(DVec2::new(0.0, 90.0))
-            .is_err()
-    );
-    assert!(
-        crs("EPSG:4326")
-            .geographic_from_native(DVec2::new(240_000.0, 350_000.0))
-            .is_err()
-    );
+    assert!(utm.geographic_from_native(DVec2::new(f64::INFINITY, 0.0)).is_err());
+    assert!(crs("EPSG:3857").native_from_geographic(DVec2::new(0.0, 90.0)).is_err());
+    assert!(crs("EPSG:4326").geographic_from_native(DVec2::new(240_000.0, 350_000.0)).is_err());
 }
 
 #[test]
@@ -428,10 +242,7 @@ fn feet_become_metres_in_the_plan() {
     // reference: PROJ 9, EPSG:2263 of (-74, 40.7) in US feet
     let p = plan.plan_from_geographic(-74.0, 40.7).unwrap();
     let feet = p / (1200.0 / 3937.0);
-    assert!(
-        (feet - DVec2::new(984_250.0, 194_305.339_281_019_43)).length() < 1e-3,
-        "{feet}"
-    );
+    assert!((feet - DVec2::new(984_250.0, 194_305.339_281_019_43)).length() < 1e-3, "{feet}");
 }
 
 #[test]
@@ -452,16 +263,10 @@ fn the_local_plane_keeps_grids_and_tells_its_scale_error() {
     let p = DVec2::new(20.6, -33.9);
     assert_eq!(map.apply(p).unwrap(), (p - affine.origin) * affine.scale);
     let (east, north) = plan.metres_per_degree().unwrap();
-    assert!(
-        (east - 92_385.0).abs() < 20.0 && (north - 110_922.0).abs() < 20.0,
-        "{east} {north}"
-    );
+    assert!((east - 92_385.0).abs() < 20.0 && (north - 110_922.0).abs() < 20.0, "{east} {north}");
     assert_eq!(plan.scale_error_at(0.0, 0.0), (0.0, 0.0));
     let (east, north) = plan.scale_error_at(0.0, 55_000.0);
-    assert!(
-        (-0.007..-0.005).contains(&east) && north.abs() < 1e-4,
-        "{east} {north}"
-    );
+    assert!((-0.007..-0.005).contains(&east) && north.abs() < 1e-4, "{east} {north}");
     assert!(plan.describe().contains("20.5"));
 }
 
@@ -478,10 +283,7 @@ fn the_local_plane_crosses_the_antimeridian() {
 fn both_edges_of_the_map_stay_apart() {
     let plan = PlanSpace::local_plane(0.0, 0.0, crs("EPSG:4326")).unwrap();
     let map = plan.plan_from(&crs("EPSG:4326")).unwrap();
-    let (w, e) = (
-        map.apply(DVec2::new(-180.0, 0.0)).unwrap(),
-        map.apply(DVec2::new(180.0, 0.0)).unwrap(),
-    );
+    let (w, e) = (map.apply(DVec2::new(-180.0, 0.0)).unwrap(), map.apply(DVec2::new(180.0, 0.0)).unwrap());
     assert_eq!(w.x, -e.x);
 }
 
@@ -505,17 +307,9 @@ fn plan_and_back_is_the_same_place() {
             let start = crs(file).native_from_geographic(DVec2::new(11.5, 47.3)).unwrap();
             let there = map.apply(start).unwrap();
             let back = map.invert(there).unwrap();
-            assert!(
-                (back - start).length() < 1e-4,
-                "{} {file}: {start} {back}",
-                plan.describe()
-            );
+            assert!((back - start).length() < 1e-4, "{} {file}: {start} {back}", plan.describe());
             let place = plan.geographic_from_plan(there).unwrap();
-            assert!(
-                (place - DVec2::new(11.5, 47.3)).length() < 1e-8,
-                "{} {file}: {place}",
-                plan.describe()
-            );
+            assert!((place - DVec2::new(11.5, 47.3)).length() < 1e-8, "{} {file}: {place}", plan.describe());
         }
     }
 }

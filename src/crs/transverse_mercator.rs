@@ -56,10 +56,7 @@ impl TransverseMercator {
             return None;
         }
         let z = sphere + sine_series(&self.alpha, sphere);
-        Some(DVec2::new(
-            self.radius * z.y,
-            self.radius * z.x - self.origin_northing,
-        ))
+        Some(DVec2::new(self.radius * z.y, self.radius * z.x - self.origin_northing))
     }
 
     /// Metres to longitude from the central meridian and latitude (radians); `None` out of the domain.

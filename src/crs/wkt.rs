@@ -70,9 +70,7 @@ impl Reader<'_> {
     fn word(&mut self) -> String {
         self.skip_blanks();
         let rest = self.rest();
-        let end = rest
-            .find(|c: char| !(c.is_alphanumeric() || "_+-.".contains(c)))
-            .unwrap_or(rest.len());
+        let end = rest.find(|c: char| !(c.is_alphanumeric() || "_+-.".contains(c))).unwrap_or(rest.len());
         let word = rest[..end].to_owned();
         self.at += end;
         word
@@ -103,10 +101,7 @@ impl Reader<'_> {
                 return Err(malformed("a bracket is not closed"));
             }
         }
-        Ok(Argument::Node(Node {
-            keyword: word.to_ascii_uppercase(),
-            arguments,
-        }))
+        Ok(Argument::Node(Node { keyword: word.to_ascii_uppercase(), arguments }))
     }
 
     fn argument(&mut self, depth: usize) -> Result<Argument> {
@@ -197,13 +192,10 @@ const UNIT: [&str; 2] = ["UNIT", "LENGTHUNIT"];
 const ANGLE: [&str; 2] = ["UNIT", "ANGLEUNIT"];
 
 fn crs_of(root: &Node) -> Result<Crs> {
-    let node = root
-        .find(&PROJECTED)
-        .or_else(|| root.find(&GEOGRAPHIC))
-        .ok_or_else(|| {
-            Error::new(format!("a {} is not a CRS of places on the earth", root.keyword))
-                .help("georeference the data, or name the CRS by its EPSG code")
-        })?;
+    let node = root.find(&PROJECTED).or_else(|| root.find(&GEOGRAPHIC)).ok_or_else(|| {
+        Error::new(format!("a {} is not a CRS of places on the earth", root.keyword))
+            .help("georeference the data, or name the CRS by its EPSG code")
+    })?;
     if let Some(Ok(crs)) = node.epsg().map(Crs::from_epsg) {
         return Ok(crs);
     }
@@ -222,9 +214,8 @@ fn proj4_extension(node: &Node) -> Option<&str> {
 }
 
 fn crs_of_parameters(node: &Node) -> Result<Crs> {
-    let geographic = node
-        .find(&GEOGRAPHIC)
-        .ok_or_else(|| malformed("a projected CRS lacks its geographic one"))?;
+    let geographic =
+        node.find(&GEOGRAPHIC).ok_or_else(|| malformed("a projected CRS lacks its geographic one"))?;
     let angle = degrees_per_unit(geographic);
     let mut text = match PROJECTED.contains(&node.keyword.as_str()) {
         true => projection_text(node, angle)?,
@@ -236,9 +227,7 @@ fn crs_of_parameters(node: &Node) -> Result<Crs> {
         let _ = write!(text, " +pm={meridian}");
     }
     if let Some(shift) = geographic.find(&["TOWGS84"]) {
-        let numbers: Vec<String> = (0..7)
-            .map(|i| shift.number(i).unwrap_or(0.0).to_string())
-            .collect();
+        let numbers: Vec<String> = (0..7).map(|i| shift.number(i).unwrap_or(0.0).to_string()).collect();
         let _ = write!(text, " +towgs84={}", numbers.join(","));
     }
     let mut crs = Crs::from_definition(&Definition::parse(&text)?)?;
@@ -261,16 +250,9 @@ fn settle(crs: &mut Crs, geographic: &Node, angle: f64) {
 fn degrees_per_unit(geographic: &Node) -> f64 {
     let own = geographic.child(&ANGLE);
     let of_axis = || geographic.child(&["AXIS"]).and_then(|axis| axis.child(&ANGLE));
-    let radians = own
-        .or_else(of_axis)
-        .and_then(|unit| unit.number(1))
-        .unwrap_or(0.0);
+    let radians = own.or_else(of_axis).and_then(|unit| unit.number(1)).unwrap_or(0.0);
     let degrees = radians.to_degrees();
-    if degrees < 1e-6 || (degrees - 1.0).abs() < 1e-9 {
-        1.0
-    } else {
-        degrees
-    }
+    if degrees < 1e-6 || (degrees - 1.0).abs() < 1e-9 { 1.0 } else { degrees }
 }
 
 fn ellipsoid_of(geographic: &Node) -> Result<(f64, f64)> {
@@ -288,19 +270,15 @@ fn ellipsoid_of(geographic: &Node) -> Result<(f64, f64)> {
 /// In degrees whatever the unit of the CRS, unless it states its own: that is how GDAL and Esri write it.
 fn prime_meridian_of(geographic: &Node) -> Option<f64> {
     let meridian = geographic.child(&["PRIMEM", "PRIMEMERIDIAN"])?;
-    let own = meridian
-        .child(&ANGLE)
-        .and_then(|unit| unit.number(1))
-        .map(f64::to_degrees);
+    let own = meridian.child(&ANGLE).and_then(|unit| unit.number(1)).map(f64::to_degrees);
     let degrees = meridian.number(1)? * own.unwrap_or(1.0);
     (degrees != 0.0).then_some(degrees)
 }
 
 fn projection_text(node: &Node, angle: f64) -> Result<String> {
     let conversion = node.child(&["CONVERSION", "DERIVINGCONVERSION"]).unwrap_or(node);
-    let method = conversion
-        .child(&["PROJECTION", "METHOD"])
-        .ok_or_else(|| malformed("it names no projection"))?;
+    let method =
+        conversion.child(&["PROJECTION", "METHOD"]).ok_or_else(|| malformed("it names no projection"))?;
     let metres = metres_per_unit(node);
     let mut parameters = Vec::new();
     for parameter in conversion.children().filter(|n| n.keyword == "PARAMETER") {
@@ -316,20 +294,14 @@ fn parameter_of(parameter: &Node, angle: f64, metres: f64) -> Result<Option<(&'s
     let Some(key) = wkt_names::parameter_key(&simplified(parameter.name())) else {
         return Ok(None);
     };
-    let value = parameter
-        .number(1)
-        .ok_or_else(|| malformed("a parameter lacks its number"))?;
+    let value = parameter.number(1).ok_or_else(|| malformed("a parameter lacks its number"))?;
     let own = |keywords: &[&str]| parameter.child(keywords).and_then(|unit| unit.number(1));
     let factor = match key {
         "x_0" | "y_0" => own(&UNIT).unwrap_or(metres),
         "k_0" => 1.0,
         _ => own(&ANGLE).map_or(angle, f64::to_degrees),
     };
-    let exact = if (factor - 1.0).abs() < 1e-12 {
-        value
-    } else {
-        value * factor
-    };
+    let exact = if (factor - 1.0).abs() < 1e-12 { value } else { value * factor };
     Ok(Some((key, exact)))
 }
 

@@ -9,10 +9,7 @@ use std::fmt::Write;
 
 /// A name's letters and digits in lower case: `Lambert_Conformal_Conic (2SP)` -> `lambertconformalconic2sp`.
 pub(crate) fn simplified(name: &str) -> String {
-    name.chars()
-        .filter(char::is_ascii_alphanumeric)
-        .map(|c| c.to_ascii_lowercase())
-        .collect()
+    name.chars().filter(char::is_ascii_alphanumeric).map(|c| c.to_ascii_lowercase()).collect()
 }
 
 /// PROJ's key of a parameter.
@@ -162,11 +159,7 @@ pub(crate) fn datum_named(name: &str, ellipsoid: &Ellipsoid) -> Datum {
         let known = theirs.agrees_with(ellipsoid) && datum != Datum::Unknown;
         known.then_some(datum)
     };
-    codes
-        .by_ref()
-        .filter(named)
-        .find_map(shift)
-        .unwrap_or(Datum::Unknown)
+    codes.by_ref().filter(named).find_map(shift).unwrap_or(Datum::Unknown)
 }
 
 /// `D_European_1950`, `European_Datum_1950` -> `european1950`.

@@ -43,11 +43,7 @@ impl Batch {
             Err(error) if error.kind() == io::ErrorKind::NotFound => beside(folder),
             Err(error) => Err(error),
         };
-        Ok(Self {
-            folder: folder.into(),
-            staging: staging.map_err(refuse)?,
-            names: Vec::new(),
-        })
+        Ok(Self { folder: folder.into(), staging: staging.map_err(refuse)?, names: Vec::new() })
     }
 
     /// Writes a file of this name, to appear with the others.
@@ -64,9 +60,7 @@ impl Batch {
         if self.names.iter().any(|known| known == name) {
             return Err(Error::internal("one run writes this file twice").in_file(&path));
         }
-        File::create_new(self.staging.join(name))
-            .and_then(|file| fill(file, write))
-            .map_err(refuse)?;
+        File::create_new(self.staging.join(name)).and_then(|file| fill(file, write)).map_err(refuse)?;
         self.names.push(name.into());
         Ok(())
     }
@@ -103,9 +97,7 @@ impl Drop for Batch {
 
 /// A staging folder for a folder that does not exist, in the nearest folder above it that does.
 fn beside(folder: &Path) -> io::Result<PathBuf> {
-    let name = folder
-        .file_name()
-        .ok_or_else(|| io::Error::other("the path names no folder"))?;
+    let name = folder.file_name().ok_or_else(|| io::Error::other("the path names no folder"))?;
     let above = folder.ancestors().skip(1).map(or_here);
     let nearest = above.into_iter().find(|path| path.exists());
     create_staging(nearest.unwrap_or(Path::new(".")), &name.to_string_lossy())
@@ -130,11 +122,7 @@ fn parent(folder: &Path) -> Option<&Path> {
 
 /// The current folder where the path is empty.
 fn or_here(path: &Path) -> &Path {
-    if path.as_os_str().is_empty() {
-        Path::new(".")
-    } else {
-        path
-    }
+    if path.as_os_str().is_empty() { Path::new(".") } else { path }
 }
 
 #[cfg(test)]
@@ -165,10 +153,7 @@ mod tests {
             Err(io::Error::other("no more"))
         });
         let said = error.unwrap_err().to_string();
-        assert!(
-            said.ends_with("b: this file cannot be written: no more"),
-            "{said}"
-        );
+        assert!(said.ends_with("b: this file cannot be written: no more"), "{said}");
         drop(batch);
         assert_eq!(names_in(place.path()), [""; 0]);
     }
@@ -226,17 +211,9 @@ mod tests {
         let place = tempfile::tempdir().unwrap();
         let file = place.path().join("file");
         fs::write(&file, "").unwrap();
-        for wrong in [
-            file.clone(),
-            file.join("below"),
-            PathBuf::new(),
-            "missing/..".into(),
-        ] {
+        for wrong in [file.clone(), file.join("below"), PathBuf::new(), "missing/..".into()] {
             let error = Batch::into(&wrong).unwrap_err();
-            assert!(
-                error.what().starts_with("this output folder cannot be written"),
-                "{error}"
-            );
+            assert!(error.what().starts_with("this output folder cannot be written"), "{error}");
             assert!(!error.is_internal());
         }
         assert_eq!(names_in(place.path()), ["file"]);

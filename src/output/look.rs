@@ -117,10 +117,7 @@ fn grey(values: &[f64]) -> Vec<[u8; 4]> {
 
 fn colors(values: &[f64]) -> Vec<[u8; 4]> {
     let (pixels, _) = values.as_chunks::<4>();
-    pixels
-        .iter()
-        .map(|pixel| pixel.map(|v| code(v * 255.0)))
-        .collect()
+    pixels.iter().map(|pixel| pixel.map(|v| code(v * 255.0))).collect()
 }
 
 /// Plan points: x in red and y in green, both repeated so that about six periods fill the picture. Of several points
@@ -167,10 +164,7 @@ fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
         Some((low, high)) => Some((math::min(low, v), math::max(high, v))),
         None => Some((v, v)),
     };
-    values
-        .filter(|v| v.is_finite())
-        .fold(None, wider)
-        .unwrap_or((0.0, 0.0))
+    values.filter(|v| v.is_finite()).fold(None, wider).unwrap_or((0.0, 0.0))
 }
 
 /// The nearest code value.
@@ -191,13 +185,7 @@ mod tests {
             Values::U16(v) => v.len(),
             Values::U8(v) => v.len(),
         };
-        let plane = Plane {
-            name,
-            width: length / components,
-            height: 1,
-            components,
-            values,
-        };
+        let plane = Plane { name, width: length / components, height: 1, components, values };
         look(Npy::new(&plane).unwrap()).map(|picture| picture.values().to_vec())
     }
 
@@ -234,18 +222,7 @@ mod tests {
         let seen = looked(
             "plan",
             2,
-            Values::F64(vec![
-                0.0,
-                0.0,
-                50.0,
-                0.0,
-                100.0,
-                0.0,
-                600.0,
-                0.0,
-                f64::INFINITY,
-                0.0,
-            ]),
+            Values::F64(vec![0.0, 0.0, 50.0, 0.0, 100.0, 0.0, 600.0, 0.0, f64::INFINITY, 0.0]),
         )
         .unwrap();
         assert_eq!(seen[0], seen[2], "the period is 100");

@@ -33,9 +33,7 @@ impl<'a> Npy<'a> {
         };
         let name = plane.name;
         if length != wanted {
-            return Err(Error::internal(format!(
-                "buffer `{name}` has {length} values instead of {wanted}"
-            )));
+            return Err(Error::internal(format!("buffer `{name}` has {length} values instead of {wanted}")));
         }
         if let Some(at) = wrong {
             let pixel = at / plane.components;
@@ -68,12 +66,7 @@ impl<'a> Npy<'a> {
     }
 
     fn head(self) -> Vec<u8> {
-        let Plane {
-            width,
-            height,
-            components,
-            ..
-        } = *self.0;
+        let Plane { width, height, components, .. } = *self.0;
         let kind = match self.0.values {
             Values::F64(_) => "<f8",
             Values::F32(_) => "<f4",
@@ -117,10 +110,7 @@ fn write_values<T: PixelBytes>(to: &mut dyn Write, values: &[T]) -> io::Result<(
 /// # Panics
 /// When a pixel has an odd number of components, or they are integers.
 pub fn absolute(plane: &Plane, origin: DVec2) -> Plane {
-    assert!(
-        plane.components.is_multiple_of(2),
-        "plan coordinates come in pairs"
-    );
+    assert!(plane.components.is_multiple_of(2), "plan coordinates come in pairs");
     let moved = |values: &mut dyn Iterator<Item = f64>| {
         let origin = [origin.x, origin.y].into_iter().cycle();
         values.zip(origin).map(|(value, origin)| value + origin).collect()
@@ -130,10 +120,7 @@ pub fn absolute(plane: &Plane, origin: DVec2) -> Plane {
         Values::F32(values) => moved(&mut values.iter().map(|value| f64::from(*value))),
         Values::U32(_) | Values::U16(_) | Values::U8(_) => panic!("plan coordinates are no integers"),
     };
-    Plane {
-        values: Values::F64(values),
-        ..*plane
-    }
+    Plane { values: Values::F64(values), ..*plane }
 }
 
 #[cfg(test)]
@@ -141,13 +128,7 @@ mod tests {
     use super::*;
 
     fn plane(components: usize, values: Values) -> Plane {
-        Plane {
-            name: "depth",
-            width: 3,
-            height: 2,
-            components,
-            values,
-        }
+        Plane { name: "depth", width: 3, height: 2, components, values }
     }
 
     /// Reads a file back: its kind, its shape as written, its bytes of values.
@@ -163,43 +144,24 @@ mod tests {
             let rest = &head[head.find(from).unwrap() + from.len()..];
             rest[..rest.find(to).unwrap()].to_owned()
         };
-        (
-            between("'descr': '", "'"),
-            between("'shape': (", ")"),
-            file[10 + length..].to_vec(),
-        )
+        (between("'descr': '", "'"), between("'shape': (", ")"), file[10 + length..].to_vec())
     }
 
     #[test]
     fn every_kind_of_number_is_read_back() {
-        let (kind, shape, bytes) = read(&plane(
-            1,
-            Values::F64(vec![0.0, -1.5, f64::INFINITY, 3.0, 1e300, 0.1]),
-        ));
-        let back: Vec<f64> = bytes
-            .as_chunks()
-            .0
-            .iter()
-            .map(|b| f64::from_le_bytes(*b))
-            .collect();
+        let (kind, shape, bytes) =
+            read(&plane(1, Values::F64(vec![0.0, -1.5, f64::INFINITY, 3.0, 1e300, 0.1])));
+        let back: Vec<f64> = bytes.as_chunks().0.iter().map(|b| f64::from_le_bytes(*b)).collect();
         assert_eq!((kind.as_str(), shape.as_str()), ("<f8", "2, 3"));
         assert_eq!(back, [0.0, -1.5, f64::INFINITY, 3.0, 1e300, 0.1]);
 
         let (kind, shape, bytes) = read(&plane(2, Values::F32((0..12).map(|v| v as f32).collect())));
-        let back: Vec<f32> = bytes
-            .as_chunks()
-            .0
-            .iter()
-            .map(|b| f32::from_le_bytes(*b))
-            .collect();
+        let back: Vec<f32> = bytes.as_chunks().0.iter().map(|b| f32::from_le_bytes(*b)).collect();
         assert_eq!((kind.as_str(), shape.as_str()), ("<f4", "2, 3, 2"));
         assert_eq!(back[11], 11.0);
 
         let (kind, _, bytes) = read(&plane(1, Values::U32(vec![u32::MAX, 1, 2, 3, 4, 5])));
-        assert_eq!(
-            (kind.as_str(), &bytes[..8]),
-            ("<u4", &[255, 255, 255, 255, 1, 0, 0, 0][..])
-        );
+        assert_eq!((kind.as_str(), &bytes[..8]), ("<u4", &[255, 255, 255, 255, 1, 0, 0, 0][..]));
 
         let (kind, _, bytes) = read(&plane(1, Values::U16(vec![258, 1, 2, 3, 4, 5])));
         assert_eq!((kind.as_str(), bytes.len(), bytes[0]), ("<u2", 12, 2));
@@ -212,20 +174,14 @@ mod tests {
     fn a_value_that_is_not_a_number_reaches_no_file() {
         let wrong = plane(1, Values::F64(vec![0.0, 0.0, 0.0, 0.0, f64::NAN, 0.0]));
         let error = Npy::new(&wrong).unwrap_err();
-        assert!(
-            error.is_internal() && error.what().contains("at pixel 1,1"),
-            "{error}"
-        );
+        assert!(error.is_internal() && error.what().contains("at pixel 1,1"), "{error}");
         assert!(Npy::new(&plane(1, Values::F32(vec![f32::NAN; 6]))).is_err());
     }
 
     #[test]
     fn values_that_do_not_fill_the_plane_reach_no_file() {
         let error = Npy::new(&plane(2, Values::U8(vec![0; 6]))).unwrap_err();
-        assert!(
-            error.is_internal() && error.what().contains("6 values instead of 12"),
-            "{error}"
-        );
+        assert!(error.is_internal() && error.what().contains("6 values instead of 12"), "{error}");
     }
 
     #[test]
@@ -233,19 +189,7 @@ mod tests {
         let local = [0.5, 1.5, f32::INFINITY, f32::INFINITY, -2.0, 0.0];
         let local: Vec<f32> = local.into_iter().cycle().take(12).collect();
         let moved = absolute(&plane(2, Values::F32(local)), DVec2::new(5e5, 7e6));
-        let Values::F64(values) = moved.values else {
-            panic!("not doubles")
-        };
-        assert_eq!(
-            values[..6],
-            [
-                500_000.5,
-                7_000_001.5,
-                f64::INFINITY,
-                f64::INFINITY,
-                499_998.0,
-                7e6
-            ]
-        );
+        let Values::F64(values) = moved.values else { panic!("not doubles") };
+        assert_eq!(values[..6], [500_000.5, 7_000_001.5, f64::INFINITY, f64::INFINITY, 499_998.0, 7e6]);
     }
 }

@@ -14,12 +14,7 @@ pub fn write_png(picture: &Buffer<[u8; 4]>, to: &mut dyn Write) -> io::Result<()
     let size = |n: usize| u32::try_from(n).map_err(io::Error::other);
     let (width, height) = (size(picture.width())?, size(picture.height())?);
     PngEncoder::new_with_quality(to, CompressionType::Fast, FilterType::Adaptive)
-        .write_image(
-            picture.values().as_flattened(),
-            width,
-            height,
-            ExtendedColorType::Rgba8,
-        )
+        .write_image(picture.values().as_flattened(), width, height, ExtendedColorType::Rgba8)
         .map_err(io::Error::other)
 }
 
@@ -29,9 +24,7 @@ mod tests {
 
     #[test]
     fn a_picture_is_read_back_with_its_transparency() {
-        let values = (0..35u8)
-            .map(|v| [v, 255 - v, v.wrapping_mul(37), v * 7])
-            .collect();
+        let values = (0..35u8).map(|v| [v, 255 - v, v.wrapping_mul(37), v * 7]).collect();
         let picture = Buffer::from_values(7, 5, values);
         let mut file = Vec::new();
         write_png(&picture, &mut file).unwrap();

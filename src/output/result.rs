@@ -120,11 +120,7 @@ impl ByName {
     /// Values.
     pub fn from_pairs<'a, V: Into<Value>>(pairs: impl IntoIterator<Item = (&'a str, V)>) -> Self {
         let pairs = pairs.into_iter();
-        Self(
-            pairs
-                .map(|(name, value)| (name.to_owned(), value.into()))
-                .collect(),
-        )
+        Self(pairs.map(|(name, value)| (name.to_owned(), value.into())).collect())
     }
 }
 

@@ -20,13 +20,11 @@ use std::path::{Path, PathBuf};
 pub fn write_whole(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
     let refuse = |error: io::Error| Error::new(format!("this file cannot be written: {error}")).in_file(path);
     let (beside, file) = create_beside(path).map_err(refuse)?;
-    fill(file, write)
-        .and_then(|()| fs::rename(&beside, path))
-        .map_err(|error| {
-            // The error is told already; a temporary file that cannot even be removed adds nothing.
-            let _ = fs::remove_file(&beside);
-            refuse(error)
-        })
+    fill(file, write).and_then(|()| fs::rename(&beside, path)).map_err(|error| {
+        // The error is told already; a temporary file that cannot even be removed adds nothing.
+        let _ = fs::remove_file(&beside);
+        refuse(error)
+    })
 }
 
 /// Writes a new file through a buffer.
@@ -38,10 +36,7 @@ pub(super) fn fill(file: File, write: impl FnOnce(&mut dyn Write) -> io::Result<
 
 /// A new file in the folder of `path`; several processes may be at work.
 fn create_beside(path: &Path) -> io::Result<(PathBuf, File)> {
-    let name = path
-        .file_name()
-        .ok_or_else(|| io::Error::other("the path names no file"))?
-        .to_string_lossy();
+    let name = path.file_name().ok_or_else(|| io::Error::other("the path names no file"))?.to_string_lossy();
     let mut attempt = 0;
     loop {
         let beside = path.with_file_name(format!(".{name}.{}-{attempt}.part", std::process::id()));
@@ -66,12 +61,7 @@ mod tests {
             w.write_all(b"half")?;
             Err(io::Error::other("no more"))
         });
-        assert!(
-            result
-                .unwrap_err()
-                .to_string()
-                .contains("a.txt: this file cannot be written: no more")
-        );
+        assert!(result.unwrap_err().to_string().contains("a.txt: this file cannot be written: no more"));
         assert_eq!(fs::read_to_string(&path).unwrap(), "before");
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
     }

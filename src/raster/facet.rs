@@ -74,13 +74,7 @@ impl Facet {
 
     /// The functions of a triangle; `None` when it is edge-on as far as doubles tell.
     fn new(view: &TileView, id: u32, corner: &Corner) -> Option<Self> {
-        let Corner {
-            a,
-            u,
-            v,
-            depths,
-            size: [c_size, u_size, v_size],
-        } = corner;
+        let Corner { a, u, v, depths, size: [c_size, u_size, v_size] } = corner;
         let (ab, ca) = (a.cross(*u), v.cross(*a));
         let normal = u.cross(*v);
         let bc = normal - ab - ca;
@@ -93,11 +87,7 @@ impl Facet {
         let det = a.dot(normal);
         let det_error = 400.0 * U * gain * gain * c_size * u_size * v_size;
         let size = if view.is_parallel() { normal.z } else { det };
-        let size_error = if view.is_parallel() {
-            normal_error
-        } else {
-            det_error
-        };
+        let size_error = if view.is_parallel() { normal_error } else { det_error };
         if size.abs() <= 2.0 * size_error {
             return None;
         }
@@ -111,27 +101,11 @@ impl Facet {
             (key, error <= KEY_ERROR / 4.0 * nearest)
         } else {
             let error = normal_error / det.abs();
-            (
-                normal / det,
-                det_error <= KEY_ERROR / 8.0 * det.abs() && error * farthest <= KEY_ERROR / 8.0,
-            )
+            (normal / det, det_error <= KEY_ERROR / 8.0 * det.abs() && error * farthest <= KEY_ERROR / 8.0)
         };
-        let least_key = if view.is_parallel() {
-            nearest
-        } else {
-            1.0 / farthest
-        };
-        let shape = Shape {
-            edges: [ab * sign, bc * sign, ca * sign],
-            edge_error: 3.0 * edge_error,
-            key,
-        };
-        Some(Self::of_shape(
-            id,
-            &shape,
-            (is_key_sure, least_key),
-            sure_keys(view, nearest, farthest),
-        ))
+        let least_key = if view.is_parallel() { nearest } else { 1.0 / farthest };
+        let shape = Shape { edges: [ab * sign, bc * sign, ca * sign], edge_error: 3.0 * edge_error, key };
+        Some(Self::of_shape(id, &shape, (is_key_sure, least_key), sure_keys(view, nearest, farthest)))
     }
 
     /// Scales edge functions to distances and says how far they can be trusted; `least_key` is the least magnitude of
@@ -151,24 +125,12 @@ impl Facet {
         // A key is evaluated from the first of 16 samples on: two roundings of what it changes by over them.
         let is_key_sure = is_key_sure && shape.key.x.abs() * 64.0 * SINGLE <= KEY_ERROR / 8.0 * least_key;
         let sure_keys = (least as f32, most as f32);
-        Self {
-            id,
-            edges,
-            doubt: doubt as f32,
-            key: shape.key,
-            sure_keys,
-            is_key_sure,
-        }
+        Self { id, edges, doubt: doubt as f32, key: shape.key, sure_keys, is_key_sure }
     }
 
     /// Draws the samples of columns and rows `from..=to`.
     pub fn fill(&self, tile: &mut Tile, from: (usize, usize), to: (usize, usize)) {
-        pulp::Arch::new().dispatch(Fill {
-            facet: self,
-            tile,
-            from,
-            to,
-        });
+        pulp::Arch::new().dispatch(Fill { facet: self, tile, from, to });
     }
 
     #[inline(always)]
@@ -205,10 +167,7 @@ impl Facet {
         let (e0, d0) = ((f0.x * x + f0.y * y + f0.z) as f32, f0.x as f32);
         let (e1, d1) = ((f1.x * x + f1.y * y + f1.z) as f32, f1.x as f32);
         let (e2, d2) = ((f2.x * x + f2.y * y + f2.z) as f32, f2.x as f32);
-        let (k0, dk) = (
-            (self.key.x * x + self.key.y * y + self.key.z) as f32,
-            self.key.x as f32,
-        );
+        let (k0, dk) = ((self.key.x * x + self.key.y * y + self.key.z) as f32, self.key.x as f32);
         let (from, to) = (lanes.0 as f32, lanes.1 as f32);
         let (Some(keys), Some(ids)) = (
             tile.samples.keys[start..].first_chunk_mut::<PAD>(),
@@ -245,10 +204,7 @@ impl Facet {
             match how {
                 1 => tile.decide(c + lane, r, self.id),
                 2 => {
-                    let (x, y) = (
-                        tile.view.first.0 + (c + lane) as f64,
-                        tile.view.first.1 + r as f64,
-                    );
+                    let (x, y) = (tile.view.first.0 + (c + lane) as f64, tile.view.first.1 + r as f64);
                     let key = (self.key.y * y + self.key.z + self.key.x * x) as f32;
                     tile.offer(c + lane, r, key, self.id);
                 }
@@ -287,16 +243,10 @@ fn sure_keys(view: &TileView, nearest: f64, farthest: f64) -> (f64, f64) {
     let key = |depth: f64| if view.is_parallel() { -depth } else { 1.0 / depth };
     let (near, far) = (view.frame.near(), view.frame.far());
     let slack = 4.0 * KEY_ERROR;
-    let most = if nearest > near * (1.0 + slack) {
-        f64::INFINITY
-    } else {
-        key(near) - slack * key(near).abs()
-    };
-    let least = if farthest < far * (1.0 - slack) {
-        f64::NEG_INFINITY
-    } else {
-        key(far) + slack * key(far).abs()
-    };
+    let most =
+        if nearest > near * (1.0 + slack) { f64::INFINITY } else { key(near) - slack * key(near).abs() };
+    let least =
+        if farthest < far * (1.0 - slack) { f64::NEG_INFINITY } else { key(far) + slack * key(far).abs() };
     (least, most)
 }
 

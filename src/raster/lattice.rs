@@ -24,33 +24,18 @@ impl Lattice {
     pub fn centres(frame: &ViewFrame, guard: usize) -> Self {
         let start = 0.5 - guard as f64;
         let (columns, rows) = (frame.width() + 2 * guard, frame.height() + 2 * guard);
-        Self {
-            x: start,
-            y: start,
-            step: 1.0,
-            columns,
-            rows,
-        }
+        Self { x: start, y: start, step: 1.0, columns, rows }
     }
 
     /// The corners of a picture's pixels.
     pub fn corners(frame: &ViewFrame) -> Self {
-        Self {
-            x: 0.0,
-            y: 0.0,
-            step: 1.0,
-            columns: frame.width() + 1,
-            rows: frame.height() + 1,
-        }
+        Self { x: 0.0, y: 0.0, step: 1.0, columns: frame.width() + 1, rows: frame.height() + 1 }
     }
 
     /// The screen point of a sample.
     #[inline(always)]
     pub fn at(&self, column: usize, row: usize) -> Screen {
-        Screen::new(
-            self.x + column as f64 * self.step,
-            self.y + row as f64 * self.step,
-        )
+        Screen::new(self.x + column as f64 * self.step, self.y + row as f64 * self.step)
     }
 }
 
@@ -89,13 +74,8 @@ impl TileView {
         // Tile coordinates of homogeneous pixel coordinates (X, Y, w): (X - x w) / step with x the tile's middle.
         let (x, y) = (lattice.x + at_x * lattice.step, lattice.y + at_y * lattice.step);
         let basis = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| frame.homogeneous(axis));
-        let local = |h: DVec3| {
-            DVec3::new(
-                (h.x - x * h.z) / lattice.step,
-                (h.y - y * h.z) / lattice.step,
-                h.z,
-            )
-        };
+        let local =
+            |h: DVec3| DVec3::new((h.x - x * h.z) / lattice.step, (h.y - y * h.z) / lattice.step, h.z);
         let columns = basis.map(local);
         let rows = [0, 1, 2].map(|k| DVec3::new(columns[0][k], columns[1][k], columns[2][k]));
         Self {
@@ -153,10 +133,7 @@ impl TileView {
     /// Tile coordinates of the last sample.
     #[inline(always)]
     pub fn last(&self) -> (f64, f64) {
-        (
-            self.first.0 + (self.width - 1) as f64,
-            self.first.1 + (self.height - 1) as f64,
-        )
+        (self.first.0 + (self.width - 1) as f64, self.first.1 + (self.height - 1) as f64)
     }
 
     /// What a box can cover of the tile; `None` when it cannot touch a sample of it (beside the tile, in front of the
@@ -185,12 +162,7 @@ impl TileView {
         if outside || depth + spread < self.frame.near() || depth - spread > self.frame.far() {
             return None;
         }
-        Some(BoxReach {
-            center,
-            axes,
-            depth: (depth - spread, depth + spread),
-            size,
-        })
+        Some(BoxReach { center, axes, depth: (depth - spread, depth + spread), size })
     }
 }
 

@@ -42,11 +42,8 @@ struct Sixteen<'a> {
 
 impl Points {
     /// No points.
-    const NONE: Self = Self {
-        x: [f32::NAN; LANES + 1],
-        y: [f32::NAN; LANES + 1],
-        key: [f32::NAN; LANES + 1],
-    };
+    const NONE: Self =
+        Self { x: [f32::NAN; LANES + 1], y: [f32::NAN; LANES + 1], key: [f32::NAN; LANES + 1] };
 
     /// The points of a line of posts.
     #[inline(always)]
@@ -112,12 +109,8 @@ struct Sorted {
 }
 
 impl Sorted {
-    const NOTHING: Self = Self {
-        state: [NOTHING; LANES],
-        column: [0.0; LANES],
-        row: [0.0; LANES],
-        key: [0.0; LANES],
-    };
+    const NOTHING: Self =
+        Self { state: [NOTHING; LANES], column: [0.0; LANES], row: [0.0; LANES], key: [0.0; LANES] };
 }
 
 /// A patch of terrain whose pictures of points lie near the tile and surely beyond the near plane.
@@ -139,17 +132,13 @@ impl Patch {
     pub fn new(view: &TileView, depth: (f64, f64), size: f64, rectangle: &[f64; 4]) -> Option<Self> {
         let w = if view.is_parallel() { 1.0 } else { depth.0 };
         let projection_error = 128.0 * f64::EPSILON * view.gain() * size / w;
-        let reach = rectangle
-            .iter()
-            .fold(1.0, |m, v| if v.abs() > m { v.abs() } else { m });
+        let reach = rectangle.iter().fold(1.0, |m, v| if v.abs() > m { v.abs() } else { m });
         let fits = depth.0 > view.frame.near() * (1.0 + 4.0 * KEY_ERROR)
             && depth.1 < view.frame.far() * (1.0 - 4.0 * KEY_ERROR)
             && reach < GUARD
             && projection_error < PROJECTION_ERROR;
         // Half a unit in the last place of the largest coordinate, doubled for the box's own rounding.
-        fits.then_some(Self {
-            point_error: (2.0 * U32 * reach + PROJECTION_ERROR) as f32,
-        })
+        fits.then_some(Self { point_error: (2.0 * U32 * reach + PROJECTION_ERROR) as f32 })
     }
 
     /// Draws rows of cells of a grid: the posts of column `i` on of rows `j..=j + rows`; `heights(row)` gives the
@@ -190,23 +179,11 @@ impl Patch {
                 for (points, corner) in corners.iter_mut().zip(tin.triangle(id)) {
                     let h = tile.view.map_point(corner);
                     let key = tile.key_of_depth(tile.view.frame.depth(corner));
-                    points.set(
-                        (id - start) as usize,
-                        ((h.x / h.z) as f32, (h.y / h.z) as f32, key as f32),
-                    );
+                    points.set((id - start) as usize, ((h.x / h.z) as f32, (h.y / h.z) as f32, key as f32));
                 }
             }
-            let sixteen = [
-                corners[0].from::<0>(),
-                corners[1].from::<0>(),
-                corners[2].from::<0>(),
-            ];
-            arch.dispatch(Sort {
-                patch: self,
-                view: &tile.view,
-                corners: &sixteen,
-                sorted: &mut sorted,
-            });
+            let sixteen = [corners[0].from::<0>(), corners[1].from::<0>(), corners[2].from::<0>()];
+            arch.dispatch(Sort { patch: self, view: &tile.view, corners: &sixteen, sorted: &mut sorted });
             self.settle(tile, &sorted, &sixteen, |lane| start + lane as u32);
         }
     }
@@ -290,9 +267,7 @@ impl Patch {
         let [a, b, c] = corners.map(|p| p.map(f64::from));
         let range = |k: usize| {
             let v = [a[k], b[k], c[k]];
-            v.iter().fold((v[0], v[0]), |(l, h), &v| {
-                (if v < l { v } else { l }, if v > h { v } else { h })
-            })
+            v.iter().fold((v[0], v[0]), |(l, h), &v| (if v < l { v } else { l }, if v > h { v } else { h }))
         };
         let ((x0, x1), (y0, y1), (k0, k1)) = (range(0), range(1), range(2));
         let Some((from, to)) = tile.samples_in([x0, y0, x1, y1]) else {
@@ -316,11 +291,7 @@ impl Patch {
             return;
         }
         let sign = area.signum();
-        let shape = Shape {
-            edges: edges.map(|e| e * sign),
-            edge_error: doubt,
-            key,
-        };
+        let shape = Shape { edges: edges.map(|e| e * sign), edge_error: doubt, key };
         let facet = Facet::of_shape(id, &shape, (true, least), (f64::NEG_INFINITY, f64::INFINITY));
         facet.fill(tile, from, to);
     }

@@ -75,11 +75,7 @@ impl Samples {
         self.blocks_a_row = width.div_ceil(BLOCK);
         refill(&mut self.keys, self.stride * height, f32::NEG_INFINITY);
         refill(&mut self.ids, self.stride * height, SKY);
-        refill(
-            &mut self.farthest,
-            self.blocks_a_row * height.div_ceil(BLOCK),
-            f32::NEG_INFINITY,
-        );
+        refill(&mut self.farthest, self.blocks_a_row * height.div_ceil(BLOCK), f32::NEG_INFINITY);
         refill(&mut self.dirty, self.blocks_a_row * height.div_ceil(BLOCK), false);
     }
 
@@ -104,22 +100,13 @@ impl<'a> Tile<'a> {
     /// A tile that has seen nothing, in memory that is used again.
     pub fn new(view: TileView, mesh: &'a Mesh, samples: &'a mut Samples) -> Self {
         samples.reset(view.width, view.height);
-        Self {
-            mesh,
-            samples,
-            counts: Counts::default(),
-            view,
-        }
+        Self { mesh, samples, counts: Counts::default(), view }
     }
 
     /// The key of a depth in metres.
     #[inline(always)]
     pub fn key_of_depth(&self, depth: f64) -> f64 {
-        if self.view.is_parallel() {
-            -depth
-        } else {
-            1.0 / depth
-        }
+        if self.view.is_parallel() { -depth } else { 1.0 / depth }
     }
 
     /// Notes that samples of columns and rows `from..=to` may have changed.
@@ -157,11 +144,7 @@ impl<'a> Tile<'a> {
             let (from, to) = (low - HAIR - first, high + HAIR - first);
             let last = (count - 1) as f64;
             // Casts truncate, faster than `ceil` and `floor` where those are calls; NaN gives an empty span.
-            let from = if from > 0.0 {
-                from as usize + usize::from(from > from as usize as f64)
-            } else {
-                0
-            };
+            let from = if from > 0.0 { from as usize + usize::from(from > from as usize as f64) } else { 0 };
             if to < 0.0 || to.is_nan() {
                 None
             } else {
@@ -175,20 +158,11 @@ impl<'a> Tile<'a> {
     }
 
     fn farthest_key(&mut self, x: usize, y: usize) -> f32 {
-        let Samples {
-            keys,
-            stride,
-            farthest,
-            dirty,
-            blocks_a_row,
-            ..
-        } = &mut *self.samples;
+        let Samples { keys, stride, farthest, dirty, blocks_a_row, .. } = &mut *self.samples;
         let block = y * *blocks_a_row + x;
         if std::mem::take(&mut dirty[block]) {
-            let (columns, rows) = (
-                self.view.width.min((x + 1) * BLOCK),
-                self.view.height.min((y + 1) * BLOCK),
-            );
+            let (columns, rows) =
+                (self.view.width.min((x + 1) * BLOCK), self.view.height.min((y + 1) * BLOCK));
             let mut least = f32::INFINITY;
             for r in y * BLOCK..rows {
                 let row = &keys[r * *stride + x * BLOCK..r * *stride + columns];
@@ -205,13 +179,8 @@ impl<'a> Tile<'a> {
         let at = r * self.samples.stride + c;
         let (old, old_id) = (self.samples.keys[at], self.samples.ids[at]);
         let difference = f64::from(key) - f64::from(old);
-        let tolerance = 2.0
-            * KEY_ERROR
-            * f64::from(if key.abs() > old.abs() {
-                key.abs()
-            } else {
-                old.abs()
-            });
+        let tolerance =
+            2.0 * KEY_ERROR * f64::from(if key.abs() > old.abs() { key.abs() } else { old.abs() });
         let wins = if old_id == SKY || difference > tolerance {
             true
         } else if difference < -tolerance {

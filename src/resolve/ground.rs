@@ -22,12 +22,7 @@ impl<'a> GroundPaint<'a> {
             Ground::Color(color) | Ground::Hillshade(color) => compositor.paint(*color),
             Ground::Imagery(_) => Paint::CLEAR,
         };
-        Self {
-            ground,
-            mesh,
-            compositor,
-            flat,
-        }
+        Self { ground, mesh, compositor, flat }
     }
 
     /// The paint at a plan point of a triangle.
@@ -36,10 +31,7 @@ impl<'a> GroundPaint<'a> {
         match self.ground {
             Ground::Color(_) => self.flat,
             Ground::Hillshade(color) => {
-                let light = self
-                    .mesh
-                    .triangle(triangle)
-                    .map_or(1.0, |t| lambert(upward_normal(&t)));
+                let light = self.mesh.triangle(triangle).map_or(1.0, |t| lambert(upward_normal(&t)));
                 let [r, g, b, a] = color.0;
                 self.compositor.paint(Color([r * light, g * light, b * light, a]))
             }
@@ -49,10 +41,8 @@ impl<'a> GroundPaint<'a> {
                 let across = (plan.x - extent.min.x) / size.x * texels.width() as f64;
                 let down = (extent.max.y - plan.y) / size.y * texels.height() as f64;
                 // Casts saturate: a point on or off the rim takes the outermost texel.
-                let (x, y) = (
-                    (across as usize).min(texels.width() - 1),
-                    (down as usize).min(texels.height() - 1),
-                );
+                let (x, y) =
+                    ((across as usize).min(texels.width() - 1), (down as usize).min(texels.height() - 1));
                 self.compositor.paint(*texels.at(x, y))
             }
         }

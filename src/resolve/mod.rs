@@ -79,12 +79,7 @@ impl Compositor {
             };
             math::min(math::max(v, 0.0), 1.0)
         };
-        [
-            straight(r),
-            straight(g),
-            straight(b),
-            math::min(math::max(a, 0.0), 1.0),
-        ]
+        [straight(r), straight(g), straight(b), math::min(math::max(a, 0.0), 1.0)]
     }
 }
 
@@ -95,20 +90,12 @@ pub fn code_values(color: [f64; 4]) -> [u8; 4] {
 
 /// The sRGB transfer function (IEC 61966-2-1).
 pub fn linear_from_encoded(v: f64) -> f64 {
-    if v <= 0.040_45 {
-        v / 12.92
-    } else {
-        math::pow((v + 0.055) / 1.055, 2.4)
-    }
+    if v <= 0.040_45 { v / 12.92 } else { math::pow((v + 0.055) / 1.055, 2.4) }
 }
 
 /// The inverse of [`linear_from_encoded`].
 pub fn encoded_from_linear(v: f64) -> f64 {
-    if v <= 0.003_130_8 {
-        v * 12.92
-    } else {
-        1.055 * math::pow(v, 1.0 / 2.4) - 0.055
-    }
+    if v <= 0.003_130_8 { v * 12.92 } else { 1.055 * math::pow(v, 1.0 / 2.4) - 0.055 }
 }
 
 #[cfg(test)]

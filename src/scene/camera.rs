@@ -29,13 +29,7 @@ impl Camera {
     /// When the camera shows nothing (eye = target, `up` along the view, an angle out of range).
     pub fn view(&self, image: &ImageSettings) -> Result<ViewFrame> {
         let far = self.far_m.unwrap_or(f64::INFINITY);
-        let point = Viewpoint {
-            eye: self.eye,
-            target: self.target,
-            up: self.up,
-            near: self.near_m,
-            far,
-        };
+        let point = Viewpoint { eye: self.eye, target: self.target, up: self.up, near: self.near_m, far };
         let size = (image.width, image.height);
         match self.projection {
             Projection::Perspective { fov_y_deg } => ViewFrame::perspective(&point, fov_y_deg, size),

@@ -89,15 +89,10 @@ impl Posts {
     ) -> crate::Result<Self> {
         let refuse = |what: String| Err(crate::Error::new(what));
         if columns < 2 || rows < 2 {
-            return refuse(format!(
-                "a terrain needs at least 2 x 2 posts, this one has {columns} x {rows}"
-            ));
+            return refuse(format!("a terrain needs at least 2 x 2 posts, this one has {columns} x {rows}"));
         }
         if heights.len() != columns * rows {
-            return refuse(format!(
-                "{columns} x {rows} posts need as many heights, not {}",
-                heights.len()
-            ));
+            return refuse(format!("{columns} x {rows} posts need as many heights, not {}", heights.len()));
         }
         if !(first.is_finite() && east.is_finite() && north.is_finite()) {
             return refuse("the grid's position or spacing is not finite".into());
@@ -106,20 +101,9 @@ impl Posts {
             return refuse("the grid's rows and columns do not span the plan (spacing 0 or mirrored)".into());
         }
         if let Some(at) = heights.iter().position(|h| h.is_infinite()) {
-            return refuse(format!(
-                "post ({}, {}) is infinitely high",
-                at % columns,
-                at / columns
-            ));
+            return refuse(format!("post ({}, {}) is infinitely high", at % columns, at / columns));
         }
-        Ok(Self {
-            columns,
-            rows,
-            first,
-            east,
-            north,
-            heights,
-        })
+        Ok(Self { columns, rows, first, east, north, heights })
     }
 
     /// Posts from west to east.

@@ -198,14 +198,8 @@ impl PlanBox {
     /// Grows to contain `p`.
     #[inline]
     pub fn include(&mut self, p: Plan) {
-        self.min = Plan::new(
-            crate::math::min(p.x, self.min.x),
-            crate::math::min(p.y, self.min.y),
-        );
-        self.max = Plan::new(
-            crate::math::max(p.x, self.max.x),
-            crate::math::max(p.y, self.max.y),
-        );
+        self.min = Plan::new(crate::math::min(p.x, self.min.x), crate::math::min(p.y, self.min.y));
+        self.max = Plan::new(crate::math::max(p.x, self.max.x), crate::math::max(p.y, self.max.y));
     }
 
     /// Whether it contains nothing.
@@ -225,9 +219,6 @@ impl PlanBox {
     /// The box grown by a margin in metres on each side.
     #[must_use]
     pub fn grown(&self, margin: f64) -> Self {
-        Self {
-            min: self.min + DVec2::splat(-margin),
-            max: self.max + DVec2::splat(margin),
-        }
+        Self { min: self.min + DVec2::splat(-margin), max: self.max + DVec2::splat(margin) }
     }
 }

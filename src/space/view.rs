@@ -81,19 +81,11 @@ impl ViewFrame {
     /// When the eye is the target, `up` is parallel to the view, or a number is out of range.
     pub fn perspective(view: &Viewpoint, fov_y_deg: f64, size: (usize, usize)) -> Result<Self> {
         if !(fov_y_deg > 0.0 && fov_y_deg < 180.0) {
-            return Err(Error::new(format!(
-                "a vertical field of view of {fov_y_deg} degrees shows nothing"
-            ))
-            .help("use an angle between 0 and 180, such as 45"));
+            return Err(Error::new(format!("a vertical field of view of {fov_y_deg} degrees shows nothing"))
+                .help("use an angle between 0 and 180, such as 45"));
         }
         let tangent = math::tan(fov_y_deg.to_radians() / 2.0);
-        Self::new(
-            view,
-            Lens::Central {
-                pixel: 2.0 * tangent / size.1 as f64,
-            },
-            size,
-        )
+        Self::new(view, Lens::Central { pixel: 2.0 * tangent / size.1 as f64 }, size)
     }
 
     /// The frame of an orthographic picture `height_m` metres high.
@@ -101,43 +93,24 @@ impl ViewFrame {
     /// # Errors
     /// As [`ViewFrame::perspective`].
     pub fn orthographic(view: &Viewpoint, height_m: f64, size: (usize, usize)) -> Result<Self> {
-        Self::new(
-            view,
-            Lens::Parallel {
-                pixel: height_m / size.1 as f64,
-            },
-            size,
-        )
+        Self::new(view, Lens::Parallel { pixel: height_m / size.1 as f64 }, size)
     }
 
     fn new(view: &Viewpoint, lens: Lens, (width, height): (usize, usize)) -> Result<Self> {
         let refuse = |what: &str, help: &str| Err(Error::new(what).help(help));
         if !(view.eye.is_finite() && view.target.is_finite() && view.up.is_finite()) {
-            return refuse(
-                "the camera's eye, target or up is not finite",
-                "use plain numbers",
-            );
+            return refuse("the camera's eye, target or up is not finite", "use plain numbers");
         }
         if width == 0 || height == 0 || !(lens.pixel() > 0.0 && lens.pixel().is_finite()) {
-            return refuse(
-                "the picture has no pixels or no extent",
-                "give width, height and extent above 0",
-            );
+            return refuse("the picture has no pixels or no extent", "give width, height and extent above 0");
         }
         if !(view.near > 0.0 && view.near.is_finite() && view.far > view.near) {
-            return refuse(
-                "the near plane must lie between 0 and the far plane",
-                "use near_m = 1.0",
-            );
+            return refuse("the near plane must lie between 0 and the far plane", "use near_m = 1.0");
         }
         let Some(forward) = (view.target - view.eye).try_normalize() else {
             return refuse("the camera's eye is its target", "move eye or target");
         };
-        let Some(right) = view
-            .up
-            .try_normalize()
-            .map(|up| forward.cross(up))
-            .filter(|r| r.length() > 1e-9)
+        let Some(right) = view.up.try_normalize().map(|up| forward.cross(up)).filter(|r| r.length() > 1e-9)
         else {
             return refuse(
                 "the camera looks along its own up direction",
@@ -148,18 +121,7 @@ impl ViewFrame {
         let up = right.cross(forward).normalize();
         let reach = power_of_two_above(view.eye.to_vec().abs().max_element());
         let (width, height, near, far) = (width as f64, height as f64, view.near, view.far);
-        Ok(Self {
-            eye: view.eye,
-            right,
-            up,
-            forward,
-            lens,
-            width,
-            height,
-            near,
-            far,
-            reach,
-        })
+        Ok(Self { eye: view.eye, right, up, forward, lens, width, height, near, far, reach })
     }
 
     /// The eye.
@@ -216,17 +178,11 @@ impl ViewFrame {
         match self.lens {
             Lens::Central { pixel } => {
                 let direction = self.forward + self.right * (x * pixel) + self.up * (y * pixel);
-                Ray {
-                    from: self.eye,
-                    through: self.eye + direction * self.reach,
-                }
+                Ray { from: self.eye, through: self.eye + direction * self.reach }
             }
             Lens::Parallel { pixel } => {
                 let from = self.eye + (self.right * (x * pixel) + self.up * (y * pixel));
-                Ray {
-                    from,
-                    through: from + self.forward * self.reach,
-                }
+                Ray { from, through: from + self.forward * self.reach }
             }
         }
     }
@@ -253,10 +209,7 @@ impl ViewFrame {
             Lens::Central { pixel } => 1.0 / (-v.z * pixel),
             Lens::Parallel { pixel } => 1.0 / pixel,
         };
-        Some(Screen::new(
-            self.width / 2.0 + v.x * scale,
-            self.height / 2.0 - v.y * scale,
-        ))
+        Some(Screen::new(self.width / 2.0 + v.x * scale, self.height / 2.0 - v.y * scale))
     }
 
     /// The homogeneous pixel coordinates (x, y, w) of a displacement: linear, so that a point's are those of
@@ -264,10 +217,7 @@ impl ViewFrame {
     #[inline(always)]
     pub fn homogeneous(&self, d: DVec3) -> DVec3 {
         let depth = self.forward.dot(d);
-        let (x, y) = (
-            self.right.dot(d) / self.lens.pixel(),
-            -self.up.dot(d) / self.lens.pixel(),
-        );
+        let (x, y) = (self.right.dot(d) / self.lens.pixel(), -self.up.dot(d) / self.lens.pixel());
         match self.lens {
             Lens::Central { .. } => {
                 DVec3::new(x + self.width / 2.0 * depth, y + self.height / 2.0 * depth, depth)
@@ -333,10 +283,7 @@ mod tests {
     #[test]
     fn the_target_is_in_the_middle_of_the_picture() {
         let at = frame().screen_from_world(World::new(0.0, 0.0, 0.0)).unwrap();
-        assert!(
-            (at.x - 320.0).abs() < 1e-9 && (at.y - 240.0).abs() < 1e-9,
-            "{at:?}"
-        );
+        assert!((at.x - 320.0).abs() < 1e-9 && (at.y - 240.0).abs() < 1e-9, "{at:?}");
     }
 
     #[test]
@@ -344,15 +291,9 @@ mod tests {
         let frame = frame();
         let ray = frame.ray(Screen::new(17.25, 400.5));
         let at = frame.screen_from_world(ray.through).unwrap();
-        assert!(
-            (at.x - 17.25).abs() < 1e-9 && (at.y - 400.5).abs() < 1e-9,
-            "{at:?}"
-        );
+        assert!((at.x - 17.25).abs() < 1e-9 && (at.y - 400.5).abs() < 1e-9, "{at:?}");
         let h = frame.homogeneous(ray.through - frame.eye()) + frame.homogeneous_eye();
-        assert!(
-            (h.x / h.z - 17.25).abs() < 1e-9 && (h.y / h.z - 400.5).abs() < 1e-9,
-            "{h:?}"
-        );
+        assert!((h.x / h.z - 17.25).abs() < 1e-9 && (h.y / h.z - 400.5).abs() < 1e-9, "{h:?}");
     }
 
     #[test]

@@ -38,21 +38,15 @@ impl Grid {
     pub fn new(posts: Posts, diagonal: Diagonal) -> Result<Self> {
         let cells = (posts.columns() - 1) as u64 * (posts.rows() - 1) as u64;
         if cells * 2 >= u64::from(u32::MAX) {
-            return Err(
-                Error::new(format!("{cells} cells are more than this program can number"))
-                    .help("give the terrain a `window`"),
-            );
+            return Err(Error::new(format!("{cells} cells are more than this program can number"))
+                .help("give the terrain a `window`"));
         }
         let mut levels = vec![leaf_level(&posts)];
         while let Some(top) = levels.last().filter(|l| l.heights.len() > 1) {
             let next = parent_level(top);
             levels.push(next);
         }
-        Ok(Self {
-            posts,
-            diagonal,
-            levels,
-        })
+        Ok(Self { posts, diagonal, levels })
     }
 
     /// The posts.
@@ -88,10 +82,7 @@ impl Grid {
     #[inline]
     pub(super) fn triangle(&self, id: u32) -> Option<[World; 3]> {
         let cell = (id / 2) as usize;
-        let (i, j) = (
-            cell % (self.posts.columns() - 1),
-            cell / (self.posts.columns() - 1),
-        );
+        let (i, j) = (cell % (self.posts.columns() - 1), cell / (self.posts.columns() - 1));
         let corners = half_corners(self.splits_sw_ne(i, j), id % 2 == 1);
         let [a, b, c] = corners.map(|(di, dj)| self.posts.world(i + di, j + dj));
         (a.z + b.z + c.z).is_finite().then_some([a, b, c])
@@ -108,11 +99,7 @@ impl Grid {
 
     pub(super) fn bytes(&self) -> usize {
         size_of_val(self.posts.heights())
-            + self
-                .levels
-                .iter()
-                .map(|l| size_of_val(&l.heights[..]))
-                .sum::<usize>()
+            + self.levels.iter().map(|l| size_of_val(&l.heights[..])).sum::<usize>()
     }
 
     /// The columns and rows of cells in a node.
@@ -120,10 +107,7 @@ impl Grid {
     pub fn cells(&self, node: Node) -> (Range<usize>, Range<usize>) {
         let size = BLOCK << node.level;
         let (i, j) = (node.x as usize * size, node.y as usize * size);
-        (
-            i..(i + size).min(self.posts.columns() - 1),
-            j..(j + size).min(self.posts.rows() - 1),
-        )
+        (i..(i + size).min(self.posts.columns() - 1), j..(j + size).min(self.posts.rows() - 1))
     }
 
     #[inline]
@@ -179,18 +163,12 @@ fn leaf_level(posts: &Posts) -> Level {
             let line = &posts.heights()[j * posts.columns()..(j + 1) * posts.columns()];
             for (x, range) in row.iter_mut().enumerate() {
                 let end = ((x + 1) * BLOCK).min(posts.columns() - 1);
-                *range = line[x * BLOCK..=end]
-                    .iter()
-                    .fold(*range, |r, &h| joined(r, (h, h)));
+                *range = line[x * BLOCK..=end].iter().fold(*range, |r, &h| joined(r, (h, h)));
             }
         }
         row
     });
-    Level {
-        columns,
-        rows,
-        heights: heights.concat(),
-    }
+    Level { columns, rows, heights: heights.concat() }
 }
 
 fn parent_level(below: &Level) -> Level {
@@ -200,11 +178,7 @@ fn parent_level(below: &Level) -> Level {
         let parent = &mut heights[k / below.columns / 2 * columns + k % below.columns / 2];
         *parent = joined(*parent, *range);
     }
-    Level {
-        columns,
-        rows,
-        heights,
-    }
+    Level { columns, rows, heights }
 }
 
 /// The union of two ranges; NaN (a hole) adds nothing.
@@ -221,9 +195,7 @@ mod tests {
     use glam::DVec2;
 
     fn grid(columns: usize, rows: usize, height: impl Fn(usize, usize) -> f64) -> Mesh {
-        let heights = (0..columns * rows)
-            .map(|k| height(k % columns, k / columns))
-            .collect();
+        let heights = (0..columns * rows).map(|k| height(k % columns, k / columns)).collect();
         let posts = Posts::new((columns, rows), Plan::default(), (DVec2::X, DVec2::Y), heights).unwrap();
         Mesh::Grid(Grid::new(posts, Diagonal::SwNe).unwrap())
     }
@@ -231,9 +203,7 @@ mod tests {
     #[test]
     fn a_hole_removes_the_six_triangles_that_use_its_post() {
         let mesh = grid(4, 4, |i, j| if (i, j) == (1, 2) { f64::NAN } else { 0.0 });
-        let missing = (0..mesh.triangle_ids())
-            .filter(|&t| mesh.triangle(t).is_none())
-            .count();
+        let missing = (0..mesh.triangle_ids()).filter(|&t| mesh.triangle(t).is_none()).count();
         assert_eq!(missing, 6);
     }
 
@@ -250,11 +220,7 @@ mod tests {
                 let p = g.posts().world(i, j) - b.center;
                 assert!(p.x.abs() <= b.axes[0].x && p.y.abs() <= b.axes[1].y && p.z.abs() <= b.axes[2].z);
             }
-            if node.level > 0 {
-                mesh.for_each_child(node, |n| stack.push(n))
-            } else {
-                leaves += 1
-            }
+            if node.level > 0 { mesh.for_each_child(node, |n| stack.push(n)) } else { leaves += 1 }
         }
         assert_eq!(leaves, 5 * 3);
     }

@@ -93,10 +93,7 @@ impl Mesh {
     /// The lowest and the highest height; `None` when all is hole.
     pub fn height_range(&self) -> Option<(f64, f64)> {
         let bounds = self.bounds(self.root())?;
-        Some((
-            bounds.center.z - bounds.axes[2].z,
-            bounds.center.z + bounds.axes[2].z,
-        ))
+        Some((bounds.center.z - bounds.axes[2].z, bounds.center.z + bounds.axes[2].z))
     }
 
     /// The node that holds everything.
@@ -105,11 +102,7 @@ impl Mesh {
             Self::Grid(grid) => grid.levels() - 1,
             Self::Tin(tin) => tin.levels() - 1,
         };
-        Node {
-            level: level as u32,
-            x: 0,
-            y: 0,
-        }
+        Node { level: level as u32, x: 0, y: 0 }
     }
 
     /// The box around a node; `None` when it holds no triangle.

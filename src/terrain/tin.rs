@@ -47,29 +47,18 @@ impl Tin {
                 Error::new("more points than this program can number").help("give the terrain a `window`")
             );
         }
-        let samples = points
-            .iter()
-            .enumerate()
-            .map(|(i, &at)| Sample { at, index: i as u32 })
-            .collect();
+        let samples = points.iter().enumerate().map(|(i, &at)| Sample { at, index: i as u32 }).collect();
         let delaunay = DelaunayTriangulation::<Sample>::bulk_load_stable(samples)
             .map_err(|e| Error::new(format!("the points cannot be triangulated: {e}")))?;
-        let mut triangles: Vec<[u32; 3]> = delaunay
-            .inner_faces()
-            .map(|f| f.vertices().map(|v| v.data().index))
-            .map(from_lowest)
-            .collect();
+        let mut triangles: Vec<[u32; 3]> =
+            delaunay.inner_faces().map(|f| f.vertices().map(|v| v.data().index)).map(from_lowest).collect();
         if triangles.is_empty() {
             return Err(Error::new("the points span no triangle")
                 .help("at least three points off one line are needed"));
         }
         order_by_place(&points, &mut triangles);
         let levels = hierarchy(&points, &triangles);
-        Ok(Self {
-            vertices: points,
-            triangles,
-            levels,
-        })
+        Ok(Self { vertices: points, triangles, levels })
     }
 
     /// The points.
@@ -114,11 +103,7 @@ impl Tin {
         let level = node.level - 1;
         let end = (node.x as usize + 1) * FAN;
         for x in node.x as usize * FAN..end.min(self.levels[level as usize].len()) {
-            visit(Node {
-                level,
-                x: x as u32,
-                y: 0,
-            });
+            visit(Node { level, x: x as u32, y: 0 });
         }
     }
 
@@ -146,10 +131,7 @@ fn order_by_place(points: &[World], triangles: &mut [[u32; 3]]) {
     let size = bounds.max - bounds.min;
     let scale = 65_535.0 / math::max(math::max(size.x, size.y), f64::MIN_POSITIVE);
     parallel::sort_by_key(triangles, |t| {
-        let sum = t
-            .map(|v| points[v as usize].plan() - bounds.min)
-            .into_iter()
-            .sum::<glam::DVec2>();
+        let sum = t.map(|v| points[v as usize].plan() - bounds.min).into_iter().sum::<glam::DVec2>();
         let cell = sum / 3.0 * scale;
         (morton(cell.x as u32, cell.y as u32), *t)
     });
@@ -188,14 +170,7 @@ mod tests {
     #[test]
     fn four_corners_and_a_middle_make_four_triangles() {
         let p = |x: f64, y: f64| World::new(x, y, x + y);
-        let tin = Tin::new(vec![
-            p(0.0, 0.0),
-            p(4.0, 0.0),
-            p(4.0, 4.0),
-            p(0.0, 4.0),
-            p(2.0, 2.0),
-        ])
-        .unwrap();
+        let tin = Tin::new(vec![p(0.0, 0.0), p(4.0, 0.0), p(4.0, 4.0), p(0.0, 4.0), p(2.0, 2.0)]).unwrap();
         assert_eq!(tin.triangles().len(), 4);
         for t in 0..4 {
             let [a, b, c] = tin.triangle(t);

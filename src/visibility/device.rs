@@ -48,11 +48,7 @@ impl Machine {
             Self::Single(pipeline) => pipeline.unproject(at, stored)?,
             Self::Double(pipeline) => pipeline.unproject(at, stored)?,
         };
-        Some(Hit {
-            plan: point.plan(),
-            height: point.z,
-            depth,
-        })
+        Some(Hit { plan: point.plan(), height: point.z, depth })
     }
 }
 
@@ -70,10 +66,7 @@ fn see_through<T: Real>(pipeline: &Pipeline<T>, visible: &mut Visible, mesh: &Me
         pipeline.clear(&mut tile.samples, (tile.width, tile.height));
         let in_tile = bin.iter().map(|&k| &primitives[k as usize]);
         pipeline.draw(in_tile, (&lattice, &window(tile)), &mut tile.samples);
-        tile.counts = Counts {
-            triangles: bin.len() as u64,
-            ..Counts::default()
-        };
+        tile.counts = Counts { triangles: bin.len() as u64, ..Counts::default() };
     });
 }
 
@@ -105,8 +98,5 @@ fn bins<T: Real>(primitives: &[Primitive<T>], lattice: &Lattice, size: usize) ->
 }
 
 fn window(tile: &VisibleTile) -> Window {
-    Window {
-        columns: tile.column..tile.column + tile.width,
-        rows: tile.row..tile.row + tile.height,
-    }
+    Window { columns: tile.column..tile.column + tile.width, rows: tile.row..tile.row + tile.height }
 }

@@ -20,9 +20,5 @@ pub fn hit(frame: &ViewFrame, ray: &Ray, triangle: &[World; 3]) -> Hit {
     let t = predicate::hit_parameter(ray, triangle);
     let along = ray.through - ray.from;
     let at = ray.from + along * t;
-    Hit {
-        plan: at.plan(),
-        height: at.z,
-        depth: t * frame.reach(),
-    }
+    Hit { plan: at.plan(), height: at.z, depth: t * frame.reach() }
 }

@@ -57,20 +57,10 @@ impl Visible {
         for row in (0..lattice.rows).step_by(tile) {
             for column in (0..lattice.columns).step_by(tile) {
                 let (width, height) = (tile.min(lattice.columns - column), tile.min(lattice.rows - row));
-                tiles.push(VisibleTile {
-                    column,
-                    row,
-                    width,
-                    height,
-                    ..VisibleTile::default()
-                });
+                tiles.push(VisibleTile { column, row, width, height, ..VisibleTile::default() });
             }
         }
-        Self {
-            lattice: *lattice,
-            tile,
-            tiles,
-        }
+        Self { lattice: *lattice, tile, tiles }
     }
 
     /// Finds what each sample sees.
@@ -104,9 +94,7 @@ impl Visible {
 
     /// What was done in all tiles.
     pub fn counts(&self) -> Counts {
-        self.tiles
-            .iter()
-            .fold(Counts::default(), |sum, tile| sum.plus(tile.counts))
+        self.tiles.iter().fold(Counts::default(), |sum, tile| sum.plus(tile.counts))
     }
 
     fn gather<T: Copy>(&self, empty: T, of: impl Fn(&Samples) -> &Vec<T>) -> Vec<T> {
@@ -131,11 +119,7 @@ fn draw_node(tile: &mut Tile, mesh: &Mesh, node: Node) {
     tile.counts.nodes += 1;
     // A box that touches the eye's plane has no picture of bounded size: it can be neither hidden nor a patch.
     let is_beyond_eye = tile.view.is_parallel() || reach.depth.0 > tile.view.frame.near() / 2.0;
-    let rectangle = if is_beyond_eye {
-        Some(reach.rectangle())
-    } else {
-        None
-    };
+    let rectangle = if is_beyond_eye { Some(reach.rectangle()) } else { None };
     if let Some(rectangle) = rectangle {
         let nearest = tile.key_of_depth(reach.depth.0);
         if tile.hides(rectangle, nearest) {
@@ -146,9 +130,7 @@ fn draw_node(tile: &mut Tile, mesh: &Mesh, node: Node) {
     if node.level > 0 {
         draw_children(tile, mesh, node);
     } else {
-        let patch = rectangle
-            .as_ref()
-            .and_then(|r| Patch::new(&tile.view, reach.depth, reach.size, r));
+        let patch = rectangle.as_ref().and_then(|r| Patch::new(&tile.view, reach.depth, reach.size, r));
         draw_leaf(tile, mesh, node, patch);
         if let Some((from, to)) = rectangle.and_then(|r| tile.samples_in(r)) {
             tile.touch(from, to);
@@ -160,9 +142,7 @@ fn draw_children(tile: &mut Tile, mesh: &Mesh, node: Node) {
     let mut children = [(0.0, node); 4];
     let mut count = 0;
     mesh.for_each_child(node, |child| {
-        let depth = mesh
-            .bounds(child)
-            .map_or(f64::INFINITY, |b| tile.view.frame.depth(b.center));
+        let depth = mesh.bounds(child).map_or(f64::INFINITY, |b| tile.view.frame.depth(b.center));
         children[count] = (depth, child);
         count += 1;
     });

@@ -44,12 +44,7 @@ impl Drawing<'_> {
             technique: name.into(),
             parameters: drawn.parameters,
             device: device_words(&self.stage.scene.device),
-            image: ImageResult {
-                path,
-                width: image.width(),
-                height: image.height(),
-                hash: image.hash(),
-            },
+            image: ImageResult { path, width: image.width(), height: image.height(), hash: image.hash() },
             prepare_ms: drawn.prepare_ms,
             frame_ms: drawn.frame_ms,
             structure_bytes: drawn.structure_bytes,
@@ -70,10 +65,7 @@ impl Drawing<'_> {
             prepare_ms.push(ms);
             let (mut frame, ms) = timed(|| self.frame(&*prepared, &[]))?;
             frame_ms.push(ms);
-            if drawn
-                .as_ref()
-                .is_some_and(|before| before.frame.image != frame.image)
-            {
+            if drawn.as_ref().is_some_and(|before| before.frame.image != frame.image) {
                 return Err(unequal(kind));
             }
             let buffers = buffers_of(&*prepared, &wish.buffers);
@@ -93,19 +85,11 @@ impl Drawing<'_> {
             });
         }
         let drawn = drawn.ok_or_else(|| Error::internal("no frame was asked for"))?;
-        Ok(Drawn {
-            prepare_ms: median(prepare_ms),
-            frame_ms: median(frame_ms),
-            ..drawn
-        })
+        Ok(Drawn { prepare_ms: median(prepare_ms), frame_ms: median(frame_ms), ..drawn })
     }
 
     fn frame(&self, prepared: &dyn Prepared, buffers: &[String]) -> Result<Frame> {
-        prepared.frame(&FrameOptions {
-            tile: TILE,
-            buffers,
-            progress: &|share| self.bar.done(share),
-        })
+        prepared.frame(&FrameOptions { tile: TILE, buffers, progress: &|share| self.bar.done(share) })
     }
 
     /// Stages a buffer's values and, where it has one, its picture.
@@ -122,11 +106,7 @@ impl Drawing<'_> {
         if let Some(picture) = look(checked) {
             self.batch.stage(&file("png"), |to| write_png(&picture, to))?;
         }
-        Ok(BufferResult {
-            name: plane.name.into(),
-            path: file("npy"),
-            hash: plane.hash(),
-        })
+        Ok(BufferResult { name: plane.name.into(), path: file("npy"), hash: plane.hash() })
     }
 }
 

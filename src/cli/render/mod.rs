@@ -56,9 +56,8 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
     let scene = SceneInput::read(arguments.scene.as_deref(), &arguments.overrides)?;
     let batch = Batch::into(&arguments.output)?;
     let bar = Bar::new();
-    let runs = parallel::with_threads(arguments.threads, || {
-        render(arguments, &asked, &scene.file, batch, &bar)
-    })?;
+    let runs =
+        parallel::with_threads(arguments.threads, || render(arguments, &asked, &scene.file, batch, &bar))?;
     for run in runs.map_err(|error| scene.blame(error))? {
         bar.say(&told(arguments, &run));
     }
@@ -79,16 +78,10 @@ fn render(
     }
     let stage = Stage::new(scene, surface)?;
     let kinds = techniques::applying(asked, &stage, bar)?;
-    let wish = Wish {
-        buffers: techniques::buffers(&arguments.buffers, &kinds, &stage)?,
-        repeat: arguments.repeat,
-    };
+    let wish =
+        Wish { buffers: techniques::buffers(&arguments.buffers, &kinds, &stage)?, repeat: arguments.repeat };
 
-    let mut drawing = Drawing {
-        stage: &stage,
-        batch: &mut batch,
-        bar,
-    };
+    let mut drawing = Drawing { stage: &stage, batch: &mut batch, bar };
     let runs: Result<Vec<RunResult>> = kinds.iter().map(|kind| drawing.run(*kind, &wish)).collect();
 
     let result = RenderResult {

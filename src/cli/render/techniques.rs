@@ -49,15 +49,10 @@ fn built(name: Name) -> Result<Kind> {
     let name = value.as_ref().map_or("", |value| value.get_name());
     let has: Vec<&str> = Kind::ALL.iter().map(|kind| kind.name()).collect();
     let refuse = || {
-        Error::new(format!(
-            "this version of drapery does not have the technique `{name}` yet"
-        ))
-        .help(format!("it has {}", has.join(", ")))
+        Error::new(format!("this version of drapery does not have the technique `{name}` yet"))
+            .help(format!("it has {}", has.join(", ")))
     };
-    Kind::ALL
-        .into_iter()
-        .find(|kind| kind.name() == name)
-        .ok_or_else(refuse)
+    Kind::ALL.into_iter().find(|kind| kind.name() == name).ok_or_else(refuse)
 }
 
 /// The techniques to run: those that are asked for, or all that apply.
@@ -66,9 +61,7 @@ fn built(name: Name) -> Result<Kind> {
 /// When one that is asked for does not apply, or none does.
 pub(super) fn applying(asked: &[Kind], stage: &Stage, bar: &Bar) -> Result<Vec<Kind>> {
     if !asked.is_empty() {
-        asked
-            .iter()
-            .try_for_each(|kind| technique::applies(*kind, stage))?;
+        asked.iter().try_for_each(|kind| technique::applies(*kind, stage))?;
         return Ok(asked.to_vec());
     }
     let mut kinds = Vec::new();
@@ -99,11 +92,7 @@ pub(super) enum Buffers {
 /// # Errors
 /// When none of the techniques has one of them: known before anything is drawn.
 pub(super) fn buffers(asked: &[String], kinds: &[Kind], stage: &Stage) -> Result<Buffers> {
-    let mut unknown: Vec<&str> = asked
-        .iter()
-        .map(String::as_str)
-        .filter(|name| *name != ALL)
-        .collect();
+    let mut unknown: Vec<&str> = asked.iter().map(String::as_str).filter(|name| *name != ALL).collect();
     let mut offered: Vec<&str> = Vec::new();
     for kind in kinds {
         if unknown.is_empty() {
@@ -111,20 +100,11 @@ pub(super) fn buffers(asked: &[String], kinds: &[Kind], stage: &Stage) -> Result
         }
         let names = technique::prepare(*kind, stage)?.buffer_names();
         unknown.retain(|name| !names.contains(name));
-        offered.extend(
-            names
-                .iter()
-                .filter(|name| !offered.contains(name))
-                .collect::<Vec<_>>(),
-        );
+        offered.extend(names.iter().filter(|name| !offered.contains(name)).collect::<Vec<_>>());
     }
     if let Some(name) = unknown.first() {
         return Err(Error::new(format!("there is no buffer `{name}`"))
             .help(format!("buffers here: {}, or {ALL}", offered.join(", "))));
     }
-    Ok(if asked.iter().any(|name| name == ALL) {
-        Buffers::All
-    } else {
-        Buffers::Named(asked.to_vec())
-    })
+    Ok(if asked.iter().any(|name| name == ALL) { Buffers::All } else { Buffers::Named(asked.to_vec()) })
 }

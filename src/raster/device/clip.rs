@@ -32,15 +32,8 @@ enum Plane {
 }
 
 impl Plane {
-    const ALL: [Self; 7] = [
-        Self::Eye,
-        Self::Near,
-        Self::Far,
-        Self::Left,
-        Self::Right,
-        Self::Bottom,
-        Self::Top,
-    ];
+    const ALL: [Self; 7] =
+        [Self::Eye, Self::Near, Self::Far, Self::Left, Self::Right, Self::Bottom, Self::Top];
 }
 
 impl<T: Real> Volume<T> {
@@ -52,12 +45,7 @@ impl<T: Real> Volume<T> {
         let guard = [frame.width(), frame.height()]
             .map(|size| crate::math::max(2.0, GUARD / (size as f64 / 2.0)))
             .map(T::of);
-        Self {
-            least_w: T::of(least_w),
-            guard,
-            is_reversed,
-            is_far_finite: frame.far().is_finite(),
-        }
+        Self { least_w: T::of(least_w), guard, is_reversed, is_far_finite: frame.far().is_finite() }
     }
 
     /// Positive inside, 0 on the plane.

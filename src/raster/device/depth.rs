@@ -25,11 +25,7 @@ impl DepthBuffer {
 
     /// What the buffer is cleared to: the far plane. (So terrain whose depth rounds to the far plane's is not seen.)
     pub fn cleared(self) -> f32 {
-        if self.is_reversed() {
-            0.0
-        } else {
-            self.most().unwrap_or(1.0) as f32
-        }
+        if self.is_reversed() { 0.0 } else { self.most().unwrap_or(1.0) as f32 }
     }
 
     /// What a depth of 0..=1 is stored as: the nearest value of the format, ties to even.
@@ -54,19 +50,12 @@ impl DepthBuffer {
 mod tests {
     use super::*;
 
-    const ALL: [DepthFormat; 4] = [
-        DepthFormat::F32Reversed,
-        DepthFormat::F32,
-        DepthFormat::Unorm24,
-        DepthFormat::Unorm16,
-    ];
+    const ALL: [DepthFormat; 4] =
+        [DepthFormat::F32Reversed, DepthFormat::F32, DepthFormat::Unorm24, DepthFormat::Unorm16];
 
     #[test]
     fn every_integer_of_a_fixed_point_buffer_comes_back() {
-        for (format, most) in [
-            (DepthFormat::Unorm24, 16_777_215u32),
-            (DepthFormat::Unorm16, 65_535),
-        ] {
+        for (format, most) in [(DepthFormat::Unorm24, 16_777_215u32), (DepthFormat::Unorm16, 65_535)] {
             let buffer = DepthBuffer(format);
             for k in (0..=most).step_by(97).chain([most - 1, most]) {
                 let stored = k as f32;

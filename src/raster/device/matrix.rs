@@ -19,8 +19,7 @@ impl<T: Real> Matrix<T> {
 
     /// The product with a column: four products, summed from the left.
     pub(super) fn times(&self, v: [T; 4]) -> [T; 4] {
-        self.0
-            .map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2] + row[3] * v[3])
+        self.0.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2] + row[3] * v[3])
     }
 }
 
@@ -46,11 +45,7 @@ impl Projection {
             (Lens::Parallel { .. }, true) => (-k / far, k),
         };
         let half = [frame.width(), frame.height()].map(|size| size as f64 / 2.0 * frame.lens().pixel());
-        Self {
-            slope,
-            constant,
-            half,
-        }
+        Self { slope, constant, half }
     }
 
     /// `clip_from_view * view_from_world`, composed in double precision.
@@ -90,10 +85,6 @@ impl Projection {
     /// The view depth of a depth after division.
     pub(super) fn view_depth<T: Real>(&self, z: T, is_parallel: bool) -> T {
         let (slope, constant) = (T::of(self.slope), T::of(self.constant));
-        if is_parallel {
-            (z - constant) / slope
-        } else {
-            constant / (z - slope)
-        }
+        if is_parallel { (z - constant) / slope } else { constant / (z - slope) }
     }
 }

@@ -78,10 +78,7 @@ impl<T: Real> Pipeline<T> {
             };
             let corners = corners.map(|p| self.clip_from_world.times(homogeneous(p)));
             self.volume.clip(&corners, |triangle| {
-                let primitive = Primitive {
-                    id,
-                    corners: triangle.map(|c| self.screen_from_clip(c)),
-                };
+                let primitive = Primitive { id, corners: triangle.map(|c| self.screen_from_clip(c)) };
                 if primitive.window(lattice).is_some() {
                     out.push(primitive);
                 }
@@ -134,12 +131,7 @@ impl<T: Real> Pipeline<T> {
         let one = T::of(1.0);
         let [half_width, half_height] = self.half;
         let z = self.depth.load(stored);
-        let ndc = [
-            T::of(at.x) / half_width - one,
-            one - T::of(at.y) / half_height,
-            z,
-            one,
-        ];
+        let ndc = [T::of(at.x) / half_width - one, one - T::of(at.y) / half_height, z, one];
         let [x, y, up, w] = self.world_from_clip.times(ndc);
         let point = World::new((x / w).get(), (y / w).get(), (up / w).get());
         let depth = self.projection.view_depth(z, self.is_parallel).get();

@@ -27,10 +27,7 @@ pub struct Window {
 impl Window {
     fn shared_with(&self, other: &Self) -> Self {
         let shared = |a: &Range<usize>, b: &Range<usize>| a.start.max(b.start)..a.end.min(b.end);
-        Self {
-            columns: shared(&self.columns, &other.columns),
-            rows: shared(&self.rows, &other.rows),
-        }
+        Self { columns: shared(&self.columns, &other.columns), rows: shared(&self.rows, &other.rows) }
     }
 }
 
@@ -96,10 +93,7 @@ pub(super) fn draw<'p, T: Real + 'p, N: Coordinate>(
 
 /// Screen coordinates of some columns or rows.
 fn positions<N: Coordinate>(range: &Range<usize>, first: f64, step: f64) -> Vec<N> {
-    range
-        .clone()
-        .map(|k| N::of_pixels(first + k as f64 * step))
-        .collect()
+    range.clone().map(|k| N::of_pixels(first + k as f64 * step)).collect()
 }
 
 /// A triangle whose corners run clockwise on the screen (y down): edge functions are positive inside.
@@ -121,20 +115,13 @@ impl<T: Real, N: Coordinate> Edges<T, N> {
         } else {
             return None;
         };
-        Some(Self {
-            corners: [place(a), place(b), place(c)],
-            depths: [a[2], b[2], c[2]],
-        })
+        Some(Self { corners: [place(a), place(b), place(c)], depths: [a[2], b[2], c[2]] })
     }
 
     /// The depth at a sample, `None` where the triangle does not cover it.
     fn depth_at(&self, p: [N; 2]) -> Option<T> {
         let [a, b, c] = self.corners;
-        let weights = [
-            covered_side(b, c, p)?,
-            covered_side(c, a, p)?,
-            covered_side(a, b, p)?,
-        ];
+        let weights = [covered_side(b, c, p)?, covered_side(c, a, p)?, covered_side(a, b, p)?];
         let [u, v, w] = weights.map(|weight| T::of(weight.rounded()));
         let sum = u + v + w;
         let [first, second, third] = self.depths;
@@ -146,11 +133,7 @@ impl<T: Real, N: Coordinate> Edges<T, N> {
 /// same number but for its sign, in floating-point arithmetic too, since the edge always starts at its lesser end.
 fn edge<N: Coordinate>(a: [N; 2], b: [N; 2], p: [N; 2]) -> N {
     let from = |a: [N; 2], b: [N; 2]| (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
-    if a <= b {
-        from(a, b)
-    } else {
-        N::of_pixels(0.0) - from(b, a)
-    }
+    if a <= b { from(a, b) } else { N::of_pixels(0.0) - from(b, a) }
 }
 
 /// The edge function of a -> b where `p` is on the inner side, or on a left or a top edge itself (the top-left rule: the

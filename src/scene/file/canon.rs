@@ -92,9 +92,7 @@ line = { color = \"#ff7f00\", width_m = 12.0 }
 
     fn hash(text: &str, path: Option<&str>, overrides: &[&str]) -> String {
         let overrides: Vec<_> = overrides.iter().map(|o| Override::parse(o).unwrap()).collect();
-        SceneFile::parse(text, path.map(Path::new), &overrides)
-            .unwrap()
-            .hash
+        SceneFile::parse(text, path.map(Path::new), &overrides).unwrap().hash
     }
 
     #[test]

@@ -21,10 +21,7 @@ pub(super) fn table(
         check.entry(entry, shape)?;
     }
     check.required(table, place, shape)?;
-    shape
-        .rules
-        .iter()
-        .try_for_each(|rule| check.rule(*rule, table, place))
+    shape.rules.iter().try_for_each(|rule| check.rule(*rule, table, place))
 }
 
 /// The judge of one table.
@@ -71,10 +68,7 @@ impl Check<'_> {
     }
 
     fn each(&self, items: &[Node], shape: &Shape, path: &str) -> Result<()> {
-        items
-            .iter()
-            .enumerate()
-            .try_for_each(|(at, item)| self.value(item, shape, &format!("{path}.{at}")))
+        items.iter().enumerate().try_for_each(|(at, item)| self.value(item, shape, &format!("{path}.{at}")))
     }
 
     /// One list of points, or several: told by the depth of the first item.
@@ -89,54 +83,32 @@ impl Check<'_> {
             let path = format!("{path}.{at}");
             match &item.value {
                 Value::Array(points) if !points.is_empty() => self.each(points, &Shape::Numbers(2), &path),
-                other => Err(self.mismatch(
-                    &item.place,
-                    &path,
-                    "a list of points [[x, y], ...]",
-                    &other.found(),
-                )),
+                other => {
+                    Err(self.mismatch(&item.place, &path, "a list of points [[x, y], ...]", &other.found()))
+                }
             }
         })
     }
 
     fn required(&self, table: &Table, place: &Place, shape: &'static TableShape) -> Result<()> {
-        let missing = shape
-            .keys
-            .iter()
-            .find(|key| key.required && table.get(key.name).is_none());
+        let missing = shape.keys.iter().find(|key| key.required && table.get(key.name).is_none());
         missing.map_or(Ok(()), |key| {
             let what = format!("`{}` is missing", self.path_of(key.name));
-            Err(self
-                .origin
-                .error(place, what)
-                .help(format!("{} It must be {}", key.doc, key.shape.words())))
+            Err(self.origin.error(place, what).help(format!("{} It must be {}", key.doc, key.shape.words())))
         })
     }
 
     fn rule(&self, rule: Rule, table: &Table, place: &Place) -> Result<()> {
         let (Rule::One(keys) | Rule::AtMostOne(keys) | Rule::Some(keys)) = rule;
-        let present: Vec<&Entry> = table
-            .0
-            .iter()
-            .filter(|entry| keys.contains(&entry.key.as_str()))
-            .collect();
+        let present: Vec<&Entry> =
+            table.0.iter().filter(|entry| keys.contains(&entry.key.as_str())).collect();
         match (rule, present.as_slice()) {
             (Rule::One(_) | Rule::Some(_), []) => {
-                let of = if self.path.is_empty() {
-                    "the file"
-                } else {
-                    self.path
-                };
-                Err(self
-                    .origin
-                    .error(place, format!("`{of}` needs {}", quoted(keys, " or "))))
+                let of = if self.path.is_empty() { "the file" } else { self.path };
+                Err(self.origin.error(place, format!("`{of}` needs {}", quoted(keys, " or "))))
             }
             (Rule::One(_) | Rule::AtMostOne(_), [first, second, ..]) => {
-                let what = format!(
-                    "`{}` and `{}` exclude each other",
-                    self.path_of(&first.key),
-                    second.key
-                );
+                let what = format!("`{}` and `{}` exclude each other", self.path_of(&first.key), second.key);
                 Err(self
                     .origin
                     .error(&second.key_place, what)
@@ -149,21 +121,17 @@ impl Check<'_> {
     fn unknown(&self, entry: &Entry, shape: &TableShape) -> Error {
         let known: Vec<&str> = shape.keys.iter().map(|key| key.name).collect();
         let what = format!("there is no key `{}`", self.path_of(&entry.key));
-        self.origin
-            .error(&entry.key_place, what)
-            .help(suggest::nearest_or_all(&entry.key, &known, "keys"))
+        self.origin.error(&entry.key_place, what).help(suggest::nearest_or_all(&entry.key, &known, "keys"))
     }
 
     fn misfit(&self, node: &Node, shape: &Shape, value: &Value, path: &str) -> Error {
         let error = self.mismatch(&node.place, path, &shape.words(), &value.found());
         match (shape, value) {
-            (Shape::Integer(SCHEMA, SCHEMA), Value::Integer(_)) => error.help(format!(
-                "this program reads schema {SCHEMA}; another needs another version of it"
-            )),
+            (Shape::Integer(SCHEMA, SCHEMA), Value::Integer(_)) => {
+                error.help(format!("this program reads schema {SCHEMA}; another needs another version of it"))
+            }
             (Shape::Choice(names), Value::Text(text)) => suggest::nearest(text, &names())
-                .map_or(error.clone(), |near| {
-                    error.help(format!("did you mean {near:?}?"))
-                }),
+                .map_or(error.clone(), |near| error.help(format!("did you mean {near:?}?"))),
             (Shape::Text, Value::Integer(_) | Value::Number(_) | Value::Flag(_) | Value::Date) => {
                 error.help("put it in quotes")
             }
@@ -172,16 +140,11 @@ impl Check<'_> {
     }
 
     fn mismatch(&self, place: &Place, path: &str, expected: &str, found: &str) -> Error {
-        self.origin
-            .error(place, format!("`{path}` must be {expected}; found {found}"))
+        self.origin.error(place, format!("`{path}` must be {expected}; found {found}"))
     }
 
     fn path_of(&self, key: &str) -> String {
-        if self.path.is_empty() {
-            key.into()
-        } else {
-            format!("{}.{key}", self.path)
-        }
+        if self.path.is_empty() { key.into() } else { format!("{}.{key}", self.path) }
     }
 }
 

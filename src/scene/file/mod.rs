@@ -65,11 +65,7 @@ impl SceneFile {
     /// # Errors
     /// See the module: the first thing that is wrong.
     pub fn parse(text: &str, path: Option<&Path>, overrides: &[Override]) -> Result<SceneFile> {
-        let origin = Origin {
-            text,
-            path,
-            overrides,
-        };
+        let origin = Origin { text, path, overrides };
         let mut root = tree::parse(&origin)?;
         overrides::apply(&origin, &mut root)?;
         if let Value::Table(table) = &root.value {

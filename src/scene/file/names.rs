@@ -13,18 +13,12 @@ pub trait Named: Copy + PartialEq + 'static {
 
     /// What a word stands for.
     fn from_name(name: &str) -> Option<Self> {
-        Self::NAMES
-            .iter()
-            .find(|(known, _)| *known == name)
-            .map(|(_, value)| *value)
+        Self::NAMES.iter().find(|(known, _)| *known == name).map(|(_, value)| *value)
     }
 
     /// The word for it.
     fn word(self) -> &'static str {
-        Self::NAMES
-            .iter()
-            .find(|(_, value)| *value == self)
-            .map_or("", |(word, _)| word)
+        Self::NAMES.iter().find(|(_, value)| *value == self).map_or("", |(word, _)| word)
     }
 }
 

@@ -39,11 +39,7 @@ impl Override {
         let (path, value) = text.split_once('=').ok_or_else(|| refuse("there is no `=`"))?;
         let path =
             dotted_key(path.trim()).ok_or_else(|| refuse("the part before `=` is not a dotted path"))?;
-        Ok(Self {
-            text: text.into(),
-            path,
-            value: value.trim().into(),
-        })
+        Ok(Self { text: text.into(), path, value: value.trim().into() })
     }
 
     /// The override as it was given.
@@ -55,11 +51,7 @@ impl Override {
 /// The segments of `a.b."c d"`.
 fn dotted_key(path: &str) -> Option<Vec<String>> {
     let document = format!("{path} = 0");
-    let origin = Origin {
-        text: &document,
-        path: None,
-        overrides: &[],
-    };
+    let origin = Origin { text: &document, path: None, overrides: &[] };
     let mut node = tree::parse(&origin).ok().filter(|_| !path.contains('\n'))?;
     let mut segments = Vec::new();
     while let Value::Table(Table(mut entries)) = node.value {
@@ -72,10 +64,7 @@ fn dotted_key(path: &str) -> Option<Vec<String>> {
 
 /// The value, or `None` to remove the key.
 fn bare_or_toml(text: &str, place: &Place) -> Option<Node> {
-    let bare = || Node {
-        value: Value::Text(text.into()),
-        place: place.clone(),
-    };
+    let bare = || Node { value: Value::Text(text.into()), place: place.clone() };
     (!text.is_empty()).then(|| tree::parse_value(text, place).unwrap_or_else(bare))
 }
 
@@ -125,15 +114,8 @@ impl Walk<'_> {
     }
 
     fn empty_entry(&self, key: &str) -> Entry {
-        let node = Node {
-            value: Value::Table(Table::default()),
-            place: self.place.clone(),
-        };
-        Entry {
-            key: key.into(),
-            key_place: self.place.clone(),
-            node,
-        }
+        let node = Node { value: Value::Table(Table::default()), place: self.place.clone() };
+        Entry { key: key.into(), key_place: self.place.clone(), node }
     }
 
     fn set_in_array(
@@ -154,18 +136,11 @@ impl Walk<'_> {
     fn index_of(&self, items: &[Node], segment: &str) -> Result<usize> {
         if let Ok(number) = segment.parse::<usize>() {
             let refusal = || {
-                self.error(format!(
-                    "there is no number {number}: there are {}, counted from 0",
-                    items.len()
-                ))
+                self.error(format!("there is no number {number}: there are {}, counted from 0", items.len()))
             };
             return (number < items.len()).then_some(number).ok_or_else(refusal);
         }
-        let names: Vec<String> = items
-            .iter()
-            .enumerate()
-            .map(|(at, item)| name(item, at))
-            .collect();
+        let names: Vec<String> = items.iter().enumerate().map(|(at, item)| name(item, at)).collect();
         names.iter().position(|name| name == segment).ok_or_else(|| {
             let names: Vec<&str> = names.iter().map(String::as_str).collect();
             self.error(format!("nothing here is called `{segment}`"))

@@ -13,17 +13,9 @@ pub fn schema() -> Value {
 }
 
 fn table(shape: &TableShape) -> Value {
-    let properties: Map<String, Value> = shape
-        .keys
-        .iter()
-        .map(|key| (key.name.into(), described(key)))
-        .collect();
-    let required: Vec<_> = shape
-        .keys
-        .iter()
-        .filter(|key| key.required)
-        .map(|key| key.name)
-        .collect();
+    let properties: Map<String, Value> =
+        shape.keys.iter().map(|key| (key.name.into(), described(key))).collect();
+    let required: Vec<_> = shape.keys.iter().filter(|key| key.required).map(|key| key.name).collect();
     let mut table = json!({ "type": "object", "properties": properties, "additionalProperties": false });
     if !required.is_empty() {
         table["required"] = json!(required);
@@ -172,10 +164,7 @@ mod tests {
             "[[layer]]\nsource = \"a.shp\"\nline = { color = \"#ff0000\" }",
             "[[layer]]\nfeatures = [{ line = [] }]\nline = { color = \"#ff0000\", width_m = 1 }",
         ] {
-            assert!(
-                !fits(&schema(), &as_json(&format!("{terrain}{wrong}"))),
-                "{wrong}"
-            );
+            assert!(!fits(&schema(), &as_json(&format!("{terrain}{wrong}"))), "{wrong}");
             assert!(
                 super::super::SceneFile::parse(&format!("{terrain}{wrong}"), None, &[]).is_err(),
                 "{wrong}"

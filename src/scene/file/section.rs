@@ -33,11 +33,7 @@ impl<'a> Section<'a> {
         let Value::Table(Table(entries)) = node.value else {
             return Err(bug("a table"));
         };
-        let mut section = Section {
-            origin,
-            place: node.place,
-            entries,
-        };
+        let mut section = Section { origin, place: node.place, entries };
         let built = read(&mut section)?;
         match section.entries.first() {
             Some(left) => Err(bug(&format!("a use for `{}`", left.key))),
@@ -47,10 +43,7 @@ impl<'a> Section<'a> {
 
     /// An empty table where none was written.
     pub(super) fn take_or_empty(&mut self, key: &str) -> Node {
-        let empty = Node {
-            value: Value::Table(Table::default()),
-            place: self.place.clone(),
-        };
+        let empty = Node { value: Value::Table(Table::default()), place: self.place.clone() };
         self.take(key).unwrap_or(empty)
     }
 
@@ -76,13 +69,7 @@ impl<'a> Section<'a> {
     }
 
     pub(super) fn text_at(&mut self, key: &str) -> Result<Option<Taken<String>>> {
-        self.taken(key, |value| {
-            if let Value::Text(text) = value {
-                Some(text)
-            } else {
-                None
-            }
-        })
+        self.taken(key, |value| if let Value::Text(text) = value { Some(text) } else { None })
     }
 
     pub(super) fn number(&mut self, key: &str) -> Result<Option<f64>> {
@@ -114,22 +101,12 @@ impl<'a> Section<'a> {
     }
 
     pub(super) fn name<T: Named>(&mut self, key: &str) -> Result<Option<T>> {
-        self.plain(key, |value| {
-            if let Value::Text(text) = value {
-                T::from_name(&text)
-            } else {
-                None
-            }
-        })
+        self.plain(key, |value| if let Value::Text(text) = value { T::from_name(&text) } else { None })
     }
 
     pub(super) fn color(&mut self, key: &str) -> Result<Option<Color>> {
         self.plain(key, |value| {
-            if let Value::Text(text) = value {
-                color(&text).map(Color::from_rgba8)
-            } else {
-                None
-            }
+            if let Value::Text(text) = value { color(&text).map(Color::from_rgba8) } else { None }
         })
     }
 
@@ -139,21 +116,12 @@ impl<'a> Section<'a> {
 
     /// The tables of an array.
     pub(super) fn tables(&mut self, key: &str) -> Result<Option<Vec<Node>>> {
-        self.plain(key, |value| {
-            if let Value::Array(items) = value {
-                Some(items)
-            } else {
-                None
-            }
-        })
+        self.plain(key, |value| if let Value::Array(items) = value { Some(items) } else { None })
     }
 
     /// The key that is still there, and where it was written.
     pub(super) fn first_of(&self, keys: &[&str]) -> Option<(&str, &Place)> {
-        let entry = self
-            .entries
-            .iter()
-            .find(|entry| keys.contains(&entry.key.as_str()))?;
+        let entry = self.entries.iter().find(|entry| keys.contains(&entry.key.as_str()))?;
         Some((&entry.key, &entry.key_place))
     }
 

@@ -134,21 +134,13 @@ pub(super) const fn choice<T: Named>() -> Shape {
 
 /// A key that may be left out.
 pub(super) const fn key(name: &'static str, shape: Shape, doc: &'static str) -> Key {
-    Key {
-        name,
-        shape,
-        required: false,
-        doc,
-    }
+    Key { name, shape, required: false, doc }
 }
 
 impl Key {
     /// The key that may not be left out.
     pub(super) const fn required(self) -> Self {
-        Self {
-            required: true,
-            ..self
-        }
+        Self { required: true, ..self }
     }
 }
 
@@ -160,9 +152,7 @@ impl TableShape {
 
 /// The four code values of a colour.
 pub(super) fn color(text: &str) -> Option<[u8; 4]> {
-    let digits = text
-        .strip_prefix('#')
-        .filter(|digits| digits.bytes().all(|b| b.is_ascii_hexdigit()))?;
+    let digits = text.strip_prefix('#').filter(|digits| digits.bytes().all(|b| b.is_ascii_hexdigit()))?;
     let code = |at: usize| u8::from_str_radix(digits.get(at..at + 2)?, 16).ok();
     match digits.len() {
         6 => Some([code(0)?, code(2)?, code(4)?, 255]),
@@ -179,26 +169,15 @@ mod tests {
     fn colours_have_six_or_eight_digits() {
         assert_eq!(color("#ff8000"), Some([255, 128, 0, 255]));
         assert_eq!(color("#FF800040"), Some([255, 128, 0, 64]));
-        for wrong in [
-            "", "#", "#fff", "ff8000", "#ff80zz", "#ff80001", "#üüü", "#+f+f+f",
-        ] {
+        for wrong in ["", "#", "#fff", "ff8000", "#ff80zz", "#ff80001", "#üüü", "#+f+f+f"] {
             assert_eq!(color(wrong), None, "{wrong}");
         }
     }
 
     #[test]
     fn no_range_contains_nan_or_infinity() {
-        for range in [
-            Range::Finite,
-            Range::Positive,
-            Range::NotNegative,
-            Range::FromOne,
-            Range::Share,
-        ] {
-            assert!(
-                !range.contains(f64::NAN) && !range.contains(f64::INFINITY),
-                "{range:?}"
-            );
+        for range in [Range::Finite, Range::Positive, Range::NotNegative, Range::FromOne, Range::Share] {
+            assert!(!range.contains(f64::NAN) && !range.contains(f64::INFINITY), "{range:?}");
         }
     }
 }

@@ -16,10 +16,7 @@ pub(super) fn nearest<'a>(given: &str, known: &[&'a str]) -> Option<&'a str> {
     let given = given.to_lowercase().replace('-', "_");
     let distance = |name: &str| {
         let name = name.to_lowercase().replace('-', "_");
-        let stem = name
-            .strip_suffix("_m")
-            .or(name.strip_suffix("_deg"))
-            .unwrap_or(&name);
+        let stem = name.strip_suffix("_m").or(name.strip_suffix("_deg")).unwrap_or(&name);
         strsim::osa_distance(&given, &name).min(strsim::osa_distance(&given, stem))
     };
     let (cost, name) = known.iter().map(|name| (distance(name), *name)).min()?;
@@ -33,10 +30,7 @@ mod tests {
 
     #[test]
     fn a_forgotten_unit_is_found() {
-        assert_eq!(
-            nearest("width", &["color", "width_m", "width_px"]),
-            Some("width_m")
-        );
+        assert_eq!(nearest("width", &["color", "width_m", "width_px"]), Some("width_m"));
         assert_eq!(nearest("fov_y", &["fov_y_deg", "far_m"]), Some("fov_y_deg"));
     }
 

@@ -167,11 +167,7 @@ fn every_described_key_is_read_somewhere() {
     let (mut of_parser, mut of_scenes) = (Vec::new(), Vec::new());
     described(&keys::ROOT, "", &mut of_parser);
     for text in EVERY_KEY.into_iter().chain([CONE]) {
-        let origin = Origin {
-            text,
-            path: None,
-            overrides: &[],
-        };
+        let origin = Origin { text, path: None, overrides: &[] };
         written(&tree::parse(&origin).unwrap().value, "", &mut of_scenes);
     }
     assert_eq!(sorted(of_parser), sorted(of_scenes));
@@ -180,27 +176,15 @@ fn every_described_key_is_read_somewhere() {
 #[test]
 fn values_arrive_where_they_belong() {
     let scene = parse(EVERY_KEY[0]).unwrap();
-    assert_eq!(
-        (scene.name.as_str(), scene.image.width, scene.image.height),
-        ("all", 64, 48)
-    );
-    assert_eq!(
-        scene.camera.projection,
-        Projection::Perspective { fov_y_deg: 45.0 }
-    );
+    assert_eq!((scene.name.as_str(), scene.image.width, scene.image.height), ("all", 64, 48));
+    assert_eq!(scene.camera.projection, Projection::Perspective { fov_y_deg: 45.0 });
     assert_eq!(scene.camera.far_m, Some(1e5));
     assert_eq!(scene.terrain.offset, DVec2::new(1.0, 2.0));
     let lakes = &scene.layers[0];
     assert_eq!(lakes.style.fill.map(|Fill { color, .. }| color.0[3]), Some(0.5));
-    assert_eq!(
-        lakes.style.outline.map(|outline| outline.line.join),
-        Some(Join::Miter { limit: 2.0 })
-    );
+    assert_eq!(lakes.style.outline.map(|outline| outline.line.join), Some(Join::Miter { limit: 2.0 }));
     assert_eq!(scene.layers[1].name, "roads");
-    assert_eq!(
-        scene.layers[1].style.line.map(|line| line.width),
-        Some(Width::Metres(12.0))
-    );
+    assert_eq!(scene.layers[1].style.line.map(|line| line.width), Some(Width::Metres(12.0)));
     assert_eq!(scene.technique.inverse_projection.samples, 5);
     assert_eq!(scene.device.subpixel_bits, 8);
 }
@@ -228,10 +212,7 @@ fn paths_start_at_the_scene_files_folder() {
         panic!("no file")
     };
     assert_eq!(file.path, Path::new("dir/data/lakes.gpkg"));
-    assert_eq!(
-        (file.written.as_str(), layer.as_deref()),
-        ("data/lakes.gpkg", Some("water"))
-    );
+    assert_eq!((file.written.as_str(), layer.as_deref()), ("data/lakes.gpkg", Some("water")));
     assert_eq!(file.position.map(|at| (at.line, at.column)), Some((30, 10)));
 }
 
@@ -271,18 +252,12 @@ fn a_wrong_type_says_what_was_expected_and_found() {
             "3:15: `image.width` must be a whole number from 1 to 65536; found the string \"wide\"",
         ),
         ("image.width = 3.0", "found 3.0"),
-        (
-            "name = 3",
-            "3:8: `name` must be a string that is not empty; found 3\n  help: put it in quotes",
-        ),
+        ("name = 3", "3:8: `name` must be a string that is not empty; found 3\n  help: put it in quotes"),
         ("name = \"\"", "found the string \"\""),
         ("image = 3", "3:9: `image` must be a table; found 3"),
         ("layer = 3", "3:9: `layer` must be an array of tables; found 3"),
         ("layer = [3]", "3:10: `layer.0` must be a table; found 3"),
-        (
-            "[layer]\nname = \"a\"",
-            "3:1: `layer` must be an array of tables; found a table",
-        ),
+        ("[layer]\nname = \"a\"", "3:1: `layer` must be an array of tables; found a table"),
         (
             "camera.eye = [1, 2]",
             "3:14: `camera.eye` must be an array of 3 finite numbers; found an array of 2",
@@ -292,14 +267,8 @@ fn a_wrong_type_says_what_was_expected_and_found() {
             "3:21: `camera.eye.2` must be a finite number; found the string \"3\"",
         ),
         ("camera.up = 2026-01-01", "found a date"),
-        (
-            "camera.projection = \"ortographic\"",
-            "did you mean \"orthographic\"?",
-        ),
-        (
-            "image.background = \"white\"",
-            "must be a colour \"#rrggbb\" or \"#rrggbbaa\"",
-        ),
+        ("camera.projection = \"ortographic\"", "did you mean \"orthographic\"?"),
+        ("image.background = \"white\"", "must be a colour \"#rrggbb\" or \"#rrggbbaa\""),
     ] {
         let error = refusal(lines);
         assert!(error.contains(said), "{lines}\n{error}");
@@ -312,10 +281,7 @@ fn numbers_out_of_range_are_refused_at_the_number() {
         ("image.width = 0", "3:15"),
         ("image.width = 65537", "3:15"),
         ("image.height = -1", "3:16"),
-        (
-            "image.width = 99999999999999999999999999999999999999999999",
-            "3:15",
-        ),
+        ("image.width = 99999999999999999999999999999999999999999999", "3:15"),
         ("image = { width = 65536, height = 4097 }", "3:35"),
         ("camera.fov_y_deg = 180", "3:20"),
         ("camera.fov_y_deg = 0.0", "3:20"),
@@ -327,16 +293,10 @@ fn numbers_out_of_range_are_refused_at_the_number() {
         ("device.subpixel_bits = 5", "3:24"),
         ("device.stencil_bits = 17", "3:23"),
         ("technique.inverse-projection.samples = 65", "3:40"),
-        (
-            "camera = { eye_geo = [0, 91, 0], target_geo = [0, 0, 0] }",
-            "3:22",
-        ),
+        ("camera = { eye_geo = [0, 91, 0], target_geo = [0, 0, 0] }", "3:22"),
     ] {
         let error = refusal(lines);
-        assert!(
-            error.starts_with(&format!("dir/scene.toml:{place}: ")),
-            "{lines}\n{error}"
-        );
+        assert!(error.starts_with(&format!("dir/scene.toml:{place}: ")), "{lines}\n{error}");
     }
 }
 
@@ -351,23 +311,14 @@ fn widths_opacities_and_limits_are_checked() {
             "line = { color = \"#ff0000\", width_m = 1, width_px = 2 }",
             "5:42: `layer.0.line.width_m` and `width_px` exclude",
         ),
-        (
-            "line = { color = \"#ff0000\" }",
-            "5:8: `layer.0.line` needs `width_m` or `width_px`",
-        ),
+        ("line = { color = \"#ff0000\" }", "5:8: `layer.0.line` needs `width_m` or `width_px`"),
         ("line = { width_m = 1 }", "5:8: `layer.0.line.color` is missing"),
         (
             "fill = { color = \"#ff0000\", opacity = 1.5 }",
             "5:39: `layer.0.fill.opacity` must be a number from 0 to 1",
         ),
-        (
-            "line = { color = \"#ff0000\", width_m = 1, join = \"miter\", miter_limit = 0.5 }",
-            "5:72",
-        ),
-        (
-            "line = { color = \"#ff0000\", width_m = 1, miter_limit = 2 }",
-            "goes with join = \"miter\" only",
-        ),
+        ("line = { color = \"#ff0000\", width_m = 1, join = \"miter\", miter_limit = 0.5 }", "5:72"),
+        ("line = { color = \"#ff0000\", width_m = 1, miter_limit = 2 }", "goes with join = \"miter\" only"),
         ("", "3:1: `layer.0` needs `fill` or `outline` or `line`"),
     ] {
         let error = layer(lines);
@@ -382,27 +333,15 @@ fn a_camera_without_a_picture_is_refused() {
             "camera = { eye = [1, 2, 3], target = [1, 2, 3] }",
             "3:38: `camera.eye` and `camera.target` are the same point",
         ),
-        (
-            "camera = { eye = [1, 2, 3], target = [1, 2, 0] }",
-            "parallel to the direction of view",
-        ),
+        ("camera = { eye = [1, 2, 3], target = [1, 2, 0] }", "parallel to the direction of view"),
         (
             "camera = { eye = [1, 2, 3], target = [9, 2, 0], up = [0, 0, 0] }",
             "3:54: `camera.up` has no direction",
         ),
         ("camera.up = [0, 0, 0]", "3:13: `camera.up` has no direction"),
-        (
-            "camera.eye = [1, 2, 3]",
-            "3:14: `camera` has an eye and no target",
-        ),
-        (
-            "camera = { eye = [1, 2, 3], eye_geo = [1, 2, 3] }",
-            "exclude each other",
-        ),
-        (
-            "camera.height_m = 5",
-            "goes with projection = \"orthographic\" only",
-        ),
+        ("camera.eye = [1, 2, 3]", "3:14: `camera` has an eye and no target"),
+        ("camera = { eye = [1, 2, 3], eye_geo = [1, 2, 3] }", "exclude each other"),
+        ("camera.height_m = 5", "goes with projection = \"orthographic\" only"),
         ("camera.projection = \"orthographic\"", "needs `height_m`"),
     ] {
         let error = refusal(lines);
@@ -422,18 +361,9 @@ fn a_view_is_judged_whatever_its_size() {
 fn a_terrain_has_one_origin_and_its_own_keys() {
     for (text, said) in [
         ("schema = 1", "1:1: `terrain` is missing"),
-        (
-            "schema = 1\n[terrain]",
-            "2:1: `terrain` needs `source` or `generate`",
-        ),
-        (
-            "schema = 1\nterrain = { source = \"a\", generate = { kind = \"plane\" } }",
-            "exclude each other",
-        ),
-        (
-            "schema = 1\nterrain = { source = \"a\", window = [1, 0, 1, 5] }",
-            "`window` is empty",
-        ),
+        ("schema = 1\n[terrain]", "2:1: `terrain` needs `source` or `generate`"),
+        ("schema = 1\nterrain = { source = \"a\", generate = { kind = \"plane\" } }", "exclude each other"),
+        ("schema = 1\nterrain = { source = \"a\", window = [1, 0, 1, 5] }", "`window` is empty"),
         (
             "schema = 1\nterrain = { source = \"a\", window = [-1e308, 0, 1e308, 5] }",
             "`window` is larger than",
@@ -442,18 +372,9 @@ fn a_terrain_has_one_origin_and_its_own_keys() {
             "schema = 1\nterrain = { generate = { kind = \"plane\" }, window = [0, 0, 1, 5] }",
             "goes with a `source`",
         ),
-        (
-            "schema = 1\nterrain.generate = { kind = \"plane\", slope_deg = 3 }",
-            "has no `slope_deg`",
-        ),
-        (
-            "schema = 1\nterrain.generate = { kind = \"fbm\", posts = [32768, 16384] }",
-            "at most 2^28",
-        ),
-        (
-            "schema = 1\nterrain.generate = { kind = \"alps\" }",
-            "must be \"plane\" or \"ramp\"",
-        ),
+        ("schema = 1\nterrain.generate = { kind = \"plane\", slope_deg = 3 }", "has no `slope_deg`"),
+        ("schema = 1\nterrain.generate = { kind = \"fbm\", posts = [32768, 16384] }", "at most 2^28"),
+        ("schema = 1\nterrain.generate = { kind = \"alps\" }", "must be \"plane\" or \"ramp\""),
     ] {
         let error = parse(text).expect_err(text).to_string();
         assert!(error.contains(said), "{text}\n{error}");
@@ -464,11 +385,7 @@ fn a_terrain_has_one_origin_and_its_own_keys() {
 fn another_schema_number_says_which_one_this_program_reads() {
     let error = parse("schema = 2\nsomething = 1").unwrap_err();
     assert_eq!(error.what(), "`schema` must be 1; found 2");
-    assert!(
-        error
-            .help_text()
-            .is_some_and(|help| help.contains("reads schema 1"))
-    );
+    assert!(error.help_text().is_some_and(|help| help.contains("reads schema 1")));
     let missing = parse("terrain.source = \"x\"").unwrap_err();
     assert_eq!(missing.what(), "`schema` is missing");
 }
@@ -505,37 +422,18 @@ fn overrides_change_tables_arrays_and_named_layers() {
     let view = scene.camera.view.unwrap();
     assert_eq!(
         (view.eye, view.target),
-        (
-            Spot::Plan(DVec3::new(1.0, 2.0, 3.0)),
-            Spot::Plan(DVec3::new(0.0, 0.0, 5.0))
-        )
+        (Spot::Plan(DVec3::new(1.0, 2.0, 3.0)), Spot::Plan(DVec3::new(0.0, 0.0, 5.0)))
     );
     assert_eq!(scene.technique.inverse_projection.samples, 2);
-    assert_eq!(
-        scene.layers[0].style.fill.map(|fill| fill.color.0),
-        Some([1.0, 0.0, 0.0, 0.5])
-    );
-    assert_eq!(
-        scene.layers[1].style.line.map(|line| line.width),
-        Some(Width::Pixels(2.5))
-    );
+    assert_eq!(scene.layers[0].style.fill.map(|fill| fill.color.0), Some([1.0, 0.0, 0.0, 0.5]));
+    assert_eq!(scene.layers[1].style.line.map(|line| line.width), Some(Width::Pixels(2.5)));
     assert_eq!(scene.name, "night view");
 }
 
 #[test]
 fn an_override_makes_the_tables_that_are_missing() {
-    let scene = with(
-        CONE,
-        &[
-            "technique.inverse-projection.samples=7",
-            "image={width=5,height=6}",
-        ],
-    )
-    .unwrap();
-    assert_eq!(
-        (scene.technique.inverse_projection.samples, scene.image.width),
-        (7, 5)
-    );
+    let scene = with(CONE, &["technique.inverse-projection.samples=7", "image={width=5,height=6}"]).unwrap();
+    assert_eq!((scene.technique.inverse_projection.samples, scene.image.width), (7, 5));
 }
 
 #[test]
@@ -551,10 +449,7 @@ fn an_error_in_an_override_names_the_override() {
             "override `image.width=0`: `image.width` must be a whole number from 1 to 65536; found 0",
         ),
         ("image.width.x=0", "64 has no part `x`"),
-        (
-            "layer.9.name=a",
-            "there is no number 9: there are 5, counted from 0",
-        ),
+        ("layer.9.name=a", "there is no number 9: there are 5, counted from 0"),
         ("layer.roda.name=a", "help: did you mean `roads`?"),
         ("layer.lake.name=a", "help: did you mean `lakes`?"),
         ("image.wall=", "there is no `wall` to remove"),
@@ -563,10 +458,7 @@ fn an_error_in_an_override_names_the_override() {
         ("a..b=3", "not a dotted path"),
     ] {
         let error = with(EVERY_KEY[0], &[change]).expect_err(change).to_string();
-        assert!(
-            error.contains(said) && !error.contains("scene.toml"),
-            "{change}\n{error}"
-        );
+        assert!(error.contains(said) && !error.contains("scene.toml"), "{change}\n{error}");
     }
 }
 
@@ -575,21 +467,14 @@ fn text_that_is_not_toml_is_refused_where_it_stops_being_so() {
     let error = parse("schema = 1\nname = \"a\nb\"").unwrap_err();
     assert!(error.what().starts_with("this is not TOML"), "{error}");
     assert_eq!(error.position().map(|at| at.line), Some(2));
-    assert!(
-        parse("schema = 1\nschema = 1")
-            .unwrap_err()
-            .to_string()
-            .contains("2:1")
-    );
+    assert!(parse("schema = 1\nschema = 1").unwrap_err().to_string().contains("2:1"));
 }
 
 #[test]
 fn deep_nesting_is_refused_not_a_crash() {
-    for deep in [
-        "x = ".to_string() + &"[".repeat(200_000),
-        format!("[a{}]", ".a".repeat(100_000)),
-        "{".repeat(9999),
-    ] {
+    for deep in
+        ["x = ".to_string() + &"[".repeat(200_000), format!("[a{}]", ".a".repeat(100_000)), "{".repeat(9999)]
+    {
         assert!(parse(&deep).is_err());
     }
     let change = format!("a{}=1", ".a".repeat(50_000));
@@ -599,24 +484,14 @@ fn deep_nesting_is_refused_not_a_crash() {
 #[test]
 fn bytes_that_are_no_text_are_refused_with_their_place() {
     let error = decode(b"schema = 1\nname = \"\xff\"".to_vec(), Path::new("s.toml")).unwrap_err();
-    assert!(
-        error
-            .to_string()
-            .starts_with("s.toml:2:9: a scene file is UTF-8 text"),
-        "{error}"
-    );
+    assert!(error.to_string().starts_with("s.toml:2:9: a scene file is UTF-8 text"), "{error}");
 }
 
 #[test]
 fn a_missing_file_and_a_folder_are_named() {
     for path in ["no/such.toml", "."] {
         let error = SceneFile::read(Path::new(path), &[]).unwrap_err();
-        assert!(
-            error
-                .to_string()
-                .starts_with(&format!("{path}: this scene file cannot be read")),
-            "{error}"
-        );
+        assert!(error.to_string().starts_with(&format!("{path}: this scene file cannot be read")), "{error}");
     }
 }
 

@@ -39,10 +39,7 @@ pub(super) struct Entry {
 
 impl Table {
     pub(super) fn get(&self, key: &str) -> Option<&Node> {
-        self.0
-            .iter()
-            .find(|entry| entry.key == key)
-            .map(|entry| &entry.node)
+        self.0.iter().find(|entry| entry.key == key).map(|entry| &entry.node)
     }
 }
 
@@ -88,10 +85,7 @@ pub(super) fn parse(origin: &Origin<'_>) -> Result<Node> {
         let place = Place::File(error.span().unwrap_or(0..0));
         return Err(origin.error(&place, format!("this is not TOML: {}", error.message())));
     }
-    Ok(Node {
-        value: Value::Table(table(root.get_ref(), None)),
-        place: Place::File(0..0),
-    })
+    Ok(Node { value: Value::Table(table(root.get_ref(), None)), place: Place::File(0..0) })
 }
 
 /// Parses one value of an override.
@@ -113,10 +107,7 @@ fn node(from: &Spanned<DeValue<'_>>, place: Option<&Place>) -> Node {
         DeValue::Array(items) => Value::Array(items.iter().map(|item| node(item, place)).collect()),
         DeValue::Table(entries) => Value::Table(table(entries, place)),
     };
-    Node {
-        value,
-        place: place_or(place, from.span()),
-    }
+    Node { value, place: place_or(place, from.span()) }
 }
 
 fn table(from: &DeTable<'_>, place: Option<&Place>) -> Table {

@@ -229,12 +229,9 @@ fn known_key(word: &Word<'_>) -> Result<&'static str> {
 fn key_value<R: Read>(words: &mut Words<BufReader<R>>, name: &str) -> Result<f64> {
     if let Some(word) = words.next()? {
         return word.number().ok_or_else(|| {
-            Error::new(format!(
-                "`{name}` is followed by `{}`, which is no number",
-                word.text()
-            ))
-            .help(number_help(&word.text()))
-            .at(word.position())
+            Error::new(format!("`{name}` is followed by `{}`, which is no number", word.text()))
+                .help(number_help(&word.text()))
+                .at(word.position())
         });
     }
     Err(Error::new(format!("the file ends after `{name}`")).at(words.end()))
@@ -254,10 +251,7 @@ fn height_of(word: &Word<'_>) -> Result<f64> {
 fn prj_beside(path: &Path) -> Option<CrsHint> {
     const LONGEST: u64 = 1 << 16;
     let beside = ["prj", "PRJ"].map(|e| path.with_extension(e));
-    let file = beside
-        .iter()
-        .filter(|p| p.is_file())
-        .find_map(|p| File::open(p).ok())?;
+    let file = beside.iter().filter(|p| p.is_file()).find_map(|p| File::open(p).ok())?;
     let mut bytes = Vec::new();
     file.take(LONGEST).read_to_end(&mut bytes).ok()?;
     let text = String::from_utf8_lossy(&bytes).trim().to_owned();
@@ -268,9 +262,6 @@ fn prj_beside(path: &Path) -> Option<CrsHint> {
         Some(CrsHint::Wkt(text))
     } else {
         let first = text.lines().next().unwrap_or_default().to_owned();
-        Some(CrsHint::Unknown(format!(
-            "{}: {first}",
-            "the .prj file beside it"
-        )))
+        Some(CrsHint::Unknown(format!("{}: {first}", "the .prj file beside it")))
     }
 }

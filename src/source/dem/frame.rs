@@ -37,13 +37,7 @@ impl Frame {
                 "{columns} x {rows} posts are absurdly many: the header is damaged"
             )));
         }
-        let frame = Self {
-            columns,
-            rows,
-            first,
-            column,
-            row,
-        };
+        let frame = Self { columns, rows, first, column, row };
         frame.check_place()?;
         Ok(frame)
     }
@@ -51,10 +45,8 @@ impl Frame {
     /// A frame with axes along the plan's, from its outer edges x0, y0, x1, y1: posts at the cells' centres.
     pub(super) fn within(size: (usize, usize), [x0, y0, x1, y1]: [f64; 4]) -> Result<Self> {
         if !(x0 < x1 && y0 < y1) {
-            return Err(
-                Error::new(format!("the bounds [{x0}, {y0}, {x1}, {y1}] enclose nothing"))
-                    .help("bounds are [west, south, east, north]"),
-            );
+            return Err(Error::new(format!("the bounds [{x0}, {y0}, {x1}, {y1}] enclose nothing"))
+                .help("bounds are [west, south, east, north]"));
         }
         let column = DVec2::new((x1 - x0) / size.0 as f64, 0.0);
         let row = DVec2::new(0.0, -(y1 - y0) / size.1 as f64);
@@ -72,12 +64,10 @@ impl Frame {
         let corners = self.corners();
         if !corners.iter().all(|c| c.is_finite()) {
             return Err(
-                Error::new("the grid's position or cell size is not a finite number").help(GEOREFERENCE),
+                Error::new("the grid's position or cell size is not a finite number").help(GEOREFERENCE)
             );
         }
-        let furthest = corners
-            .iter()
-            .fold(0.0, |far, c| crate::math::max(c.abs().max_element(), far));
+        let furthest = corners.iter().fold(0.0, |far, c| crate::math::max(c.abs().max_element(), far));
         let area = self.column.perp_dot(self.row).abs();
         let longest = crate::math::max(self.column.length(), self.row.length());
         let narrow = area / longest;
@@ -133,12 +123,7 @@ impl Frame {
 
     /// All posts.
     pub(super) fn whole(&self) -> Part {
-        Part {
-            column: 0,
-            row: 0,
-            columns: self.columns,
-            rows: self.rows,
-        }
+        Part { column: 0, row: 0, columns: self.columns, rows: self.rows }
     }
 
     /// The posts that cover a window, with a note where the window leaves the file.
@@ -148,10 +133,8 @@ impl Frame {
         };
         let [x0, y0, x1, y1] = window;
         if !window.iter().all(|v| v.is_finite()) || x0 >= x1 || y0 >= y1 {
-            return Err(
-                Error::new(format!("the window [{x0}, {y0}, {x1}, {y1}] encloses nothing"))
-                    .help("a window is [west, south, east, north] in the file's own coordinates"),
-            );
+            return Err(Error::new(format!("the window [{x0}, {y0}, {x1}, {y1}] encloses nothing"))
+                .help("a window is [west, south, east, north] in the file's own coordinates"));
         }
         let [c0, r0, c1, r1] = self.window_in_posts(window);
         let columns = span(c0, c1, self.columns);
@@ -159,18 +142,10 @@ impl Frame {
         let (Some((column, columns)), Some((row, rows))) = (columns, rows) else {
             return Err(self.missed_by(window));
         };
-        let part = Part {
-            column,
-            row,
-            columns,
-            rows,
-        };
+        let part = Part { column, row, columns, rows };
         let leaves = c0 < 0.0 || r0 < 0.0 || c1 > self.columns as f64 - 1.0 || r1 > self.rows as f64 - 1.0;
         let note = leaves.then(|| {
-            format!(
-                "the window reaches beyond the terrain, whose posts span {}",
-                show_box(self.bounds())
-            )
+            format!("the window reaches beyond the terrain, whose posts span {}", show_box(self.bounds()))
         });
         Ok((part, note))
     }
@@ -180,10 +155,7 @@ impl Frame {
         let det = self.column.perp_dot(self.row);
         bounding([(x0, y0), (x1, y0), (x0, y1), (x1, y1)].map(|(x, y)| {
             let d = DVec2::new(x, y) - self.first;
-            DVec2::new(
-                snap(d.perp_dot(self.row) / det),
-                snap(self.column.perp_dot(d) / det),
-            )
+            DVec2::new(snap(d.perp_dot(self.row) / det), snap(self.column.perp_dot(d) / det))
         }))
     }
 
@@ -201,12 +173,7 @@ impl Frame {
         let east = if columns { -self.column } else { self.column };
         let rows = east.perp_dot(self.row) < 0.0;
         let north = if rows { -self.row } else { self.row };
-        Turn {
-            columns,
-            rows,
-            east,
-            north,
-        }
+        Turn { columns, rows, east, north }
     }
 }
 
@@ -223,11 +190,7 @@ const SMALLEST_STEP: f64 = 1.0 / (1_u64 << 44) as f64;
 /// Moves a position to the post it differs from by rounding only.
 fn snap(v: f64) -> f64 {
     let nearest = v.round();
-    if (v - nearest).abs() <= 1e-9 * crate::math::max(nearest.abs(), 1.0) {
-        nearest
-    } else {
-        v
-    }
+    if (v - nearest).abs() <= 1e-9 * crate::math::max(nearest.abs(), 1.0) { nearest } else { v }
 }
 
 /// The whole posts (first, count) around `low..=high` among `count`; at least two.

@@ -183,24 +183,14 @@ impl GeoKeys {
 
     fn conic_at_one_parallel(&self) -> String {
         let lat = self.first_of(&[key::ORIGIN_LAT, key::PARALLEL_1]);
-        format!(
-            "+proj=lcc +lat_1={lat} {} {}",
-            self.natural_origin(),
-            self.scale()
-        )
+        format!("+proj=lcc +lat_1={lat} {} {}", self.natural_origin(), self.scale())
     }
 
     fn two_parallels(&self) -> String {
         let lat = self.first_of(&[key::FALSE_ORIGIN_LAT, key::ORIGIN_LAT, key::CENTER_LAT]);
         let lon = self.first_of(&[key::FALSE_ORIGIN_LON, key::ORIGIN_LON, key::CENTER_LON]);
-        let (one, two) = (
-            self.first_of(&[key::PARALLEL_1]),
-            self.first_of(&[key::PARALLEL_2]),
-        );
-        format!(
-            "+lat_1={one} +lat_2={two} +lat_0={lat} +lon_0={lon} {}",
-            self.false_offsets()
-        )
+        let (one, two) = (self.first_of(&[key::PARALLEL_1]), self.first_of(&[key::PARALLEL_2]));
+        format!("+lat_1={one} +lat_2={two} +lat_0={lat} +lon_0={lon} {}", self.false_offsets())
     }
 
     fn false_offsets(&self) -> String {
@@ -239,9 +229,7 @@ impl GeoKeys {
         if let Some(known) = known.into_iter().flatten().next() {
             return Ok(known.to_owned());
         }
-        let semi_major = self
-            .number(key::SEMI_MAJOR)
-            .ok_or("its ellipsoid is not described")?;
+        let semi_major = self.number(key::SEMI_MAJOR).ok_or("its ellipsoid is not described")?;
         if let Some(rf) = self.number(key::INVERSE_FLATTENING) {
             Ok(format!("+a={semi_major} +rf={rf}"))
         } else {
@@ -340,11 +328,7 @@ mod tests {
 
     #[test]
     fn register_codes_are_taken_as_they_are() {
-        let utm = keys(
-            &[[1024, 0, 1, 1], [2048, 0, 1, 4326], [3072, 0, 1, 32733]],
-            &[],
-            "",
-        );
+        let utm = keys(&[[1024, 0, 1, 1], [2048, 0, 1, 4326], [3072, 0, 1, 32733]], &[], "");
         assert_eq!(utm.crs_hint(), Some(CrsHint::Epsg(32733)));
         let wgs = keys(&[[1024, 0, 1, 2], [1025, 0, 1, 2], [2048, 0, 1, 4326]], &[], "");
         assert_eq!(wgs.crs_hint(), Some(CrsHint::Epsg(4326)));
@@ -398,11 +382,7 @@ mod tests {
 
     #[test]
     fn keys_that_point_nowhere_are_left_out() {
-        let keys = GeoKeys::new(
-            &[1, 1, 0, 900, 3082, 34736, 1, 7, 1026, 34737, 50, 3, 1024],
-            &[1.0],
-            "é",
-        );
+        let keys = GeoKeys::new(&[1, 1, 0, 900, 3082, 34736, 1, 7, 1026, 34737, 50, 3, 1024], &[1.0], "é");
         assert_eq!(keys, GeoKeys::default());
         assert_eq!(keys.crs_hint(), None);
         assert_eq!(GeoKeys::new(&[], &[], ""), GeoKeys::default());

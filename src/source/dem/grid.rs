@@ -62,17 +62,9 @@ impl Sheet {
         let row = part.row + if turn.rows { part.rows - 1 } else { 0 };
         let count = part.count();
         let mut heights = Vec::new();
-        heights
-            .try_reserve_exact(count)
-            .map_err(|_| super::too_many_posts(&part))?;
+        heights.try_reserve_exact(count).map_err(|_| super::too_many_posts(&part))?;
         heights.resize(count, f64::NAN);
-        Ok(Self {
-            part,
-            turn,
-            first: frame.at(column as f64, row as f64),
-            heights,
-            infinite: 0,
-        })
+        Ok(Self { part, turn, first: frame.at(column as f64, row as f64), heights, infinite: 0 })
     }
 
     /// The posts, with notes on what a user should know of them.
@@ -108,11 +100,7 @@ impl RowSink for Sheet {
                 height = f64::NAN;
             }
             let c = c - part.column;
-            let c = if self.turn.columns {
-                part.columns - 1 - c
-            } else {
-                c
-            };
+            let c = if self.turn.columns { part.columns - 1 - c } else { c };
             line[c] = height;
         }
     }

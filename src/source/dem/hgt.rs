@@ -76,11 +76,7 @@ impl GridFile for Hgt {
 }
 
 fn height_of(sample: i16) -> f64 {
-    if sample == VOID {
-        f64::NAN
-    } else {
-        f64::from(sample)
-    }
+    if sample == VOID { f64::NAN } else { f64::from(sample) }
 }
 
 fn posts_a_side(length: u64) -> Result<usize> {
@@ -131,9 +127,7 @@ mod tests {
     fn a_tile_is_named_after_its_south_west_corner() {
         assert_eq!(south_west("N43E006"), Some((6.0, 43.0)));
         assert_eq!(south_west("s34w070.SRTMGL1"), Some((-70.0, -34.0)));
-        for wrong in [
-            "", "43N006E", "N43", "N43E06", "N95E006", "N43E180", "N+3E006", "N4é006x",
-        ] {
+        for wrong in ["", "43N006E", "N43", "N43E06", "N95E006", "N43E180", "N+3E006", "N4é006x"] {
             assert_eq!(south_west(wrong), None, "{wrong}");
         }
     }

@@ -113,11 +113,7 @@ fn read_grid(file: &mut dyn GridFile, window: Option<[f64; 4]>) -> Result<Dem> {
     let mut sheet = Sheet::new(&frame, part)?;
     file.scan(&part, &mut sheet)?;
     let posts = sheet.finish(&mut notes)?;
-    Ok(Dem {
-        surface: Surface::Grid(posts),
-        crs_hint,
-        notes,
-    })
+    Ok(Dem { surface: Surface::Grid(posts), crs_hint, notes })
 }
 
 /// More posts than one call may read.

@@ -56,11 +56,7 @@ impl Nodata {
 /// Rounds to single precision; a finite value beyond its range becomes its largest, not infinity.
 fn to_single(v: f64) -> f64 {
     let single = f64::from(v as f32);
-    if single.is_infinite() && v.is_finite() {
-        f64::from(f32::MAX).copysign(v)
-    } else {
-        single
-    }
+    if single.is_infinite() && v.is_finite() { f64::from(f32::MAX).copysign(v) } else { single }
 }
 
 /// Whether two huge numbers differ by careless printing only, as 3.4028e38 and the largest single-precision number.

@@ -80,10 +80,8 @@ fn extension(path: &Path) -> String {
 }
 
 fn not_what_it_says(extension: &str) -> Error {
-    Error::new(format!(
-        "the file is named .{extension} but does not begin like one"
-    ))
-    .help("it may be a web page or half a download: look at its first bytes, fetch it again")
+    Error::new(format!("the file is named .{extension} but does not begin like one"))
+        .help("it may be a web page or half a download: look at its first bytes, fetch it again")
 }
 
 fn unknown(extension: &str) -> Error {

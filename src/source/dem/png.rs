@@ -54,13 +54,7 @@ impl HeightPng {
             crs_hint: None,
             notes: vec![note.into()],
         };
-        Ok(Self {
-            decoder: Some(decoder),
-            header,
-            encoding,
-            channels,
-            file_length,
-        })
+        Ok(Self { decoder: Some(decoder), header, encoding, channels, file_length })
     }
 
     fn pixel_bytes(&self) -> usize {
@@ -92,10 +86,7 @@ impl GridFile for HeightPng {
     fn scan(&mut self, part: &Part, sink: &mut dyn RowSink) -> Result<()> {
         self.check_promise(part)?;
         let mut pixels = vec![0; self.pixel_bytes()];
-        let decoder = self
-            .decoder
-            .take()
-            .ok_or_else(|| Error::internal("a PNG was scanned twice"))?;
+        let decoder = self.decoder.take().ok_or_else(|| Error::internal("a PNG was scanned twice"))?;
         decoder.read_image(&mut pixels).map_err(damaged)?;
         let columns = self.header.frame.columns;
         let mut heights = vec![0.0; columns];
@@ -129,10 +120,7 @@ fn place(path: &Path, size: (usize, usize), bounds: Option<[f64; 4]>) -> Result<
         return Ok((frame, "placed by the world file beside it; it has no CRS"));
     }
     match bounds {
-        Some(bounds) => Ok((
-            Frame::within(size, bounds)?,
-            "placed by the given bounds; it has no CRS",
-        )),
+        Some(bounds) => Ok((Frame::within(size, bounds)?, "placed by the given bounds; it has no CRS")),
         None => Ok((
             Frame::local(size)?,
             "the image says neither its place nor its CRS: a local grid, cell 1, south-west post at (0, 0)",
@@ -143,9 +131,7 @@ fn place(path: &Path, size: (usize, usize), bounds: Option<[f64; 4]>) -> Result<
 /// The channels of an 8-bit RGB or RGBA image, as its header states them (a decoder would expand palettes).
 fn channels(file: &mut File) -> Result<usize> {
     let mut header = [0; 26];
-    file.read_exact(&mut header)
-        .and_then(|()| file.rewind())
-        .map_err(unreadable)?;
+    file.read_exact(&mut header).and_then(|()| file.rewind()).map_err(unreadable)?;
     let kind = match (header[24], header[25]) {
         (8, 2) => return Ok(3),
         (8, 6) => return Ok(4),
@@ -153,10 +139,8 @@ fn channels(file: &mut File) -> Result<usize> {
         (_, 3) => "indices into a palette",
         _ => "colours of more than 8 bits",
     };
-    Err(Error::new(format!(
-        "its pixels are {kind}, but encoded heights are 8-bit RGB or RGBA"
-    ))
-    .help("convert heights stored as grey values with: gdal_translate FILE OUT.tif"))
+    Err(Error::new(format!("its pixels are {kind}, but encoded heights are 8-bit RGB or RGBA"))
+        .help("convert heights stored as grey values with: gdal_translate FILE OUT.tif"))
 }
 
 fn limits() -> Limits {

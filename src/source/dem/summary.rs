@@ -66,15 +66,9 @@ pub fn describe_guessing(path: &Path, options: &DemOptions) -> Result<(DemSummar
     }
     let mut plausible = Vec::new();
     for encoding in [PngEncoding::Terrarium, PngEncoding::Mapbox] {
-        let encoded = DemOptions {
-            encoding: Some(encoding),
-            ..*options
-        };
+        let encoded = DemOptions { encoding: Some(encoding), ..*options };
         let summary = describe(path, &encoded)?;
-        if summary
-            .heights
-            .is_some_and(|[low, high]| low >= -11_500.0 && high <= 9_000.0)
-        {
+        if summary.heights.is_some_and(|[low, high]| low >= -11_500.0 && high <= 9_000.0) {
             plausible.push((summary, Some(encoding)));
         }
     }
@@ -147,12 +141,7 @@ struct Tally {
 
 impl Tally {
     fn new(columns: usize) -> Self {
-        Self {
-            columns,
-            nodata: 0,
-            low: f64::INFINITY,
-            high: f64::NEG_INFINITY,
-        }
+        Self { columns, nodata: 0, low: f64::INFINITY, high: f64::NEG_INFINITY }
     }
 
     fn heights(&self) -> Option<[f64; 2]> {

@@ -26,12 +26,7 @@ pub(super) struct Word<'a> {
 impl<R: BufRead> Words<R> {
     /// The words from here on, counting lines and columns from 1.
     pub(super) fn new(input: R) -> Self {
-        Self {
-            input,
-            line: 1,
-            column: 1,
-            word: Vec::new(),
-        }
+        Self { input, line: 1, column: 1, word: Vec::new() }
     }
 
     /// The next word, `None` at the end.
@@ -46,11 +41,7 @@ impl<R: BufRead> Words<R> {
 
     /// Where the text ends, once [`Self::next`] has returned `None`.
     pub(super) fn end(&self) -> Position {
-        Position {
-            line: self.line,
-            column: self.column,
-            length: 1,
-        }
+        Position { line: self.line, column: self.column, length: 1 }
     }
 
     fn skip_space(&mut self) -> Result<()> {
@@ -94,11 +85,7 @@ impl<R: BufRead> Words<R> {
 impl Word<'_> {
     /// Where the word stands.
     pub(super) fn position(&self) -> Position {
-        Position {
-            line: self.line,
-            column: self.column,
-            length: characters(self.bytes).max(1),
-        }
+        Position { line: self.line, column: self.column, length: characters(self.bytes).max(1) }
     }
 
     /// The word as text, for keys and messages.
@@ -127,15 +114,9 @@ pub(super) fn number_help(word: &str) -> &'static str {
 }
 
 fn not_text((line, column): (usize, usize)) -> Error {
-    Error::new(format!(
-        "a word of more than {LONGEST} bytes: this is no text of numbers"
-    ))
-    .help("check that the file is what its extension says")
-    .at(Position {
-        line,
-        column,
-        length: 1,
-    })
+    Error::new(format!("a word of more than {LONGEST} bytes: this is no text of numbers"))
+        .help("check that the file is what its extension says")
+        .at(Position { line, column, length: 1 })
 }
 
 fn is_space(b: u8) -> bool {
@@ -159,10 +140,7 @@ mod tests {
             Some((word.text(), word.position().line, word.position().column))
         })
         .collect();
-        assert_eq!(
-            places,
-            [("ab".into(), 1, 1), ("12".into(), 1, 5), ("3.5".into(), 3, 2)]
-        );
+        assert_eq!(places, [("ab".into(), 1, 1), ("12".into(), 1, 5), ("3.5".into(), 3, 2)]);
     }
 
     #[test]

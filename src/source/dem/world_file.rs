@@ -24,11 +24,7 @@ pub(in crate::source) fn frame_beside(image: &Path, size: (usize, usize)) -> Res
 fn path_beside(image: &Path) -> Option<PathBuf> {
     let extension = image.extension()?.to_str()?.to_ascii_lowercase();
     let (first, last) = (extension.chars().next()?, extension.chars().last()?);
-    let names = [
-        format!("{first}{last}w"),
-        format!("{extension}w"),
-        "wld".to_owned(),
-    ];
+    let names = [format!("{first}{last}w"), format!("{extension}w"), "wld".to_owned()];
     names
         .iter()
         .flat_map(|n| [n.clone(), n.to_ascii_uppercase()])

@@ -32,9 +32,7 @@ impl<R: Read> Xyz<R> {
     /// Takes a file that stands at its beginning.
     #[expect(clippy::unnecessary_wraps, reason = "opens like the other formats")]
     pub(super) fn open(input: R) -> Result<Self> {
-        Ok(Self {
-            input: BufReader::with_capacity(1 << 16, input),
-        })
+        Ok(Self { input: BufReader::with_capacity(1 << 16, input) })
     }
 
     /// Reads the points inside the window (its edges included).
@@ -62,11 +60,7 @@ impl<R: Read> Xyz<R> {
         if repeated > 0 {
             notes.push(format!("{repeated} points that repeat others are left out"));
         }
-        Ok(Dem {
-            surface: Surface::Points(points),
-            crs_hint: None,
-            notes,
-        })
+        Ok(Dem { surface: Surface::Points(points), crs_hint: None, notes })
     }
 
     /// Hands on each point of the file.
@@ -144,9 +138,7 @@ fn point(fields: &Fields<'_>, line: usize) -> Result<World> {
                 .at(place));
         };
         *slot = number(field).filter(|n| n.is_finite()).ok_or_else(|| {
-            Error::new(format!("`{text}` is not a finite number"))
-                .help(number_help(&text))
-                .at(place)
+            Error::new(format!("`{text}` is not a finite number")).help(number_help(&text)).at(place)
         })?;
         count += 1;
     }
@@ -154,11 +146,9 @@ fn point(fields: &Fields<'_>, line: usize) -> Result<World> {
     if count == 3 {
         return Ok(World::new(x, y, z));
     }
-    Err(
-        Error::new(format!("a point has x, y and z, this one {count} numbers"))
-            .help("write three numbers a line")
-            .at(fields.position(line, 0, 0)),
-    )
+    Err(Error::new(format!("a point has x, y and z, this one {count} numbers"))
+        .help("write three numbers a line")
+        .at(fields.position(line, 0, 0)))
 }
 
 /// The points without those that repeat others, in file order, and how many do.
@@ -180,12 +170,8 @@ fn distinct(seen: &[Sighting]) -> Result<(Vec<World>, usize)> {
             repeats[pair[1] as usize] = true;
         }
     }
-    let points: Vec<_> = seen
-        .iter()
-        .zip(&repeats)
-        .filter(|(_, repeat)| !**repeat)
-        .map(|(s, _)| s.point)
-        .collect();
+    let points: Vec<_> =
+        seen.iter().zip(&repeats).filter(|(_, repeat)| !**repeat).map(|(s, _)| s.point).collect();
     let repeated = seen.len() - points.len();
     Ok((points, repeated))
 }
@@ -200,11 +186,7 @@ fn check_height(a: &Sighting, b: &Sighting) -> Result<()> {
         a.point.x, a.point.y, a.point.z, a.line, b.point.z, b.line
     ))
     .help("keep one height a place")
-    .at(Position {
-        line: b.line,
-        column: 1,
-        length: 1,
-    }))
+    .at(Position { line: b.line, column: 1, length: 1 }))
 }
 
 /// A box grown to contain a point.
@@ -226,20 +208,12 @@ fn too_few(count: usize, all: [f64; 4]) -> Error {
 }
 
 fn too_many() -> Error {
-    Error::new(format!(
-        "more than the {MAX_POINTS} points that can be read at once"
-    ))
-    .help("read a part of it: window = [x0, y0, x1, y1]")
+    Error::new(format!("more than the {MAX_POINTS} points that can be read at once"))
+        .help("read a part of it: window = [x0, y0, x1, y1]")
 }
 
 fn endless(line: usize) -> Error {
-    Error::new(format!(
-        "a line of more than {LONGEST} bytes: this is no file of points"
-    ))
-    .help("check that the file is what its extension says")
-    .at(Position {
-        line,
-        column: 1,
-        length: 1,
-    })
+    Error::new(format!("a line of more than {LONGEST} bytes: this is no file of points"))
+        .help("check that the file is what its extension says")
+        .at(Position { line, column: 1, length: 1 })
 }

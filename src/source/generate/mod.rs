@@ -28,19 +28,14 @@ use crate::space::{Plan, PlanBox};
 /// assert!(roads.len() > 5);
 /// ```
 pub fn features(generator: &VectorGenerator, terrain: PlanBox) -> Vec<Feature> {
-    let window = generator.window.map_or(terrain, |[x0, y0, x1, y1]| PlanBox {
-        min: Plan::new(x0, y0),
-        max: Plan::new(x1, y1),
-    });
+    let window = generator
+        .window
+        .map_or(terrain, |[x0, y0, x1, y1]| PlanBox { min: Plan::new(x0, y0), max: Plan::new(x1, y1) });
     let shapes: Vec<Shape> = match generator.kind {
         VectorKind::Roads { segment_m } => roads::roads(generator, segment_m, window),
         VectorKind::Mosaic { class, holes } => mosaic::mosaic(generator, class, holes, window),
     };
-    shapes
-        .into_iter()
-        .enumerate()
-        .map(|(index, shape)| Feature { index, shape })
-        .collect()
+    shapes.into_iter().enumerate().map(|(index, shape)| Feature { index, shape }).collect()
 }
 
 #[cfg(test)]

@@ -54,23 +54,12 @@ impl Grid {
         let rows = count.div_ceil(columns);
         let cell = DVec2::new(size.x / columns as f64, size.y / rows as f64);
         let last = count - columns * (rows - 1);
-        Self {
-            seed: scramble(generator.seed),
-            columns,
-            rows,
-            last,
-            window,
-            cell,
-        }
+        Self { seed: scramble(generator.seed), columns, rows, last, window, cell }
     }
 
     /// The polygons of a row, as ranges of its columns.
     fn groups(&self, row: usize) -> Vec<(usize, usize)> {
-        let polygons = if row + 1 == self.rows {
-            self.last
-        } else {
-            self.columns
-        };
+        let polygons = if row + 1 == self.rows { self.last } else { self.columns };
         let border = |n: usize| n * self.columns / polygons;
         (0..polygons).map(|n| (border(n), border(n + 1))).collect()
     }
@@ -85,65 +74,35 @@ impl Grid {
         (from..to).for_each(|column| ring.extend(self.edge_east(column, row)));
         ring.extend(self.edge_north(to, row));
         (from..to).rev().for_each(|column| {
-            ring.extend(backwards(
-                self.edge_east(column, row + 1),
-                self.corner(column + 1, row + 1),
-            ))
+            ring.extend(backwards(self.edge_east(column, row + 1), self.corner(column + 1, row + 1)))
         });
         ring.extend(backwards(self.edge_north(from, row), self.corner(from, row + 1)));
         let lake = unit(self.hash(1, from, row)) < holes;
-        Shape::Polygon(if lake {
-            vec![ring, self.lake(from, row)]
-        } else {
-            vec![ring]
-        })
+        Shape::Polygon(if lake { vec![ring, self.lake(from, row)] } else { vec![ring] })
     }
 
     /// The corner south-west of a cell; those on the window's border stay on it.
     fn corner(&self, column: usize, row: usize) -> Plan {
         let moved = |kind, place: usize, places: usize| {
             let inner = 0 < place && place < places;
-            place as f64
-                + if inner {
-                    0.28 * signed(self.hash(kind, column, row))
-                } else {
-                    0.0
-                }
+            place as f64 + if inner { 0.28 * signed(self.hash(kind, column, row)) } else { 0.0 }
         };
         let (i, j) = (moved(2, column, self.columns), moved(3, row, self.rows));
-        let x = if column == self.columns {
-            self.window.max.x
-        } else {
-            self.window.min.x + i * self.cell.x
-        };
-        let y = if row == self.rows {
-            self.window.max.y
-        } else {
-            self.window.min.y + j * self.cell.y
-        };
+        let x = if column == self.columns { self.window.max.x } else { self.window.min.x + i * self.cell.x };
+        let y = if row == self.rows { self.window.max.y } else { self.window.min.y + j * self.cell.y };
         Plan::new(x, y)
     }
 
     /// From a corner to its eastern neighbour, without the last vertex.
     fn edge_east(&self, column: usize, row: usize) -> Vec<Plan> {
         let straight = row == 0 || row == self.rows;
-        self.edge(
-            self.corner(column, row),
-            self.corner(column + 1, row),
-            self.hash(4, column, row),
-            straight,
-        )
+        self.edge(self.corner(column, row), self.corner(column + 1, row), self.hash(4, column, row), straight)
     }
 
     /// From a corner to its northern neighbour, without the last vertex.
     fn edge_north(&self, column: usize, row: usize) -> Vec<Plan> {
         let straight = column == 0 || column == self.columns;
-        self.edge(
-            self.corner(column, row),
-            self.corner(column, row + 1),
-            self.hash(5, column, row),
-            straight,
-        )
+        self.edge(self.corner(column, row), self.corner(column, row + 1), self.hash(5, column, row), straight)
     }
 
     /// Displaces middles of middles to the side, each time half as far.
@@ -196,23 +155,11 @@ mod tests {
 
     fn rings(count: usize, class: Option<(u32, u32)>, holes: f64) -> Vec<Vec<Vec<Plan>>> {
         let kind = VectorKind::Mosaic { class, holes };
-        let generator = VectorGenerator {
-            kind,
-            seed: 5,
-            count,
-            window: None,
-        };
+        let generator = VectorGenerator { kind, seed: 5, count, window: None };
         let rings = |shape| {
-            if let Shape::Polygon(rings) = shape {
-                rings
-            } else {
-                panic!("not a polygon")
-            }
+            if let Shape::Polygon(rings) = shape { rings } else { panic!("not a polygon") }
         };
-        features(&generator, window())
-            .into_iter()
-            .map(|feature| rings(feature.shape))
-            .collect()
+        features(&generator, window()).into_iter().map(|feature| rings(feature.shape)).collect()
     }
 
     /// Twice the signed area, and the edges, of all outer rings.
@@ -239,10 +186,7 @@ mod tests {
         for (a, b) in polygons.iter().flat_map(|rings| edges(&rings[0])) {
             *open.entry(key(a, b)).or_default() += 1;
         }
-        assert!(
-            open.values().all(|times| *times == 1),
-            "an edge is used twice in one direction"
-        );
+        assert!(open.values().all(|times| *times == 1), "an edge is used twice in one direction");
         let on_border = |a: Plan, b: Plan| {
             let w = window();
             [w.min.x, w.max.x].iter().any(|x| a.x == *x && b.x == *x)
@@ -256,10 +200,7 @@ mod tests {
     #[test]
     fn a_mosaic_fills_its_window() {
         let size = window().max - window().min;
-        let sum: f64 = rings(103, None, 0.3)
-            .iter()
-            .map(|rings| 0.5 * area(&rings[0]))
-            .sum();
+        let sum: f64 = rings(103, None, 0.3).iter().map(|rings| 0.5 * area(&rings[0])).sum();
         assert!((sum / (size.x * size.y) - 1.0).abs() < 1e-12);
     }
 

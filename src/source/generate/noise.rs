@@ -24,11 +24,7 @@ pub(super) fn noise(seed: u64, p: DVec2) -> f64 {
 fn gradient(hash: u64) -> DVec2 {
     let (x, y) = (signed(hash), signed(scramble(hash)));
     let length = (x * x + y * y).sqrt();
-    if length > 0.0 {
-        DVec2::new(x / length, y / length)
-    } else {
-        DVec2::X
-    }
+    if length > 0.0 { DVec2::new(x / length, y / length) } else { DVec2::X }
 }
 
 /// 6 t^5 - 15 t^4 + 10 t^3: no jump of the second derivative at the cells' borders (Perlin 2002).

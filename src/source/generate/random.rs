@@ -31,10 +31,7 @@ pub(super) struct Sequence {
 
 impl Sequence {
     pub(super) const fn new(seed: u64) -> Self {
-        Self {
-            seed: scramble(seed),
-            drawn: 0,
-        }
+        Self { seed: scramble(seed), drawn: 0 }
     }
 
     pub(super) const fn next(&mut self) -> u64 {

@@ -14,10 +14,7 @@ const LONGEST: usize = 240;
 /// had enough or leaves the window.
 pub(super) fn roads(generator: &VectorGenerator, segment_m: Option<f64>, window: PlanBox) -> Vec<Shape> {
     let size = window.max - window.min;
-    let walker = Walker {
-        window,
-        step: segment_m.unwrap_or(max(size.x, size.y) / 200.0),
-    };
+    let walker = Walker { window, step: segment_m.unwrap_or(max(size.x, size.y) / 200.0) };
     let mut random = Sequence::new(generator.seed);
     let mut roads: Vec<Vec<Plan>> = Vec::new();
     let mut left = generator.count;
@@ -39,19 +36,14 @@ struct Walker {
 impl Walker {
     /// Where a road starts and in which direction.
     fn start(&self, roads: &[Vec<Plan>], random: &mut Sequence) -> (Plan, DVec2) {
-        let earlier = roads
-            .get(random.below(roads.len()))
-            .filter(|road| road.len() > 8 && random.unit() < 0.7);
+        let earlier =
+            roads.get(random.below(roads.len())).filter(|road| road.len() > 8 && random.unit() < 0.7);
         let Some(road) = earlier else {
             return (self.anywhere(random), direction(random));
         };
         let at = 2 + random.below(road.len() - 4);
         let along = road[at + 1] - road[at - 1];
-        let across = if random.unit() < 0.5 {
-            along.perp()
-        } else {
-            -along.perp()
-        };
+        let across = if random.unit() < 0.5 { along.perp() } else { -along.perp() };
         (road[at], normalized(across).unwrap_or(DVec2::X))
     }
 
@@ -100,23 +92,12 @@ mod tests {
     use crate::scene::file::VectorKind;
 
     fn lines(count: usize) -> Vec<Vec<Plan>> {
-        let generator = VectorGenerator {
-            kind: VectorKind::Roads { segment_m: None },
-            seed: 3,
-            count,
-            window: None,
-        };
+        let generator =
+            VectorGenerator { kind: VectorKind::Roads { segment_m: None }, seed: 3, count, window: None };
         let line = |shape| {
-            if let Shape::Line(mut lines) = shape {
-                lines.remove(0)
-            } else {
-                panic!("not a line")
-            }
+            if let Shape::Line(mut lines) = shape { lines.remove(0) } else { panic!("not a line") }
         };
-        features(&generator, window())
-            .into_iter()
-            .map(|feature| line(feature.shape))
-            .collect()
+        features(&generator, window()).into_iter().map(|feature| line(feature.shape)).collect()
     }
 
     #[test]
@@ -138,12 +119,7 @@ mod tests {
     #[test]
     fn steps_longer_than_the_window_come_to_an_end() {
         let kind = VectorKind::Roads { segment_m: Some(1e9) };
-        let generator = VectorGenerator {
-            kind,
-            seed: 3,
-            count: 50,
-            window: Some([0.0, 0.0, 1.0, 1.0]),
-        };
+        let generator = VectorGenerator { kind, seed: 3, count: 50, window: Some([0.0, 0.0, 1.0, 1.0]) };
         assert_eq!(features(&generator, window()).len(), 50);
     }
 

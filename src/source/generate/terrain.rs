@@ -19,15 +19,10 @@ pub fn terrain(generator: &TerrainGenerator) -> Result<Posts> {
     let first = Plan::new(-half(columns), -half(rows));
     let row = |j: usize| -> Vec<f64> {
         let place = |i: usize| first + DVec2::new(i as f64, j as f64) * generator.cell_m;
-        (0..columns)
-            .map(|i| height(generator, place(i).to_vec(), first.y))
-            .collect()
+        (0..columns).map(|i| height(generator, place(i).to_vec(), first.y)).collect()
     };
     let heights = crate::parallel::map_indices(rows, row).concat();
-    let steps = (
-        DVec2::new(generator.cell_m, 0.0),
-        DVec2::new(0.0, generator.cell_m),
-    );
+    let steps = (DVec2::new(generator.cell_m, 0.0), DVec2::new(0.0, generator.cell_m));
     Posts::new(generator.posts, first, steps, heights)
 }
 
@@ -43,11 +38,7 @@ fn height(generator: &TerrainGenerator, p: DVec2, south: f64) -> f64 {
         }
         TerrainKind::Cone { radius_m } => high * max(1.0 - (p.x * p.x + p.y * p.y).sqrt() / radius_m, 0.0),
         TerrainKind::Tent { radius_m } => high * max(1.0 - p.y.abs() / radius_m, 0.0),
-        TerrainKind::Fbm {
-            seed,
-            wavelength_m,
-            octaves,
-        } => high * mountains(seed, octaves, p / wavelength_m),
+        TerrainKind::Fbm { seed, wavelength_m, octaves } => high * mountains(seed, octaves, p / wavelength_m),
     }
 }
 
@@ -56,13 +47,7 @@ mod tests {
     use super::*;
 
     fn posts(kind: TerrainKind) -> Posts {
-        terrain(&TerrainGenerator {
-            kind,
-            posts: (65, 33),
-            cell_m: 30.0,
-            height_m: 1000.0,
-        })
-        .unwrap()
+        terrain(&TerrainGenerator { kind, posts: (65, 33), cell_m: 30.0, height_m: 1000.0 }).unwrap()
     }
 
     /// Height at column i, row j.
@@ -87,69 +72,34 @@ mod tests {
 
     #[test]
     fn cone_and_tent_have_their_top_in_the_middle() {
-        let (cone, tent) = (
-            posts(TerrainKind::Cone { radius_m: 300.0 }),
-            posts(TerrainKind::Tent { radius_m: 300.0 }),
-        );
-        assert_eq!(
-            (z(&cone, 32, 16), z(&cone, 32, 26), z(&cone, 0, 16)),
-            (1000.0, 0.0, 0.0)
-        );
-        assert_eq!(
-            (z(&tent, 32, 16), z(&tent, 32, 26), z(&tent, 0, 16)),
-            (1000.0, 0.0, 1000.0)
-        );
+        let (cone, tent) =
+            (posts(TerrainKind::Cone { radius_m: 300.0 }), posts(TerrainKind::Tent { radius_m: 300.0 }));
+        assert_eq!((z(&cone, 32, 16), z(&cone, 32, 26), z(&cone, 0, 16)), (1000.0, 0.0, 0.0));
+        assert_eq!((z(&tent, 32, 16), z(&tent, 32, 26), z(&tent, 0, 16)), (1000.0, 0.0, 1000.0));
         assert_eq!(z(&cone, 37, 16), 500.0);
     }
 
     #[test]
     fn mountains_fill_their_heights_and_do_not_leave_them() {
-        let kind = TerrainKind::Fbm {
-            seed: 7,
-            wavelength_m: 1500.0,
-            octaves: 9,
-        };
-        let large = TerrainGenerator {
-            kind,
-            posts: (257, 257),
-            cell_m: 30.0,
-            height_m: 1000.0,
-        };
+        let kind = TerrainKind::Fbm { seed: 7, wavelength_m: 1500.0, octaves: 9 };
+        let large = TerrainGenerator { kind, posts: (257, 257), cell_m: 30.0, height_m: 1000.0 };
         let posts = terrain(&large).unwrap();
-        let low = posts
-            .heights()
-            .iter()
-            .copied()
-            .fold(f64::INFINITY, crate::math::min);
-        let high = posts
-            .heights()
-            .iter()
-            .copied()
-            .fold(f64::NEG_INFINITY, crate::math::max);
-        assert!(
-            (0.0..100.0).contains(&low) && (800.0..=1000.0).contains(&high),
-            "{low}..{high}"
-        );
+        let low = posts.heights().iter().copied().fold(f64::INFINITY, crate::math::min);
+        let high = posts.heights().iter().copied().fold(f64::NEG_INFINITY, crate::math::max);
+        assert!((0.0..100.0).contains(&low) && (800.0..=1000.0).contains(&high), "{low}..{high}");
     }
 
     #[test]
     fn generated_heights_keep_their_bits() {
         let hash = |kind| {
-            let bytes: Vec<u8> = posts(kind)
-                .heights()
-                .iter()
-                .flat_map(|z| z.to_bits().to_le_bytes())
-                .collect();
+            let bytes: Vec<u8> =
+                posts(kind).heights().iter().flat_map(|z| z.to_bits().to_le_bytes()).collect();
             blake3::hash(&bytes).to_hex()[..16].to_string()
         };
         assert_eq!(
             [
                 hash(TerrainKind::Sine { wavelength_m: 700.0 }),
-                hash(TerrainKind::Fbm {
-                    seed: 7,
-                    wavelength_m: 900.0,
-                    octaves: 9
-                }),
+                hash(TerrainKind::Fbm { seed: 7, wavelength_m: 900.0, octaves: 9 }),
             ],
             ["7b894d2c1016a549", "15e0aae428592da9"]
         );
@@ -158,14 +108,6 @@ mod tests {
     #[test]
     fn numbers_that_overflow_are_refused() {
         let kind = TerrainKind::Ramp { slope_deg: 80.0 };
-        assert!(
-            terrain(&TerrainGenerator {
-                kind,
-                posts: (9, 9),
-                cell_m: 1e308,
-                height_m: 0.0
-            })
-            .is_err()
-        );
+        assert!(terrain(&TerrainGenerator { kind, posts: (9, 9), cell_m: 1e308, height_m: 0.0 }).is_err());
     }
 }

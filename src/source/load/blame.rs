@@ -13,10 +13,7 @@ pub(super) struct Named<'a> {
 
 impl<'a> Named<'a> {
     pub(super) fn new(scene: &'a SceneFile, file: &'a DataFile) -> Self {
-        Self {
-            file,
-            scene: scene.path.as_deref(),
-        }
+        Self { file, scene: scene.path.as_deref() }
     }
 
     /// The path to open.
@@ -59,14 +56,9 @@ impl<'a> Named<'a> {
     fn nearest(&self) -> Option<String> {
         let given = self.path().file_name()?.to_str()?;
         let folder = self.path().parent()?;
-        let folder = if folder.as_os_str().is_empty() {
-            Path::new(".")
-        } else {
-            folder
-        };
-        let names = std::fs::read_dir(folder)
-            .ok()?
-            .filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+        let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+        let names =
+            std::fs::read_dir(folder).ok()?.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
         let cost = |name: &str| strsim::osa_distance(&given.to_lowercase(), &name.to_lowercase());
         let (cost, name) = names.map(|name| (cost(&name), name)).min()?;
         let near = cost <= (given.chars().count() / 3).min(3);

@@ -19,10 +19,7 @@ pub(super) fn camera(scene: &SceneFile, terrain: &Terrain, layers: &[Layer]) -> 
     let (eye, target) = match spec.view {
         Some(view) => {
             let spot = |spot, key| place(spot, terrain).map_err(|error| of_key(scene, key, error));
-            (
-                spot(view.eye, "camera.eye_geo")?,
-                spot(view.target, "camera.target_geo")?,
-            )
+            (spot(view.eye, "camera.eye_geo")?, spot(view.target, "camera.target_geo")?)
         }
         None => framing(scene, terrain, layers),
     };
@@ -61,12 +58,7 @@ fn framing(scene: &SceneFile, terrain: &Terrain, layers: &[Layer]) -> (World, Wo
         Projection::Orthographic { .. } => 45.0,
     };
     let aspect = scene.image.width as f64 / scene.image.height as f64;
-    ViewFrame::framing(
-        &bounds,
-        height_range(&terrain.surface, &bounds),
-        fov_y_deg,
-        aspect,
-    )
+    ViewFrame::framing(&bounds, height_range(&terrain.surface, &bounds), fov_y_deg, aspect)
 }
 
 /// What is worth seeing: the layers' box as far as there is terrain.

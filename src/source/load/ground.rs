@@ -25,9 +25,7 @@ pub(super) fn ground(scene: &SceneFile, terrain: &Terrain, progress: &dyn Fn(&st
     let named = Named::new(scene, file);
     named.require()?;
     progress(&format!("reading {}", file.written));
-    imagery(named.path(), terrain)
-        .map(Ground::Imagery)
-        .map_err(|error| named.blame(error))
+    imagery(named.path(), terrain).map(Ground::Imagery).map_err(|error| named.blame(error))
 }
 
 fn imagery(path: &Path, terrain: &Terrain) -> Result<Imagery> {
@@ -40,9 +38,8 @@ fn texels(path: &Path) -> Result<Buffer<Color>> {
     let refuse = |error: &dyn std::fmt::Display| {
         Error::new(format!("the image cannot be read: {error}")).help("imagery is a PNG")
     };
-    let mut reader = ImageReader::open(path)
-        .and_then(ImageReader::with_guessed_format)
-        .map_err(|error| refuse(&error))?;
+    let mut reader =
+        ImageReader::open(path).and_then(ImageReader::with_guessed_format).map_err(|error| refuse(&error))?;
     let mut limits = Limits::default();
     limits.max_alloc = Some(8 * MOST_TEXELS as u64);
     reader.limits(limits);
@@ -55,11 +52,7 @@ fn texels(path: &Path) -> Result<Buffer<Color>> {
     // 16 bits hold 8-bit values exactly: v * 257 / 65535 = v / 255.
     let colors = image.into_rgba16();
     let color = |pixel: &image::Rgba<u16>| Color(pixel.0.map(|v| f64::from(v) / 65535.0));
-    Ok(Buffer::from_values(
-        width,
-        height,
-        colors.pixels().map(color).collect(),
-    ))
+    Ok(Buffer::from_values(width, height, colors.pixels().map(color).collect()))
 }
 
 /// What the image covers: what a world file beside it says, in the coordinates of the plan's CRS, else the terrain.
@@ -83,8 +76,5 @@ fn extent(path: &Path, size: (usize, usize), terrain: &Terrain) -> Result<PlanBo
         Ok(Plan::from(plan + shift))
     };
     let [low, high] = corners.map(place);
-    Ok(PlanBox {
-        min: low?,
-        max: high?,
-    })
+    Ok(PlanBox { min: low?, max: high? })
 }

@@ -23,10 +23,7 @@ pub(super) fn layers(
     let layer = |spec: &LayerSpec| {
         let mut told = Vec::new();
         let layer = layer(scene, spec, terrain, progress, &mut told);
-        notes.extend(
-            told.into_iter()
-                .map(|text| format!("layer `{}`: {text}", spec.name)),
-        );
+        notes.extend(told.into_iter().map(|text| format!("layer `{}`: {text}", spec.name)));
         layer
     };
     scene.layers.iter().map(layer).collect()
@@ -49,9 +46,7 @@ fn layer(
             let shift = terrain.place.shift(spec.offset);
             let numbered = shapes.iter().cloned().enumerate();
             let features = numbered.map(|(index, shape)| Feature { index, shape });
-            features
-                .map(|feature| moved(feature, &Map::AsIs, shift))
-                .collect::<Result<_>>()?
+            features.map(|feature| moved(feature, &Map::AsIs, shift)).collect::<Result<_>>()?
         }
         LayerSource::Generate(generator) => {
             progress(&format!("making {}", spec.name));
@@ -73,10 +68,7 @@ fn layer(
 fn generated(generator: &VectorGenerator, terrain: &Terrain) -> Vec<Feature> {
     let shift = terrain.place.shift(DVec2::ZERO);
     let local = |[x0, y0, x1, y1]: [f64; 4]| [x0 + shift.x, y0 + shift.y, x1 + shift.x, y1 + shift.y];
-    let generator = VectorGenerator {
-        window: generator.window.map(local),
-        ..*generator
-    };
+    let generator = VectorGenerator { window: generator.window.map(local), ..*generator };
     generate::features(&generator, terrain.bounds)
 }
 
@@ -139,9 +131,7 @@ fn moved(mut feature: Feature, map: &Map, shift: DVec2) -> Result<Feature> {
     let index = feature.index;
     let (Shape::Polygon(parts) | Shape::Line(parts)) = &mut feature.shape;
     let mut vertices = parts.iter_mut().flatten();
-    vertices
-        .try_for_each(place)
-        .map_err(|error| error.in_feature(index))?;
+    vertices.try_for_each(place).map_err(|error| error.in_feature(index))?;
     Ok(feature)
 }
 
@@ -161,10 +151,8 @@ fn on_terrain(
     if kept.is_empty() && count > 0 {
         notes.push(format!("none of its {count} features meets the terrain"));
     } else if kept.len() < count {
-        notes.push(format!(
-            "{} of {count} features lie off the terrain and are left out",
-            count - kept.len()
-        ));
+        notes
+            .push(format!("{} of {count} features lie off the terrain and are left out", count - kept.len()));
     }
     kept
 }

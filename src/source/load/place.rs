@@ -31,9 +31,7 @@ impl Place {
 
     /// What the plan is, in words.
     pub(super) fn words(&self) -> String {
-        self.space
-            .as_ref()
-            .map_or_else(|| "metres without a CRS".into(), PlanSpace::describe)
+        self.space.as_ref().map_or_else(|| "metres without a CRS".into(), PlanSpace::describe)
     }
 }
 

@@ -28,11 +28,8 @@ pub(super) fn resample(source: &Posts, map: &PlanFrom) -> Result<Resampled> {
     let high = ((bounds.max.to_vec() - anchor) / cell).floor();
     let size = high - low + DVec2::ONE;
     if !(size.x >= 2.0 && size.y >= 2.0 && size.x * size.y <= MAX_POSTS as f64) {
-        return Err(Error::new(format!(
-            "resampled, the terrain would have {} x {} posts",
-            size.x, size.y
-        ))
-        .help("leave `crs` out, or read a part of the terrain (`window`)"));
+        return Err(Error::new(format!("resampled, the terrain would have {} x {} posts", size.x, size.y))
+            .help("leave `crs` out, or read a part of the terrain (`window`)"));
     }
     let (columns, rows) = (size.x as usize, size.y as usize);
     let row = |j: usize| -> Vec<f64> {
@@ -68,11 +65,7 @@ fn cell(source: &Posts, map: &PlanFrom) -> Result<DVec2> {
     let north = at(middle + source.north())? - at(middle)?;
     let lengths = DVec2::new(east.length(), north.length());
     let turned = east.x.abs() < east.y.abs();
-    let lengths = if turned {
-        DVec2::new(lengths.y, lengths.x)
-    } else {
-        lengths
-    };
+    let lengths = if turned { DVec2::new(lengths.y, lengths.x) } else { lengths };
     Ok(DVec2::new(three_digits(lengths.x), three_digits(lengths.y)))
 }
 
@@ -86,11 +79,7 @@ fn height(source: &Posts, map: &PlanFrom, plan: DVec2) -> f64 {
         return f64::NAN;
     };
     let off = place - source.first.to_vec();
-    let off = if map.file().is_geographic() {
-        within_a_turn(source, off)
-    } else {
-        off
-    };
+    let off = if map.file().is_geographic() { within_a_turn(source, off) } else { off };
     let area = source.east().perp_dot(source.north());
     let column = snapped(off.perp_dot(source.north()) / area);
     let row = snapped(source.east().perp_dot(off) / area);

@@ -38,15 +38,7 @@ pub(super) fn terrain(
     stretch(&mut surface, scene.terrain.vertical_scale)?;
     let offset = scene.terrain.offset;
     let bounds = bounds(&surface);
-    Ok(Terrain {
-        bounds,
-        surface,
-        place: Place {
-            space,
-            anchor,
-            offset,
-        },
-    })
+    Ok(Terrain { bounds, surface, place: Place { space, anchor, offset } })
 }
 
 /// The plan that the scene asks for.
@@ -111,10 +103,7 @@ fn own_crs(
                 return Err(error.help("say it in the scene: terrain.crs = \"EPSG:...\""));
             }
             Err(error) => {
-                note(format!(
-                    "{}; its coordinates are taken as they are, in metres",
-                    error.what()
-                ));
+                note(format!("{}; its coordinates are taken as they are, in metres", error.what()));
                 None
             }
         },
@@ -139,10 +128,7 @@ fn plan_and_map(
             return Ok((None, Map::AsIs));
         }
         (Some(space), None) => {
-            note(format!(
-                "the file does not say its CRS: taken for the scene's, {}",
-                space.describe()
-            ));
+            note(format!("the file does not say its CRS: taken for the scene's, {}", space.describe()));
             let own = space.crs().clone();
             (space, own)
         }
@@ -161,10 +147,8 @@ fn plan_and_map(
         ));
     }
     let map = space.plan_from(&own)?;
-    if let Some(text) = map
-        .apply((low.to_vec() + high.to_vec()) / 2.0)
-        .ok()
-        .and_then(|p| stretched(&space, p))
+    if let Some(text) =
+        map.apply((low.to_vec() + high.to_vec()) / 2.0).ok().and_then(|p| stretched(&space, p))
     {
         note(text);
     }
@@ -193,11 +177,7 @@ fn without_crs(extent: PlanBox) -> String {
     let size = high - low;
     let on_the_globe = low.x >= -180.0 && high.x <= 360.0 && low.y >= -90.0 && high.y <= 90.0;
     let degrees = on_the_globe && low != Plan::default() && max(size.x, size.y) < 40.0;
-    let hint = if degrees {
-        " (they look like degrees: if so, say terrain.crs = \"EPSG:4326\")"
-    } else {
-        ""
-    };
+    let hint = if degrees { " (they look like degrees: if so, say terrain.crs = \"EPSG:4326\")" } else { "" };
     format!("no CRS is known: coordinates are taken as they are, in metres{hint}")
 }
 
@@ -210,11 +190,7 @@ fn to_plan(
 ) -> Result<(Surface, DVec2)> {
     let on_local_plane = space.is_some_and(|space| space.center().is_some());
     let anchor = |bounds: PlanBox| {
-        if on_local_plane {
-            DVec2::ZERO
-        } else {
-            middle(bounds)
-        }
+        if on_local_plane { DVec2::ZERO } else { middle(bounds) }
     };
     match (surface, map) {
         (Surface::Points(points), map) => {
@@ -263,12 +239,7 @@ fn scaled(posts: Posts, affine: Option<Affine>) -> Result<Posts> {
     };
     let first = Plan::from((posts.first.to_vec() - origin) * scale);
     let steps = (posts.east() * scale, posts.north() * scale);
-    Posts::new(
-        (posts.columns(), posts.rows()),
-        first,
-        steps,
-        posts.into_heights(),
-    )
+    Posts::new((posts.columns(), posts.rows()), first, steps, posts.into_heights())
 }
 
 /// Multiplies the heights.
@@ -286,9 +257,7 @@ fn stretch(surface: &mut Surface, by: f64) -> Result<()> {
         Surface::Points(points) => points.iter_mut().for_each(|p| scale(&mut p.z)),
     }
     if infinite {
-        return Err(Error::new(format!(
-            "`terrain.vertical_scale` = {by} makes heights infinite"
-        )));
+        return Err(Error::new(format!("`terrain.vertical_scale` = {by} makes heights infinite")));
     }
     Ok(())
 }

@@ -95,14 +95,9 @@ fn generated_terrain_without_offset_has_its_origin_at_zero() {
 
 #[test]
 fn posts_do_not_depend_on_the_offset() {
-    let folder = Folder::new().with(
-        "d.asc",
-        grid((9, 7), (412_345.678, 5_123_456.789), 4.997_678, hills),
-    );
+    let folder = Folder::new().with("d.asc", grid((9, 7), (412_345.678, 5_123_456.789), 4.997_678, hills));
     let load = |offset: &str| {
-        folder
-            .load(&format!("terrain = {{ source = \"d.asc\", offset = {offset} }}"))
-            .unwrap()
+        folder.load(&format!("terrain = {{ source = \"d.asc\", offset = {offset} }}")).unwrap()
     };
     let (still, before) = load("[0, 0]");
     let (moved, after) = load("[5e6, -31.7]");
@@ -143,10 +138,7 @@ fn a_scene_moved_with_all_its_data_keeps_every_bit() {
     let (still, before) = scene(0.0);
     let (moved, after) = scene(5e6);
     assert_eq!(moved.origin - still.origin, DVec2::splat(5e6));
-    assert_eq!(
-        still.layers.iter().map(|l| l.features.len()).collect::<Vec<_>>()[..3],
-        [1, 1, 9]
-    );
+    assert_eq!(still.layers.iter().map(|l| l.features.len()).collect::<Vec<_>>()[..3], [1, 1, 9]);
     assert_eq!(local(&still, &before), local(&moved, &after));
 }
 
@@ -162,32 +154,19 @@ fn local_coordinates_are_plan_coordinates_less_the_origin() {
         )
         .unwrap();
     let absolute = |p: Plan| p + scene.origin;
-    assert_eq!(
-        absolute(vertices(&scene.layers[0].features)[0]),
-        Plan::new(412_351.25, 5_123_462.5)
-    );
-    assert_eq!(
-        absolute(scene.camera.eye.plan()),
-        Plan::new(412_300.5, 5_123_300.0)
-    );
+    assert_eq!(absolute(vertices(&scene.layers[0].features)[0]), Plan::new(412_351.25, 5_123_462.5));
+    assert_eq!(absolute(scene.camera.eye.plan()), Plan::new(412_300.5, 5_123_300.0));
     let posts = posts(surface);
     assert_eq!(absolute(posts.plan(0, 0)), Plan::new(412_344.25, 5_123_456.5));
     assert_eq!(posts.world(0, 0).z, 2.0 * hills(412_344.25, 5_123_456.5));
-    assert!(
-        scene.notes.iter().any(|n| n.contains("no CRS is known")),
-        "{:?}",
-        scene.notes
-    );
+    assert!(scene.notes.iter().any(|n| n.contains("no CRS is known")), "{:?}", scene.notes);
 }
 
 #[test]
 fn a_terrain_in_degrees_stays_a_grid_on_the_local_plane() {
     let folder = Folder::new()
         .with("d.asc", grid((41, 31), (10.0, 46.0), 0.001, hills))
-        .with(
-            "l.geojson",
-            r#"{"type":"LineString","coordinates":[[10.02,46.015],[10.03,46.02]]}"#,
-        );
+        .with("l.geojson", r#"{"type":"LineString","coordinates":[[10.02,46.015],[10.03,46.02]]}"#);
     let (scene, surface) = folder
         .load(
             "camera = { eye_geo = [10.02, 46.015, 900.0], target_geo = [10.021, 46.02, 500.0] }
@@ -196,14 +175,8 @@ fn a_terrain_in_degrees_stays_a_grid_on_the_local_plane() {
         )
         .unwrap();
     let posts = posts(surface);
-    assert_eq!(
-        (scene.origin, posts.columns(), posts.rows()),
-        (DVec2::ZERO, 41, 31)
-    );
-    assert!(
-        posts.plan(20, 15).to_vec().length() < 1e-6,
-        "the middle post stands at the centre"
-    );
+    assert_eq!((scene.origin, posts.columns(), posts.rows()), (DVec2::ZERO, 41, 31));
+    assert!(posts.plan(20, 15).to_vec().length() < 1e-6, "the middle post stands at the centre");
     // Metres in a degree at 46 north, from the ellipsoid's formulas.
     assert!(
         (posts.east().x - 77.442_364).abs() < 1e-6 && (posts.north().y - 111.151_612).abs() < 1e-6,
@@ -214,16 +187,8 @@ fn a_terrain_in_degrees_stays_a_grid_on_the_local_plane() {
     assert!(line[0].to_vec().length() < 1e-6);
     assert!((line[1] - posts.plan(30, 20)).length() < 1e-6);
     assert!((scene.camera.eye.plan() - line[0]).length() < 1e-6);
-    assert!(
-        scene
-            .plan_space
-            .starts_with("local plane at longitude 10.02, latitude 46.015")
-    );
-    assert!(
-        scene.notes.iter().any(|n| n.contains("% off")),
-        "{:?}",
-        scene.notes
-    );
+    assert!(scene.plan_space.starts_with("local plane at longitude 10.02, latitude 46.015"));
+    assert!(scene.notes.iter().any(|n| n.contains("% off")), "{:?}", scene.notes);
 }
 
 /// A surface that is flat in the plan of a CRS, sampled on a grid of another.
@@ -242,9 +207,7 @@ fn a_plane_resampled_from_another_crs_is_the_same_plane() {
     let flat = tilted(&plan, &Crs::parse("EPSG:4326").unwrap());
     let folder = Folder::new().with("d.asc", grid((81, 61), (9.5, 46.0), 0.0005, flat));
     let load = || {
-        folder
-            .load("crs = \"EPSG:32632\"\nterrain = { source = \"d.asc\", crs = \"EPSG:4326\" }")
-            .unwrap()
+        folder.load("crs = \"EPSG:32632\"\nterrain = { source = \"d.asc\", crs = \"EPSG:4326\" }").unwrap()
     };
     let (scene, surface) = load();
     let first = posts(surface);
@@ -260,17 +223,9 @@ fn a_plane_resampled_from_another_crs_is_the_same_plane() {
             }
         }
     }
-    assert!(
-        seen > 80 * 60 * 9 / 10,
-        "{seen} of {} posts hold data",
-        first.heights().len()
-    );
+    assert!(seen > 80 * 60 * 9 / 10, "{seen} of {} posts hold data", first.heights().len());
     assert!((first.east().x - 38.7).abs() < 0.2 && (first.north().y - 55.6).abs() < 0.2);
-    assert!(
-        scene.notes.iter().any(|n| n.contains("resampled (bilinear)")),
-        "{:?}",
-        scene.notes
-    );
+    assert!(scene.notes.iter().any(|n| n.contains("resampled (bilinear)")), "{:?}", scene.notes);
     let bits = |p: &Posts| p.heights().iter().map(|z| z.to_bits()).collect::<Vec<_>>();
     assert_eq!(bits(&first), bits(&posts(load().1)));
 }
@@ -279,21 +234,12 @@ fn a_plane_resampled_from_another_crs_is_the_same_plane() {
 fn resampling_takes_no_height_from_beside_a_hole() {
     let hole = |x: f64, y: f64| {
         let at = |v: f64, post: f64| (v - post).abs() < 1e-9;
-        if at(x, 9.51) && at(y, 46.01) {
-            -9999.0
-        } else {
-            700.0
-        }
+        if at(x, 9.51) && at(y, 46.01) { -9999.0 } else { 700.0 }
     };
     let folder = Folder::new().with("d.asc", grid((41, 41), (9.5, 46.0), 0.0005, hole));
     let text = "crs = \"EPSG:32632\"\nterrain = { source = \"d.asc\", crs = \"EPSG:4326\" }";
     let posts = posts(folder.load(text).unwrap().1);
-    assert!(
-        posts
-            .heights()
-            .iter()
-            .all(|z| z.is_nan() || (z - 700.0).abs() < 1e-9)
-    );
+    assert!(posts.heights().iter().all(|z| z.is_nan() || (z - 700.0).abs() < 1e-9));
     let middle = |i: usize, j: usize| {
         let inside = |at: usize, of: usize| at > 3 && at + 4 < of;
         inside(i, posts.columns()) && inside(j, posts.rows())
@@ -305,19 +251,12 @@ fn resampling_takes_no_height_from_beside_a_hole() {
 
 #[test]
 fn points_are_placed_like_posts() {
-    let folder = Folder::new().with(
-        "p.xyz",
-        "412345.5 5123456.25 10\n412355 5123456 20\n412350 5123470 30\n",
-    );
+    let folder =
+        Folder::new().with("p.xyz", "412345.5 5123456.25 10\n412355 5123456 20\n412350 5123470 30\n");
     let (scene, surface) = folder.load("terrain = { source = \"p.xyz\" }").unwrap();
-    let Surface::Points(points) = surface else {
-        panic!("a grid")
-    };
+    let Surface::Points(points) = surface else { panic!("a grid") };
     assert_eq!(scene.origin.fract(), DVec2::ZERO);
-    assert_eq!(
-        points[0].plan() + scene.origin,
-        Plan::new(412_345.5, 5_123_456.25)
-    );
+    assert_eq!(points[0].plan() + scene.origin, Plan::new(412_345.5, 5_123_456.25));
 }
 
 #[test]
@@ -330,18 +269,9 @@ fn features_off_the_terrain_are_left_out_and_the_others_keep_their_numbers() {
             [[layer]]\nname = \"b\"\nline = { color = \"#000000\", width_px = 4.0 }\nfeatures = [{ line = [[90, 0], [91, 0]] }]",
         )
         .unwrap();
-    let numbers = |k: usize| {
-        scene.layers[k]
-            .features
-            .iter()
-            .map(|f| f.index)
-            .collect::<Vec<_>>()
-    };
+    let numbers = |k: usize| scene.layers[k].features.iter().map(|f| f.index).collect::<Vec<_>>();
     assert_eq!((numbers(0), numbers(1)), (vec![1, 2], vec![0]));
-    assert_eq!(
-        scene.notes,
-        ["layer `a`: 1 of 3 features lie off the terrain and are left out"]
-    );
+    assert_eq!(scene.notes, ["layer `a`: 1 of 3 features lie off the terrain and are left out"]);
 }
 
 #[test]
@@ -367,15 +297,9 @@ fn a_missing_file_is_shown_in_the_scene_with_what_was_meant() {
     let error = folder.refused("terrain = { source = \"den.asc\" }");
     assert_eq!(error.what(), "there is no file `den.asc`");
     assert_eq!(error.help_text(), Some("did you mean `dem.asc`?"));
-    assert_eq!(
-        (error.position().unwrap().line, error.path()),
-        (2, Some(&*folder.path("s.toml")))
-    );
+    assert_eq!((error.position().unwrap().line, error.path()), (2, Some(&*folder.path("s.toml"))));
     let far = folder.refused("terrain = { source = \"nothing/like/it.tif\" }");
-    assert!(
-        far.help_text().unwrap().contains("relative to the scene file"),
-        "{far}"
-    );
+    assert!(far.help_text().unwrap().contains("relative to the scene file"), "{far}");
 }
 
 #[test]
@@ -391,51 +315,27 @@ fn an_error_in_a_data_file_names_the_file_the_feature_and_the_scene_line() {
             "terrain = { source = \"d.asc\", crs = \"EPSG:32632\" }\n[[layer]]\nsource = \"l.geojson\"\nline = { color = \"#000000\", width_m = 4.0 }",
         )
         .to_string();
-    assert!(
-        said.contains("l.geojson: feature 1: (500000, 46) is not a place in"),
-        "{said}"
-    );
-    assert!(
-        said.contains(&format!("named in {}:4:10", folder.path("s.toml").display())),
-        "{said}"
-    );
+    assert!(said.contains("l.geojson: feature 1: (500000, 46) is not a place in"), "{said}");
+    assert!(said.contains(&format!("named in {}:4:10", folder.path("s.toml").display())), "{said}");
 }
 
 #[test]
 fn an_unknown_crs_is_blamed_on_its_key() {
     let folder = Folder::new().with("d.asc", grid((5, 5), (0.0, 0.0), 100.0, hills));
-    let said = folder
-        .refused("crs = \"EPSG:99\"\nterrain = { source = \"d.asc\" }")
-        .to_string();
-    assert!(
-        said.contains("s.toml: `crs`: EPSG:99 is not a CRS known here"),
-        "{said}"
-    );
-    let said = folder
-        .refused("crs = \"EPSG:4326\"\nterrain = { source = \"d.asc\" }")
-        .to_string();
+    let said = folder.refused("crs = \"EPSG:99\"\nterrain = { source = \"d.asc\" }").to_string();
+    assert!(said.contains("s.toml: `crs`: EPSG:99 is not a CRS known here"), "{said}");
+    let said = folder.refused("crs = \"EPSG:4326\"\nterrain = { source = \"d.asc\" }").to_string();
     assert!(said.contains("in degrees, not a plane"), "{said}");
-    let said = folder
-        .refused("terrain = { source = \"d.asc\", crs = \"nonsense\" }")
-        .to_string();
-    assert!(
-        said.contains("`terrain.crs`: 'nonsense' does not name a CRS"),
-        "{said}"
-    );
+    let said = folder.refused("terrain = { source = \"d.asc\", crs = \"nonsense\" }").to_string();
+    assert!(said.contains("`terrain.crs`: 'nonsense' does not name a CRS"), "{said}");
 }
 
 #[test]
 fn geographic_cameras_need_a_plan_with_a_crs() {
     let text = "camera = { eye_geo = [9, 46, 900], target_geo = [9, 47, 0] }\nterrain = { generate = { kind = \"plane\" } }";
     let said = Folder::new().refused(text).to_string();
-    assert!(
-        said.contains("`camera.eye_geo`: longitude and latitude have no place"),
-        "{said}"
-    );
-    let placed = Folder::new()
-        .load(&format!("crs = \"EPSG:32632\"\n{text}"))
-        .unwrap()
-        .0;
+    assert!(said.contains("`camera.eye_geo`: longitude and latitude have no place"), "{said}");
+    let placed = Folder::new().load(&format!("crs = \"EPSG:32632\"\n{text}")).unwrap().0;
     assert!((placed.camera.eye.x - 500_000.0).abs() < 1e-3);
 }
 
@@ -443,10 +343,7 @@ fn geographic_cameras_need_a_plan_with_a_crs() {
 fn a_layer_in_another_crs_is_reprojected_with_a_note() {
     let folder = Folder::new()
         .with("d.asc", grid((5, 5), (500_000.0, 5_099_600.0), 100.0, hills))
-        .with(
-            "l.geojson",
-            r#"{"type":"LineString","coordinates":[[9.001,46.0515],[9.004,46.0525]]}"#,
-        );
+        .with("l.geojson", r#"{"type":"LineString","coordinates":[[9.001,46.0515],[9.004,46.0525]]}"#);
     let (scene, _) = folder
         .load(
             "terrain = { source = \"d.asc\", crs = \"EPSG:32632\" }\n[[layer]]\nsource = \"l.geojson\"\nline = { color = \"#000000\", width_m = 4.0 }",
@@ -454,15 +351,9 @@ fn a_layer_in_another_crs_is_reprojected_with_a_note() {
         .unwrap();
     let at = vertices(&scene.layers[0].features)[0] + scene.origin;
     // PROJ 9.5 says 500077.3604, 5099769.5216.
+    assert!((at - Plan::new(500_077.360_4, 5_099_769.521_6)).length() < 1e-3, "{at:?}");
     assert!(
-        (at - Plan::new(500_077.360_4, 5_099_769.521_6)).length() < 1e-3,
-        "{at:?}"
-    );
-    assert!(
-        scene
-            .notes
-            .iter()
-            .any(|n| n.starts_with("layer `l`: reprojected from OGC:CRS84")),
+        scene.notes.iter().any(|n| n.starts_with("layer `l`: reprojected from OGC:CRS84")),
         "{:?}",
         scene.notes
     );
@@ -476,27 +367,17 @@ fn imagery_covers_the_terrain_or_what_its_world_file_says() {
     let folder = Folder::new()
         .with("d.asc", grid((5, 5), (1000.0, 2000.0), 10.0, hills))
         .with("o.png", png.into_inner());
-    let load = || match folder
-        .load("terrain = { source = \"d.asc\", imagery = \"o.png\" }")
-        .unwrap()
-        .0
-        .ground
+    let load = || match folder.load("terrain = { source = \"d.asc\", imagery = \"o.png\" }").unwrap().0.ground
     {
         crate::scene::Ground::Imagery(imagery) => imagery,
         other => panic!("{other:?}"),
     };
     let imagery = load();
     assert_eq!(imagery.texels.at(1, 0).0, [0.0, 0.0, 0.2, 1.0]);
-    assert_eq!(
-        (imagery.extent.min, imagery.extent.max),
-        (Plan::new(-20.0, -20.0), Plan::new(20.0, 20.0))
-    );
+    assert_eq!((imagery.extent.min, imagery.extent.max), (Plan::new(-20.0, -20.0), Plan::new(20.0, 20.0)));
     std::fs::write(folder.path("o.pgw"), "20\n0\n0\n-15\n1010\n2022.5\n").unwrap();
     let extent = load().extent;
-    assert_eq!(
-        (extent.min, extent.max),
-        (Plan::new(-20.0, -20.0), Plan::new(20.0, 10.0))
-    );
+    assert_eq!((extent.min, extent.max), (Plan::new(-20.0, -20.0), Plan::new(20.0, 10.0)));
 }
 
 #[test]

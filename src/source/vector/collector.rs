@@ -76,10 +76,7 @@ impl Collector {
         if parts.is_empty() {
             return self.leave_out_empty();
         }
-        self.features.push(Feature {
-            index: self.current(),
-            shape: shape(parts),
-        });
+        self.features.push(Feature { index: self.current(), shape: shape(parts) });
     }
 
     /// Says what was left out and what looks wrong.
@@ -124,11 +121,7 @@ impl Collector {
     }
 
     pub(super) fn into_file(self) -> VectorFile {
-        VectorFile {
-            features: self.features,
-            crs: self.crs,
-            notes: self.notes,
-        }
+        VectorFile { features: self.features, crs: self.crs, notes: self.notes }
     }
 }
 

@@ -39,10 +39,10 @@ fn damaged(why: &str) -> Error {
 fn check_magic(cursor: &mut Cursor<'_>) -> Result<()> {
     match cursor.take(8) {
         Some([b'f', b'g', b'b', 3, b'f', b'g', b'b', _]) => Ok(()),
-        Some([b'f', b'g', b'b', version, ..]) => Err(Error::new(format!(
-            "version {version} of FlatGeobuf is not supported"
-        ))
-        .help("write it as version 3")),
+        Some([b'f', b'g', b'b', version, ..]) => {
+            Err(Error::new(format!("version {version} of FlatGeobuf is not supported"))
+                .help("write it as version 3"))
+        }
         _ => Err(damaged("it does not begin as one")),
     }
 }
@@ -78,9 +78,7 @@ fn skip_index(cursor: &mut Cursor<'_>, header: &Header<'_>) -> Result<()> {
         return Ok(());
     }
     if node_size == 1 || count > cursor.left() as u64 / INDEX_NODE_BYTES {
-        return Err(damaged(&format!(
-            "its index of {count} features is longer than the file"
-        )));
+        return Err(damaged(&format!("its index of {count} features is longer than the file")));
     }
     let (mut level, mut nodes) = (count, count);
     while level > 1 {
@@ -90,10 +88,7 @@ fn skip_index(cursor: &mut Cursor<'_>, header: &Header<'_>) -> Result<()> {
     // An index over a single feature still has its root.
     let nodes = if count == 1 { 2 } else { nodes };
     let bytes = usize::try_from(nodes * INDEX_NODE_BYTES).ok();
-    bytes
-        .and_then(|n| cursor.take(n))
-        .map(|_| ())
-        .ok_or_else(|| damaged("it ends within its index"))
+    bytes.and_then(|n| cursor.take(n)).map(|_| ()).ok_or_else(|| damaged("it ends within its index"))
 }
 
 fn read_features(mut cursor: Cursor<'_>, header: &Header<'_>, found: &mut Collector) -> Result<()> {
@@ -113,9 +108,7 @@ fn read_features(mut cursor: Cursor<'_>, header: &Header<'_>, found: &mut Collec
     }
     let (stated, seen) = (header.features_count(), found.seen as u64);
     if stated != 0 && stated != seen {
-        return Err(damaged(&format!(
-            "its header states {stated} features but it holds {seen}"
-        )));
+        return Err(damaged(&format!("its header states {stated} features but it holds {seen}")));
     }
     Ok(())
 }
@@ -124,11 +117,7 @@ fn add(geometry: &Geometry<'_>, stated: GeometryType, found: &mut Collector, dep
     if depth > DEEPEST {
         return Err(damaged("its collections are nested too deep"));
     }
-    let kind = if stated == GeometryType::Unknown {
-        geometry.type_()
-    } else {
-        stated
-    };
+    let kind = if stated == GeometryType::Unknown { geometry.type_() } else { stated };
     match kind {
         GeometryType::Point | GeometryType::MultiPoint => {
             found.leave_out_points(geometry.xy().map_or(0, |xy| xy.len() / 2));
@@ -179,9 +168,7 @@ fn paths(geometry: &Geometry<'_>) -> Result<Vec<Vec<Plan>>> {
     }
     let mut start = 0;
     let mut cut = |end: usize| {
-        let part = (start..end)
-            .map(|i| Plan::new(xy.get(2 * i), xy.get(2 * i + 1)))
-            .collect();
+        let part = (start..end).map(|i| Plan::new(xy.get(2 * i), xy.get(2 * i + 1))).collect();
         start = end;
         part
     };

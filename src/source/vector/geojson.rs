@@ -22,9 +22,7 @@ pub(super) fn read(path: &Path) -> Result<Collector> {
 fn read_text(text: &[u8]) -> Result<Collector> {
     let mut reading = Reading::default();
     let mut json = serde_json::Deserializer::from_slice(text);
-    let parsed = (&mut reading)
-        .deserialize(&mut json)
-        .and_then(|top| json.end().map(|()| top));
+    let parsed = (&mut reading).deserialize(&mut json).and_then(|top| json.end().map(|()| top));
     let top = match (parsed, reading.failure.take()) {
         (_, Some(failure)) => return Err(failure),
         (Err(e), None) => return Err(malformed(&e, &reading)),
@@ -40,21 +38,10 @@ fn read_text(text: &[u8]) -> Result<Collector> {
 fn malformed(e: &serde_json::Error, reading: &Reading) -> Error {
     let whole = e.to_string();
     let place = format!(" at line {} column {}", e.line(), e.column());
-    let error = Error::new(format!(
-        "this is not GeoJSON: {}",
-        whole.strip_suffix(&place).unwrap_or(&whole)
-    ))
-    .help("check that the file was copied whole; one object a file, numbers and not NaN as coordinates")
-    .at(Position {
-        line: e.line(),
-        column: if e.column() == 0 { 1 } else { e.column() },
-        length: 1,
-    });
-    if reading.in_features {
-        error.in_feature(reading.found.current())
-    } else {
-        error
-    }
+    let error = Error::new(format!("this is not GeoJSON: {}", whole.strip_suffix(&place).unwrap_or(&whole)))
+        .help("check that the file was copied whole; one object a file, numbers and not NaN as coordinates")
+        .at(Position { line: e.line(), column: if e.column() == 0 { 1 } else { e.column() }, length: 1 });
+    if reading.in_features { error.in_feature(reading.found.current()) } else { error }
 }
 
 /// What the parser carries along.
@@ -138,9 +125,7 @@ impl<'de> Visitor<'de> for CoordinatesVisitor {
 
 /// x, y, and a height or more that are dropped.
 fn position<'de, A: SeqAccess<'de>>(x: f64, mut seq: A) -> std::result::Result<Coordinates, A::Error> {
-    let y = seq
-        .next_element()?
-        .ok_or_else(|| de::Error::custom("a position has one number only"))?;
+    let y = seq.next_element()?.ok_or_else(|| de::Error::custom("a position has one number only"))?;
     while seq.next_element::<IgnoredAny>()?.is_some() {}
     Ok(Coordinates::Point(Plan::new(x, y)))
 }
@@ -246,11 +231,7 @@ fn add_top(top: Top, found: &mut Collector) -> Result<()> {
         "Feature" => add_feature(top.geometry, found),
         "Topology" => Err(Error::new("TopoJSON is not supported").help("convert it to GeoJSON")),
         _ => add_feature(
-            Some(Geometry {
-                kind: top.kind,
-                coordinates: top.coordinates,
-                geometries: top.geometries,
-            }),
+            Some(Geometry { kind: top.kind, coordinates: top.coordinates, geometries: top.geometries }),
             found,
         ),
     }
@@ -269,11 +250,7 @@ fn add_feature(geometry: Option<Geometry>, found: &mut Collector) -> Result<()> 
 }
 
 fn add_geometry(geometry: Geometry, found: &mut Collector) -> Result<()> {
-    let Geometry {
-        kind,
-        coordinates,
-        geometries,
-    } = geometry;
+    let Geometry { kind, coordinates, geometries } = geometry;
     let coordinates = coordinates.unwrap_or(Coordinates::Nest(Vec::new()));
     match kind.as_str() {
         "Point" => found.leave_out_points(1),
@@ -322,19 +299,10 @@ fn crs_of(member: Option<&serde_json::Value>, notes: &mut Vec<String>) -> Option
     let Some(member) = member else {
         return Crs::crs84().ok();
     };
-    let name = member
-        .get("properties")
-        .and_then(|p| p.get("name"))
-        .and_then(|n| n.as_str());
+    let name = member.get("properties").and_then(|p| p.get("name")).and_then(|n| n.as_str());
     let read = match name {
         Some(name) => Crs::parse(name),
         None => Err(Error::new("it names none")),
     };
-    read.map_err(|e| {
-        notes.push(format!(
-            "the CRS in the crs member is not understood: {}",
-            e.what()
-        ))
-    })
-    .ok()
+    read.map_err(|e| notes.push(format!("the CRS in the crs member is not understood: {}", e.what()))).ok()
 }

@@ -97,13 +97,8 @@ fn tables_of(connection: &Connection) -> Result<Vec<Table>> {
     let mut statement = connection.prepare(sql).map_err(|e| {
         damaged(&e).help("a GeoPackage has the tables gpkg_contents and gpkg_geometry_columns; this may be another kind of SQLite file")
     })?;
-    let table = |row: &rusqlite::Row<'_>| {
-        Ok(Table {
-            name: row.get(0)?,
-            geometry: row.get(1)?,
-            srs: row.get(2)?,
-        })
-    };
+    let table =
+        |row: &rusqlite::Row<'_>| Ok(Table { name: row.get(0)?, geometry: row.get(1)?, srs: row.get(2)? });
     let rows = statement.query_map([], table).map_err(|e| damaged(&e))?;
     rows.collect::<rusqlite::Result<_>>().map_err(|e| damaged(&e))
 }
@@ -130,30 +125,17 @@ fn crs_of(connection: &Connection, srs: i64, notes: &mut Vec<String>) -> Option<
     }
     let sql = "SELECT organization, organization_coordsys_id, definition FROM gpkg_spatial_ref_sys WHERE srs_id = ?1";
     let row = |row: &rusqlite::Row<'_>| {
-        Ok((
-            row.get::<_, String>(0)?,
-            row.get::<_, i64>(1)?,
-            row.get::<_, String>(2)?,
-        ))
+        Ok((row.get::<_, String>(0)?, row.get::<_, i64>(1)?, row.get::<_, String>(2)?))
     };
     let parsed = match connection.query_row(sql, [srs], row) {
         Ok((organization, id, definition)) => crs_of_row(&organization, id, &definition),
         Err(e) => Err(damaged(&e)),
     };
-    parsed
-        .map_err(|e| {
-            notes.push(format!(
-                "the CRS {srs} of the layer is not understood: {}",
-                e.what()
-            ))
-        })
-        .ok()
+    parsed.map_err(|e| notes.push(format!("the CRS {srs} of the layer is not understood: {}", e.what()))).ok()
 }
 
 fn crs_of_row(organization: &str, id: i64, definition: &str) -> Result<Crs> {
-    let code = u32::try_from(id)
-        .ok()
-        .filter(|_| organization.eq_ignore_ascii_case("EPSG"));
+    let code = u32::try_from(id).ok().filter(|_| organization.eq_ignore_ascii_case("EPSG"));
     match code.map(Crs::from_epsg) {
         Some(Ok(crs)) => Ok(crs),
         _ => Crs::parse(definition),
@@ -167,11 +149,7 @@ fn quoted(name: &str) -> String {
 fn read_rows(connection: &Connection, table: &Table, found: &mut Collector) -> Result<()> {
     let order =
         primary_key(connection, table)?.map_or_else(String::new, |key| format!(" ORDER BY {}", quoted(&key)));
-    let sql = format!(
-        "SELECT {} FROM {}{order}",
-        quoted(&table.geometry),
-        quoted(&table.name)
-    );
+    let sql = format!("SELECT {} FROM {}{order}", quoted(&table.geometry), quoted(&table.name));
     let mut statement = connection.prepare(&sql).map_err(|e| damaged(&e))?;
     let mut rows = statement.query([]).map_err(|e| damaged(&e))?;
     loop {

@@ -69,18 +69,14 @@ impl fmt::Display for VectorFormat {
 /// # Errors
 /// When the file is missing, damaged, absurd or of an unsupported kind: says what and where.
 pub fn read(path: &Path, layer: Option<&str>) -> Result<VectorFile> {
-    read_collected(path, layer)
-        .map(|(_, found)| found.into_file())
-        .map_err(|e| e.in_file(path))
+    read_collected(path, layer).map(|(_, found)| found.into_file()).map_err(|e| e.in_file(path))
 }
 
 fn read_collected(path: &Path, layer: Option<&str>) -> Result<(VectorFormat, Collector)> {
     let format = format_of(path)?;
     if let (Some(layer), true) = (layer, format != VectorFormat::GeoPackage) {
-        return Err(
-            Error::new(format!("a {format} has no layers, so none named '{layer}'"))
-                .help("leave the layer out; it is for GeoPackages"),
-        );
+        return Err(Error::new(format!("a {format} has no layers, so none named '{layer}'"))
+            .help("leave the layer out; it is for GeoPackages"));
     }
     let found = match format {
         VectorFormat::GeoJson => geojson::read(path)?,
@@ -100,14 +96,14 @@ fn format_of(path: &Path) -> Result<VectorFormat> {
         (Some(promised), Some(found)) if promised == found => Ok(found),
         (None, Some(found)) => Ok(found),
         (_, None) if start.is_empty() => Err(Error::new("the file is empty").help("write the file again")),
-        (Some(promised), None) => Err(Error::new(format!(
-            "this is not a {promised}, whatever its name says"
-        ))
-        .help("check that the file was copied whole")),
-        (Some(promised), Some(found)) => Err(Error::new(format!(
-            "the name says {promised} but the content is a {found}"
-        ))
-        .help("give the file the extension of what it is")),
+        (Some(promised), None) => {
+            Err(Error::new(format!("this is not a {promised}, whatever its name says"))
+                .help("check that the file was copied whole"))
+        }
+        (Some(promised), Some(found)) => {
+            Err(Error::new(format!("the name says {promised} but the content is a {found}"))
+                .help("give the file the extension of what it is"))
+        }
         (None, None) => Err(Error::new("this is no vector file of a kind known here")
             .help("use .geojson, .json, .shp, .fgb or .gpkg")),
     }
@@ -118,9 +114,7 @@ fn beginning_of(path: &Path) -> Result<Vec<u8>> {
         return Err(Error::new("this is a folder, not a file").help("name the file in it"));
     }
     let mut start = Vec::new();
-    File::open(path)
-        .and_then(|file| file.take(512).read_to_end(&mut start))
-        .map_err(|e| cannot_read(&e))?;
+    File::open(path).and_then(|file| file.take(512).read_to_end(&mut start)).map_err(|e| cannot_read(&e))?;
     Ok(start)
 }
 

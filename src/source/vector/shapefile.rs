@@ -43,21 +43,13 @@ fn note_index_that_points_elsewhere(path: &Path, places: &[(usize, usize)], foun
     };
     let place = |entry: &[u8]| {
         let mut cursor = Cursor::new(entry);
-        let mut bytes = || {
-            cursor
-                .u32(Endian::Big)
-                .and_then(|words| (words as usize).checked_mul(2))
-        };
+        let mut bytes = || cursor.u32(Endian::Big).and_then(|words| (words as usize).checked_mul(2));
         Some((bytes()?, bytes()?))
     };
     let listed: Vec<_> = entries.chunks_exact(8).map(place).collect();
     let differ = |(place, listed): (&(usize, usize), &Option<_>)| Some(*place) != *listed;
     let first_wrong = places.iter().zip(&listed).position(differ);
-    let shorter = if places.len() < listed.len() {
-        places.len()
-    } else {
-        listed.len()
-    };
+    let shorter = if places.len() < listed.len() { places.len() } else { listed.len() };
     if first_wrong.is_some() || places.len() != listed.len() {
         found.notes.push(format!(
             "the .shx index is damaged: it lists {} features, points elsewhere from feature {} on, and is not used; the \
@@ -78,15 +70,11 @@ fn beside(path: &Path, extension: &str, capitals: &str) -> Option<Vec<u8>> {
 /// A .prj that is missing or not understood is a note: the scene can name the CRS.
 fn read_prj(path: &Path, found: &mut Collector) {
     let Some(bytes) = beside(path, "prj", "PRJ") else {
-        return found
-            .notes
-            .push("there is no .prj beside the file, so its CRS is not known".to_owned());
+        return found.notes.push("there is no .prj beside the file, so its CRS is not known".to_owned());
     };
     match Crs::parse(&String::from_utf8_lossy(&bytes)) {
         Ok(crs) => found.crs = Some(crs),
-        Err(e) => found
-            .notes
-            .push(format!("the CRS in the .prj is not understood: {}", e.what())),
+        Err(e) => found.notes.push(format!("the CRS in the .prj is not understood: {}", e.what())),
     }
 }
 
@@ -104,9 +92,7 @@ fn records_of<'a>(bytes: &'a [u8], found: &mut Collector) -> Result<&'a [u8]> {
     }
     if length < bytes.len() {
         let extra = bytes.len() - length;
-        found.notes.push(format!(
-            "{extra} bytes after the end that the header states are not read"
-        ));
+        found.notes.push(format!("{extra} bytes after the end that the header states are not read"));
     }
     // A file shorter than its header says is read to its end, where the record that is cut off has a number.
     if length > bytes.len() && bytes.len() == HEADER_BYTES {
@@ -127,10 +113,8 @@ fn ends_within_a_record(records: &[u8], missing: usize) -> Result<()> {
     while cursor.left() > 0 && next_record(&mut cursor).is_ok() {
         index += 1;
     }
-    Err(damaged(&format!(
-        "the file ends here, {missing} bytes before the end that its header states"
-    ))
-    .in_feature(index))
+    Err(damaged(&format!("the file ends here, {missing} bytes before the end that its header states"))
+        .in_feature(index))
 }
 
 fn damaged(why: &str) -> Error {
@@ -145,15 +129,11 @@ fn next_record<'a>(cursor: &mut Cursor<'a>) -> Result<Cursor<'a>> {
         let bytes = (cursor.u32(Endian::Big)? as usize).checked_mul(2)?;
         cursor.take(bytes)
     };
-    content()
-        .map(Cursor::new)
-        .ok_or_else(|| damaged("its record reaches past the end of the file"))
+    content().map(Cursor::new).ok_or_else(|| damaged("its record reaches past the end of the file"))
 }
 
 fn read_record(mut record: Cursor<'_>, found: &mut Collector) -> Result<()> {
-    let kind = record
-        .u32(Endian::Little)
-        .ok_or_else(|| damaged("its record is empty"))?;
+    let kind = record.u32(Endian::Little).ok_or_else(|| damaged("its record is empty"))?;
     match kind {
         0 => found.leave_out_empty(),
         1 | 11 | 21 => found.leave_out_points(1),
@@ -188,10 +168,7 @@ fn parts_of_record(mut record: Cursor<'_>) -> Result<Vec<Vec<Plan>>> {
         .and_then(|n| record.take(n))
         .zip(points.checked_mul(16).and_then(|n| record.take(n)));
     let (starts, vertices) = slices.ok_or_else(|| {
-        damaged(&format!(
-            "its record of {} bytes cannot hold {parts} parts and {points} points",
-            length + 4
-        ))
+        damaged(&format!("its record of {} bytes cannot hold {parts} parts and {points} points", length + 4))
     })?;
     split(Cursor::new(starts), vertices, points)
 }
@@ -218,8 +195,5 @@ fn split(mut starts: Cursor<'_>, vertices: &[u8], points: usize) -> Result<Vec<V
 
 fn vertex(bytes: &[u8]) -> Option<Plan> {
     let mut cursor = Cursor::new(bytes);
-    Some(Plan::new(
-        cursor.f64(Endian::Little)?,
-        cursor.f64(Endian::Little)?,
-    ))
+    Some(Plan::new(cursor.f64(Endian::Little)?, cursor.f64(Endian::Little)?))
 }

@@ -63,11 +63,7 @@ fn summary(
     layers: &[String],
     found: Collector,
 ) -> VectorSummary {
-    let polygons = found
-        .features
-        .iter()
-        .filter(|f| matches!(f.shape, Shape::Polygon(_)))
-        .count();
+    let polygons = found.features.iter().filter(|f| matches!(f.shape, Shape::Polygon(_))).count();
     let parts = || found.features.iter().flat_map(|f| parts_of(&f.shape));
     VectorSummary {
         format,

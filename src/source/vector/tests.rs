@@ -93,8 +93,7 @@ fn gpkg(layers: &[&str], blob: &[u8]) -> Vec<u8> {
              INSERT INTO gpkg_geometry_columns VALUES ('{layer}', 'geom', 32733);"
         ))
         .unwrap();
-        db.execute(&format!("INSERT INTO \"{double}\" (geom) VALUES (?1)"), [blob])
-            .unwrap();
+        db.execute(&format!("INSERT INTO \"{double}\" (geom) VALUES (?1)"), [blob]).unwrap();
     }
     drop(db);
     std::fs::read(&path).unwrap()
@@ -102,13 +101,8 @@ fn gpkg(layers: &[&str], blob: &[u8]) -> Vec<u8> {
 
 fn fgb() -> Vec<u8> {
     use ::flatgeobuf::{FgbCrs, FgbWriter, FgbWriterOptions, GeometryType};
-    let options = FgbWriterOptions {
-        crs: FgbCrs {
-            code: 32733,
-            ..Default::default()
-        },
-        ..Default::default()
-    };
+    let options =
+        FgbWriterOptions { crs: FgbCrs { code: 32733, ..Default::default() }, ..Default::default() };
     let mut writer = FgbWriter::create_with_options("made", GeometryType::Polygon, options).unwrap();
     for shift in [0.0, 10.0, 20.0] {
         let rings = SQUARE.map(|(x, y)| format!("[{},{}]", x + shift, y)).join(",");
@@ -160,18 +154,12 @@ fn geojson_keeps_order_and_indices_and_tells_what_it_leaves_out() {
     let read = read_bytes("a.geojson", JSON.as_bytes()).unwrap();
     let indices: Vec<usize> = read.features.iter().map(|f| f.index).collect();
     assert_eq!(indices, [0, 3, 3]);
-    assert_eq!(
-        polygon_of(&read, 0).iter().map(Vec::len).collect::<Vec<_>>(),
-        [3, 3]
-    );
+    assert_eq!(polygon_of(&read, 0).iter().map(Vec::len).collect::<Vec<_>>(), [3, 3]);
     assert_eq!(polygon_of(&read, 2).len(), 2);
     assert!(matches!(&read.features[1].shape, Shape::Line(parts) if parts[0].len() == 2));
     assert_eq!(
         read.notes,
-        [
-            "1 point left out: points are not drawn",
-            "1 geometry without coordinates left out"
-        ]
+        ["1 point left out: points are not drawn", "1 geometry without coordinates left out"]
     );
     assert!(read.crs.unwrap().is_geographic());
 }
@@ -207,14 +195,8 @@ fn geojson_honours_the_old_crs_member_wherever_it_stands() {
 fn geojson_errors_tell_line_and_feature() {
     let text = JSON.replace("[4,0,9]", "[4,NaN]");
     let refused = refusal("a.geojson", text.as_bytes());
-    assert!(
-        refused.contains("a.geojson:2:") && refused.contains("feature 0"),
-        "{refused}"
-    );
-    let refused = refusal(
-        "a.geojson",
-        JSON.replace("[[0,0],[1,1]]", "[[[0,0],[1,1]]]").as_bytes(),
-    );
+    assert!(refused.contains("a.geojson:2:") && refused.contains("feature 0"), "{refused}");
+    let refused = refusal("a.geojson", JSON.replace("[[0,0],[1,1]]", "[[[0,0],[1,1]]]").as_bytes());
     assert!(refused.contains("feature 3"), "{refused}");
     for bad in [
         r#"{"type":"Topology"}"#,
@@ -243,16 +225,10 @@ fn json_nested_ten_thousand_deep_is_refused() {
 fn shapefile_parts_become_rings_without_closing_vertices() {
     let bytes = shp(
         5,
-        &[
-            shp_parts(5, &[&SQUARE, &[(1.0, 1.0), (2.0, 1.0), (1.0, 1.0)]]),
-            0_u32.to_le_bytes().to_vec(),
-        ],
+        &[shp_parts(5, &[&SQUARE, &[(1.0, 1.0), (2.0, 1.0), (1.0, 1.0)]]), 0_u32.to_le_bytes().to_vec()],
     );
     let read = read_bytes("a.shp", &bytes).unwrap();
-    assert_eq!(
-        polygon_of(&read, 0).iter().map(Vec::len).collect::<Vec<_>>(),
-        [4, 2]
-    );
+    assert_eq!(polygon_of(&read, 0).iter().map(Vec::len).collect::<Vec<_>>(), [4, 2]);
     assert_eq!(
         read.notes,
         [
@@ -284,10 +260,7 @@ fn shapefiles_with_absurd_counts_are_refused_by_feature() {
 
 #[test]
 fn a_shapefile_index_that_points_elsewhere_is_noted_by_feature() {
-    let (_folder, path) = file(
-        "a.shp",
-        &shp(5, &[shp_parts(5, &[&SQUARE]), shp_parts(5, &[&SQUARE])]),
-    );
+    let (_folder, path) = file("a.shp", &shp(5, &[shp_parts(5, &[&SQUARE]), shp_parts(5, &[&SQUARE])]));
     let mut index = vec![0; 100];
     for words in [50_u32, 64, 118, 64] {
         index.extend(words.to_be_bytes());
@@ -327,22 +300,10 @@ fn geopackage_reads_its_only_layer_and_asks_which_of_several() {
     assert_eq!(read.crs.unwrap().epsg(), Some(32733));
     let (folder, path) = file("two.gpkg", &gpkg(&["a\"b", "lakes"], &wkb_polygon()));
     let refused = super::read(&path, None).unwrap_err().to_string();
-    assert!(
-        refused.contains("'lakes'") && refused.contains("several"),
-        "{refused}"
-    );
-    assert!(
-        super::read(&path, Some("rivers"))
-            .unwrap_err()
-            .to_string()
-            .contains("'lakes'")
-    );
+    assert!(refused.contains("'lakes'") && refused.contains("several"), "{refused}");
+    assert!(super::read(&path, Some("rivers")).unwrap_err().to_string().contains("'lakes'"));
     assert_eq!(super::read(&path, Some("a\"b")).unwrap().features.len(), 1);
-    assert_eq!(
-        std::fs::read_dir(folder.path()).unwrap().count(),
-        1,
-        "nothing is written beside the data"
-    );
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "nothing is written beside the data");
     assert_eq!(describe(&path).unwrap().len(), 2);
 }
 
@@ -374,18 +335,8 @@ fn what_is_no_vector_file_is_refused_in_words() {
         let _ = refusal(name, &[0; 1000]);
     }
     assert!(refusal("a.shp", JSON.as_bytes()).contains("GeoJSON"));
-    assert!(
-        read(Path::new("/no/such.shp"), None)
-            .unwrap_err()
-            .to_string()
-            .contains("such.shp")
-    );
-    assert!(
-        read(tempfile::tempdir().unwrap().path(), None)
-            .unwrap_err()
-            .to_string()
-            .contains("folder")
-    );
+    assert!(read(Path::new("/no/such.shp"), None).unwrap_err().to_string().contains("such.shp"));
+    assert!(read(tempfile::tempdir().unwrap().path(), None).unwrap_err().to_string().contains("folder"));
     let (_folder, path) = file("a.geojson", JSON.as_bytes());
     assert!(read(&path, Some("lakes")).is_err());
 }
@@ -400,13 +351,8 @@ fn the_content_tells_the_format_where_the_name_does_not() {
 fn a_description_counts_as_the_file_stores() {
     let (_folder, path) = file("a.geojson", JSON.as_bytes());
     let all = describe(&path).unwrap();
-    let [one] = all.as_slice() else {
-        panic!("one layer")
-    };
-    assert_eq!(
-        (one.features, one.polygons, one.lines, one.parts, one.vertices),
-        (4, 2, 1, 5, 18)
-    );
+    let [one] = all.as_slice() else { panic!("one layer") };
+    assert_eq!((one.features, one.polygons, one.lines, one.parts, one.vertices), (4, 2, 1, 5, 18));
     assert_eq!(one.bounds.max, Plan::new(6.0, 6.0));
     assert_eq!(one.format.to_string(), "GeoJSON");
 }
@@ -432,10 +378,7 @@ fn samples() -> &'static [(&'static str, Vec<u8>)] {
     ALL.get_or_init(|| {
         vec![
             ("a.geojson", JSON.as_bytes().to_vec()),
-            (
-                "a.shp",
-                shp(5, &[shp_parts(5, &[&SQUARE]), shp_parts(3, &[&SQUARE, &SQUARE])]),
-            ),
+            ("a.shp", shp(5, &[shp_parts(5, &[&SQUARE]), shp_parts(3, &[&SQUARE, &SQUARE])])),
             ("a.fgb", fgb()),
             ("a.gpkg", gpkg(&["lakes"], &wkb_polygon())),
         ]

@@ -48,11 +48,7 @@ fn head(cursor: &mut Cursor<'_>) -> Result<Head> {
         3 => 2,
         _ => return Err(damaged(&format!("{code} is no type of geometry"))),
     };
-    Ok(Head {
-        endian,
-        kind: plain % 1000,
-        ordinates: 2 + more,
-    })
+    Ok(Head { endian, kind: plain % 1000, ordinates: 2 + more })
 }
 
 fn geometry(cursor: &mut Cursor<'_>, found: &mut Collector, depth: usize) -> Result<()> {
@@ -123,18 +119,13 @@ fn paths(cursor: &mut Cursor<'_>, head: &Head) -> Result<Vec<Vec<Plan>>> {
 }
 
 fn path(cursor: &mut Cursor<'_>, head: &Head) -> Result<Vec<Plan>> {
-    let count = cursor
-        .count(head.endian, 8 * head.ordinates)
-        .ok_or_else(cut_short)?;
+    let count = cursor.count(head.endian, 8 * head.ordinates).ok_or_else(cut_short)?;
     vertices(cursor, head, count)
 }
 
 fn vertices(cursor: &mut Cursor<'_>, head: &Head, count: usize) -> Result<Vec<Plan>> {
     let size = 8 * head.ordinates;
-    let bytes = count
-        .checked_mul(size)
-        .and_then(|n| cursor.take(n))
-        .ok_or_else(cut_short)?;
+    let bytes = count.checked_mul(size).and_then(|n| cursor.take(n)).ok_or_else(cut_short)?;
     let vertex = |bytes: &[u8]| {
         let mut at = Cursor::new(bytes);
         Some(Plan::new(at.f64(head.endian)?, at.f64(head.endian)?))

@@ -104,19 +104,13 @@ impl EdgeIndex {
     /// The south-west corner of cell (column, row).
     #[inline(always)]
     fn corner(&self, column: usize, row: usize) -> Plan {
-        Plan::new(
-            self.origin.x + column as f64 * self.cell,
-            self.origin.y + row as f64 * self.cell,
-        )
+        Plan::new(self.origin.x + column as f64 * self.cell, self.origin.y + row as f64 * self.cell)
     }
 
     /// The cell of a point; `None` outside the grid.
     #[inline]
     fn cell_of(&self, p: Plan) -> Option<(usize, usize)> {
-        let (x, y) = (
-            (p.x - self.origin.x) / self.cell,
-            (p.y - self.origin.y) / self.cell,
-        );
+        let (x, y) = ((p.x - self.origin.x) / self.cell, (p.y - self.origin.y) / self.cell);
         let inside = x >= 0.0 && y >= 0.0 && x < self.columns as f64 && y < self.rows as f64;
         inside.then_some((x as usize, y as usize))
     }
@@ -203,13 +197,7 @@ impl EdgeIndex {
                 changed = true;
                 match found.binary_search_by_key(&edge.area, |w| w.area) {
                     Ok(at) => found[at].turns += turns,
-                    Err(at) => found.insert(
-                        at,
-                        Winding {
-                            area: edge.area,
-                            turns,
-                        },
-                    ),
+                    Err(at) => found.insert(at, Winding { area: edge.area, turns }),
                 }
             }
         }
@@ -224,26 +212,17 @@ impl EdgeIndex {
             return 0;
         };
         let covers = self.covers_of(column, row);
-        let start = covers
-            .binary_search_by_key(&area, |w| w.area)
-            .map_or(0, |at| covers[at].turns);
+        let start = covers.binary_search_by_key(&area, |w| w.area).map_or(0, |at| covers[at].turns);
         let corner = self.corner(column, row);
         let members = self.members_of(column, row);
         let first = members.partition_point(|&m| self.edge(m).area < area);
-        let own = members[first..]
-            .iter()
-            .map(|&m| self.edge(m))
-            .take_while(|e| e.area == area);
+        let own = members[first..].iter().map(|&m| self.edge(m)).take_while(|e| e.area == area);
         start + own.map(|e| turns_on_path(e, corner, p)).sum::<i32>()
     }
 
     /// Calls `visit` with each cell that an edge meets.
     fn for_each_cell(&self, edge: &Edge, mut visit: impl FnMut(usize)) {
-        let (a, b) = if edge.a.y <= edge.b.y {
-            (edge.a, edge.b)
-        } else {
-            (edge.b, edge.a)
-        };
+        let (a, b) = if edge.a.y <= edge.b.y { (edge.a, edge.b) } else { (edge.b, edge.a) };
         for row in self.cells_between(a.y - self.origin.y, b.y - self.origin.y, self.rows) {
             // The part of the edge in a band slightly wider than the row.
             let south = self.corner(0, row).y - self.cell * 1e-6;
@@ -310,8 +289,7 @@ impl EdgeIndex {
         self.cover_starts.push(0);
         for (counts, covers) in rows {
             for count in counts {
-                self.cover_starts
-                    .push(self.cover_starts[self.cover_starts.len() - 1] + count);
+                self.cover_starts.push(self.cover_starts[self.cover_starts.len() - 1] + count);
             }
             self.covers.extend(covers);
         }
@@ -319,11 +297,7 @@ impl EdgeIndex {
 
     /// The rows whose southern line an edge crosses (half-open: a line through an end counts as just below it).
     fn rows_crossed(&self, edge: &Edge) -> impl Iterator<Item = usize> {
-        let (low, high) = if edge.a.y < edge.b.y {
-            (edge.a.y, edge.b.y)
-        } else {
-            (edge.b.y, edge.a.y)
-        };
+        let (low, high) = if edge.a.y < edge.b.y { (edge.a.y, edge.b.y) } else { (edge.b.y, edge.a.y) };
         let candidates = self.cells_between(low - self.origin.y, high - self.origin.y, self.rows);
         let (origin, cell) = (self.origin.y, self.cell);
         candidates.filter(move |row| {
@@ -339,11 +313,7 @@ impl EdgeIndex {
             .map(|&index| {
                 let edge = self.edge(index);
                 // Eastwards across an upward edge one leaves its left side.
-                (
-                    edge.area,
-                    self.first_column_beyond(edge, row),
-                    if edge.b.y > edge.a.y { -1 } else { 1 },
-                )
+                (edge.area, self.first_column_beyond(edge, row), if edge.b.y > edge.a.y { -1 } else { 1 })
             })
             .collect();
         changes.sort_unstable();
@@ -386,11 +356,7 @@ impl EdgeIndex {
         let y = self.corner(0, row).y;
         let x = edge.a.x + (edge.b.x - edge.a.x) * ((y - edge.a.y) / (edge.b.y - edge.a.y));
         let guess = (x - self.origin.x) / self.cell;
-        let mut column = if guess > 0.0 {
-            (guess as usize).min(self.columns)
-        } else {
-            0
-        };
+        let mut column = if guess > 0.0 { (guess as usize).min(self.columns) } else { 0 };
         let upward = edge.b.y > edge.a.y;
         let is_beyond = |column: usize| is_left(edge, self.corner(column, row)) != upward;
         while column > 0 && is_beyond(column - 1) {
@@ -427,11 +393,7 @@ fn is_left(edge: &Edge, p: Plan) -> bool {
         return side > 0.0;
     }
     let along = edge.b - edge.a;
-    if along.y != 0.0 {
-        along.y < 0.0
-    } else {
-        along.x > 0.0
-    }
+    if along.y != 0.0 { along.y < 0.0 } else { along.x > 0.0 }
 }
 
 /// How an area's winding changes along the path from a cell's corner north to the height of `p` and east to `p`.
@@ -472,40 +434,21 @@ impl Layout {
             let extent = (edge.b - edge.a).abs();
             length += extent.x + extent.y;
         }
-        let min = Plan::new(
-            math::max(all.min.x, bounds.min.x),
-            math::max(all.min.y, bounds.min.y),
-        );
-        let max = Plan::new(
-            math::min(all.max.x, bounds.max.x),
-            math::min(all.max.y, bounds.max.y),
-        );
+        let min = Plan::new(math::max(all.min.x, bounds.min.x), math::max(all.min.y, bounds.min.y));
+        let max = Plan::new(math::min(all.max.x, bounds.max.x), math::min(all.max.y, bounds.max.y));
         let size = max - min;
         if !(size.x >= 0.0 && size.y >= 0.0) {
-            return Self {
-                origin: min,
-                cell: 1.0,
-                columns: 0,
-                rows: 0,
-            };
+            return Self { origin: min, cell: 1.0, columns: 0, rows: 0 };
         }
         let count = edges.len() as f64;
         let cells = math::min(2.0 * count, MAX_CELLS);
         let longest = math::max(size.x, size.y);
         let cell = math::max((size.x * size.y / cells).sqrt(), length / (3.0 * count));
         // No more than MAX_CELLS even for a needle, no cell of size zero even for a point.
-        let cell = math::max(
-            math::max(cell, longest / cells),
-            math::max(f64::MIN_POSITIVE, longest * 1e-12),
-        );
+        let cell = math::max(math::max(cell, longest / cells), math::max(f64::MIN_POSITIVE, longest * 1e-12));
         let cell = if cell > 1e-9 { cell } else { 1e-9 };
         let along = |extent: f64| (extent / cell) as usize + 1;
-        Self {
-            origin: min,
-            cell,
-            columns: along(size.x),
-            rows: along(size.y),
-        }
+        Self { origin: min, cell, columns: along(size.x), rows: along(size.y) }
     }
 }
 
@@ -530,22 +473,11 @@ mod tests {
             for k in 0..ring.len() {
                 let (a, b) = (ring[k], ring[(k + 1) % ring.len()]);
                 if a != b {
-                    areas.edges.push(Edge {
-                        a,
-                        b,
-                        area: area as u32,
-                        outside_is_left: false,
-                    });
+                    areas.edges.push(Edge { a, b, area: area as u32, outside_is_left: false });
                 }
             }
         }
-        EdgeIndex::new(
-            areas,
-            &PlanBox {
-                min: Plan::new(-3.0, -3.0),
-                max: Plan::new(3.0, 3.0),
-            },
-        )
+        EdgeIndex::new(areas, &PlanBox { min: Plan::new(-3.0, -3.0), max: Plan::new(3.0, 3.0) })
     }
 
     /// The winding number by the crossings of a ray to the west, half-open.
@@ -554,11 +486,8 @@ mod tests {
             .map(|k| (ring[k], ring[(k + 1) % ring.len()]))
             .filter(|(a, b)| (a.y > p.y) != (b.y > p.y))
             .map(|(a, b)| {
-                let east_of_edge = if b.y > a.y {
-                    orient2d(a, b, p) <= 0.0
-                } else {
-                    orient2d(a, b, p) >= 0.0
-                };
+                let east_of_edge =
+                    if b.y > a.y { orient2d(a, b, p) <= 0.0 } else { orient2d(a, b, p) >= 0.0 };
                 if !east_of_edge {
                     0
                 } else if b.y > a.y {

@@ -81,17 +81,11 @@ impl Areas {
         let mut inside = None;
         if fill.is_some() || needs_inside {
             inside = Some(self.areas.len() as u32);
-            self.begin(
-                from,
-                fill.map(|f| f.color),
-                fill.map_or(Rule::EvenOdd, |f| f.rule),
-            );
+            self.begin(from, fill.map(|f| f.color), fill.map_or(Rule::EvenOdd, |f| f.rule));
             if let Some(area) = self.areas.last_mut() {
                 area.is_rings = true;
             }
-            rings
-                .iter()
-                .for_each(|ring| self.add_chain(ring.iter().copied(), true));
+            rings.iter().for_each(|ring| self.add_chain(ring.iter().copied(), true));
         }
         if let Some(outline) = outline {
             let cut = match outline.mode {
@@ -108,30 +102,15 @@ impl Areas {
     }
 
     fn begin(&mut self, (layer, feature): (u32, u32), color: Option<crate::scene::Color>, rule: Rule) {
-        self.areas.push(Area {
-            layer,
-            feature,
-            color,
-            rule,
-            cut: None,
-            is_rings: false,
-        });
+        self.areas.push(Area { layer, feature, color, rule, cut: None, is_rings: false });
     }
 
     /// Adds the edges between consecutive points (and back to the first), outside on the right.
     fn add_chain(&mut self, points: impl Iterator<Item = Plan> + Clone, is_closed: bool) {
         let area = self.areas.len() as u32 - 1;
-        let next = points
-            .clone()
-            .skip(1)
-            .chain(points.clone().take(usize::from(is_closed)));
+        let next = points.clone().skip(1).chain(points.clone().take(usize::from(is_closed)));
         let edges = points.zip(next).filter(|(a, b)| a != b);
-        self.edges.extend(edges.map(|(a, b)| Edge {
-            a,
-            b,
-            area,
-            outside_is_left: false,
-        }));
+        self.edges.extend(edges.map(|(a, b)| Edge { a, b, area, outside_is_left: false }));
     }
 
     /// Expands an open polyline (Fig. 4a to 4e); one that is closed has no caps.
@@ -183,10 +162,7 @@ fn without_repeats(points: &[Plan]) -> Vec<Plan> {
 fn with_square_ends(mut points: Vec<Plan>, line: &Line, half: f64) -> Option<Vec<Plan>> {
     let n = points.len();
     let direction = |from: Plan, to: Plan| (to - from).try_normalize();
-    let (first, last) = (
-        direction(*points.get(1)?, points[0])?,
-        direction(points[n - 2], points[n - 1])?,
-    );
+    let (first, last) = (direction(*points.get(1)?, points[0])?, direction(points[n - 2], points[n - 1])?);
     if line.cap == Cap::Square {
         points[0] = points[0] + first * half;
         points[n - 1] = points[n - 1] + last * half;
@@ -199,16 +175,8 @@ fn side_chain(points: &[Plan], half: f64, is_closed: bool) -> Vec<Plan> {
     let n = points.len();
     let mut chain = Vec::with_capacity(n + 2);
     for k in 0..n {
-        let before = if k > 0 {
-            Some(k - 1)
-        } else {
-            is_closed.then_some(n - 1)
-        };
-        let after = if k + 1 < n {
-            Some(k + 1)
-        } else {
-            is_closed.then_some(0)
-        };
+        let before = if k > 0 { Some(k - 1) } else { is_closed.then_some(n - 1) };
+        let after = if k + 1 < n { Some(k + 1) } else { is_closed.then_some(0) };
         let into = before.and_then(|b| (points[k] - points[b]).try_normalize());
         let out = after.and_then(|a| (points[a] - points[k]).try_normalize());
         let right = |d: DVec2| DVec2::new(d.y, -d.x) * half;
@@ -236,23 +204,12 @@ mod tests {
     use crate::scene::{Color, Join, Style};
 
     fn expanded(points: &[(f64, f64)], cap: Cap) -> Vec<Edge> {
-        let line = Line {
-            color: Color([1.0; 4]),
-            width: Width::Metres(2.0),
-            join: Join::Bevel,
-            cap,
-        };
+        let line = Line { color: Color([1.0; 4]), width: Width::Metres(2.0), join: Join::Bevel, cap };
         let part = points.iter().map(|&(x, y)| Plan::new(x, y)).collect();
         let layer = Layer {
             name: String::new(),
-            style: Style {
-                line: Some(line),
-                ..Style::default()
-            },
-            features: vec![Feature {
-                index: 0,
-                shape: Shape::Line(vec![part]),
-            }],
+            style: Style { line: Some(line), ..Style::default() },
+            features: vec![Feature { index: 0, shape: Shape::Line(vec![part]) }],
         };
         Areas::of_layers(&[layer]).edges
     }
@@ -264,10 +221,7 @@ mod tests {
     #[test]
     fn a_segment_becomes_a_rectangle_with_its_outside_on_the_right() {
         let edges = expanded(&[(0.0, 0.0), (4.0, 0.0)], Cap::Butt);
-        assert_eq!(
-            corners(&edges),
-            [(0.0, -1.0), (4.0, -1.0), (4.0, 1.0), (0.0, 1.0)]
-        );
+        assert_eq!(corners(&edges), [(0.0, -1.0), (4.0, -1.0), (4.0, 1.0), (0.0, 1.0)]);
     }
 
     #[test]
@@ -275,24 +229,14 @@ mod tests {
         let edges = expanded(&[(0.0, 0.0), (4.0, 0.0), (4.0, 4.0)], Cap::Butt);
         assert_eq!(
             corners(&edges),
-            [
-                (0.0, -1.0),
-                (5.0, -1.0),
-                (5.0, 4.0),
-                (3.0, 4.0),
-                (3.0, 1.0),
-                (0.0, 1.0)
-            ]
+            [(0.0, -1.0), (5.0, -1.0), (5.0, 4.0), (3.0, 4.0), (3.0, 1.0), (0.0, 1.0)]
         );
     }
 
     #[test]
     fn a_line_that_turns_back_stays_finite_and_short() {
         let edges = expanded(&[(0.0, 0.0), (10.0, 0.0), (2.0, 0.0)], Cap::Butt);
-        assert!(
-            edges.iter().all(|e| e.a.x.abs() <= 10.0 && e.a.y.abs() <= 1.0),
-            "{edges:?}"
-        );
+        assert!(edges.iter().all(|e| e.a.x.abs() <= 10.0 && e.a.y.abs() <= 1.0), "{edges:?}");
     }
 
     #[test]

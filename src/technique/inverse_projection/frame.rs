@@ -32,16 +32,9 @@ pub fn draw(stage: &Stage, settings: &InverseProjection, index: &EdgeIndex, opti
     let compositor = Compositor::new(stage.scene.compositing);
     let drawing = Drawing {
         settings,
-        judge: Judge {
-            index,
-            rule: settings.point_in_polygon,
-        },
+        judge: Judge { index, rule: settings.point_in_polygon },
         ground: GroundPaint::new(&stage.scene.ground, &stage.mesh, compositor),
-        paints: index
-            .areas()
-            .iter()
-            .map(|a| a.color.map(|c| compositor.paint(c)))
-            .collect(),
+        paints: index.areas().iter().map(|a| a.color.map(|c| compositor.paint(c))).collect(),
         sky: compositor.paint(stage.scene.image.background),
         compositor,
         wants_quads: options.buffers.iter().any(|b| b == "quad"),
@@ -129,12 +122,7 @@ impl<'a> Seen<'a> {
                 }
             }
         });
-        Self {
-            stage,
-            lattice: *lattice,
-            sight,
-            plan,
-        }
+        Self { stage, lattice: *lattice, sight, plan }
     }
 
     #[inline(always)]
@@ -152,14 +140,10 @@ impl<'a> Seen<'a> {
         let limit = SILHOUETTE_RATIO * SILHOUETTE_RATIO;
         let expected = |id: u32, at: (usize, usize), seen_from: (usize, usize)| {
             let ray = self.stage.view.ray(self.lattice.at(seen_from.0, seen_from.1));
-            let hit: Option<Hit> = self
-                .stage
-                .mesh
-                .triangle(id)
-                .map(|t| crate::visibility::hit(&self.stage.view, &ray, &t));
+            let hit: Option<Hit> =
+                self.stage.mesh.triangle(id).map(|t| crate::visibility::hit(&self.stage.view, &ray, &t));
             // A plane that the neighbour's ray misses would reach to the horizon.
-            hit.filter(|h| h.depth > 0.0)
-                .map_or(f64::INFINITY, |h| (h.plan - self.plan(at)).length_squared())
+            hit.filter(|h| h.depth > 0.0).map_or(f64::INFINITY, |h| (h.plan - self.plan(at)).length_squared())
         };
         length > limit * expected(ids[0], from, to) && length > limit * expected(ids[1], to, from)
     }
@@ -188,16 +172,9 @@ impl Drawing<'_> {
         let plan = self.centres.plan(centre);
         let none = Quadrilateral::point(Plan::default());
         if !plan.is_finite() {
-            return Pixel {
-                paint: self.sky,
-                class: N,
-                edges: 0,
-                quad: none,
-            };
+            return Pixel { paint: self.sky, class: N, edges: 0, quad: none };
         }
-        let ground = self
-            .ground
-            .at(self.centres.sight.triangle(centre.0, centre.1), plan);
+        let ground = self.ground.at(self.centres.sight.triangle(centre.0, centre.1), plan);
         let quad = self.range(at).filter(|quad| {
             // Only where edges may be near does it matter whether the range means anything.
             let matters = self.wants_quads || self.judge.index.has_edges_near(quad);
@@ -214,12 +191,7 @@ impl Drawing<'_> {
         counts.samples += u64::from(self.settings.samples * self.settings.samples);
         counts.edge_tests +=
             u64::from(self.settings.samples * self.settings.samples) * lists.near.len() as u64;
-        Pixel {
-            paint: self.mean(&quad, plan, ground, lists),
-            class: P,
-            edges: lists.near.len() as u32,
-            quad,
-        }
+        Pixel { paint: self.mean(&quad, plan, ground, lists), class: P, edges: lists.near.len() as u32, quad }
     }
 
     /// She 3.2, Fig. 6b: the quadrilateral of a pixel from the centres of itself and its right, upper right and upper
@@ -257,26 +229,16 @@ impl Drawing<'_> {
     fn whole(&self, quad: Quadrilateral, plan: Plan, ground: Paint, lists: &mut Lists) -> Pixel {
         lists.near.clear();
         self.involve(plan, lists);
-        let is_covered = lists
-            .involved
-            .iter()
-            .any(|i| self.paints[i.area as usize].is_some());
+        let is_covered = lists.involved.iter().any(|i| self.paints[i.area as usize].is_some());
         let paint = self.compose(plan, ground, lists);
-        Pixel {
-            paint,
-            class: if is_covered { F } else { N },
-            edges: 0,
-            quad,
-        }
+        Pixel { paint, class: if is_covered { F } else { N }, edges: 0, quad }
     }
 
     /// She 3.5: the mean of the composed colours of the samples (3.4).
     fn mean(&self, quad: &Quadrilateral, plan: Plan, ground: Paint, lists: &mut Lists) -> Paint {
         self.involve(plan, lists);
         let n = self.settings.samples;
-        let sum = quad
-            .samples(n)
-            .fold(Paint::CLEAR, |sum, s| sum.plus(self.compose(s, ground, lists)));
+        let sum = quad.samples(n).fold(Paint::CLEAR, |sum, s| sum.plus(self.compose(s, ground, lists)));
         sum.divided_by(f64::from(n * n))
     }
 
@@ -290,10 +252,7 @@ impl Drawing<'_> {
         let mut take_whole_below = |limit: u32, involved: &mut Vec<Involved>| {
             while let Some(w) = windings.next_if(|w| w.area <= limit) {
                 if w.area < limit && index.areas()[w.area as usize].rule.contains(w.turns) {
-                    involved.push(Involved {
-                        area: w.area,
-                        near: 0..0,
-                    });
+                    involved.push(Involved { area: w.area, near: 0..0 });
                 }
             }
         };
@@ -301,10 +260,7 @@ impl Drawing<'_> {
             let area = index.edge(lists.near[start]).area;
             let end = start + lists.near[start..].partition_point(|&e| index.edge(e).area == area);
             take_whole_below(area, &mut lists.involved);
-            lists.involved.push(Involved {
-                area,
-                near: start..end,
-            });
+            lists.involved.push(Involved { area, near: start..end });
             start = end;
         }
         take_whole_below(u32::MAX, &mut lists.involved);
@@ -332,36 +288,20 @@ impl Drawing<'_> {
     #[inline]
     fn is_in(&self, involved: &Involved, sample: Plan, lists: &Lists) -> bool {
         involved.near.is_empty()
-            || self
-                .judge
-                .contains(involved.area, &lists.near[involved.near.clone()], sample)
+            || self.judge.contains(involved.area, &lists.near[involved.near.clone()], sample)
     }
 
     fn frame(&self, (width, height): (usize, usize), rows: Vec<Row>, options: &FrameOptions) -> Frame {
         let colors = || rows.iter().flat_map(|r| r.colors.iter());
         let image = Buffer::from_values(width, height, colors().map(|c| code_values(*c)).collect());
         let wants = |name: &str| options.buffers.iter().any(|b| b == name);
-        let plane = |name, components, values| Plane {
-            name,
-            width,
-            height,
-            components,
-            values,
-        };
+        let plane = |name, components, values| Plane { name, width, height, components, values };
         let mut planes = Vec::new();
         if ["depth", "triangle", "plan"].into_iter().any(wants) {
-            planes.extend(
-                self.surface_planes((width, height))
-                    .into_iter()
-                    .filter(|p| wants(p.name)),
-            );
+            planes.extend(self.surface_planes((width, height)).into_iter().filter(|p| wants(p.name)));
         }
         if wants("color") {
-            planes.push(plane(
-                "color",
-                4,
-                Values::F64(colors().flatten().copied().collect()),
-            ));
+            planes.push(plane("color", 4, Values::F64(colors().flatten().copied().collect())));
         }
         if wants("class") {
             planes.push(plane(
@@ -371,11 +311,7 @@ impl Drawing<'_> {
             ));
         }
         if wants("quad") {
-            planes.push(plane(
-                "quad",
-                8,
-                Values::F64(rows.iter().flat_map(|r| &r.quads).copied().collect()),
-            ));
+            planes.push(plane("quad", 8, Values::F64(rows.iter().flat_map(|r| &r.quads).copied().collect())));
         }
         if wants("edges") {
             planes.push(plane(
@@ -384,11 +320,7 @@ impl Drawing<'_> {
                 Values::U32(rows.iter().flat_map(|r| &r.edges).copied().collect()),
             ));
         }
-        Frame {
-            image,
-            planes,
-            counts: self.counts(&rows),
-        }
+        Frame { image, planes, counts: self.counts(&rows) }
     }
 
     /// What the pixels' centres see: depth (infinite: sky), triangle, plan point (0, 0 in the sky).
@@ -397,21 +329,11 @@ impl Drawing<'_> {
         for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x + 1, y + 1))) {
             let hit = self.centres.sight.hit(x, y);
             depth.push(hit.map_or(f64::INFINITY, |h| h.depth));
-            triangle.push(if hit.is_some() {
-                self.centres.sight.triangle(x, y)
-            } else {
-                SKY
-            });
+            triangle.push(if hit.is_some() { self.centres.sight.triangle(x, y) } else { SKY });
             let at = hit.map_or(Plan::default(), |h| h.plan);
             plan.extend([at.x, at.y]);
         }
-        let plane = |name, components, values| Plane {
-            name,
-            width,
-            height,
-            components,
-            values,
-        };
+        let plane = |name, components, values| Plane { name, width, height, components, values };
         [
             plane("depth", 1, Values::F64(depth)),
             plane("triangle", 1, Values::U32(triangle)),

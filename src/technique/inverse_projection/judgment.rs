@@ -7,10 +7,7 @@ use crate::space::Plan;
 
 /// She's FLAG for a sample and the edges of one area that meet the pixel: positive inside, else outside.
 pub fn flag<'a>(sample: Plan, edges: impl Iterator<Item = &'a Edge>) -> i32 {
-    edges
-        .filter(|edge| is_correlated(sample, edge))
-        .map(|edge| code_a(sample, edge))
-        .sum()
+    edges.filter(|edge| is_correlated(sample, edge)).map(|edge| code_a(sample, edge)).sum()
 }
 
 /// Code A: +1 where the sum of the vectors from the sample to the edge's ends points along the edge's outward normal
@@ -60,23 +57,14 @@ mod tests {
     use super::*;
 
     fn edge(a: (f64, f64), b: (f64, f64)) -> Edge {
-        Edge {
-            a: Plan::new(a.0, a.1),
-            b: Plan::new(b.0, b.1),
-            area: 0,
-            outside_is_left: false,
-        }
+        Edge { a: Plan::new(a.0, a.1), b: Plan::new(b.0, b.1), area: 0, outside_is_left: false }
     }
 
     #[test]
     fn a_sample_inside_a_straight_line_has_both_its_edges_for_it() {
         let line = [edge((0.0, -1.0), (9.0, -1.0)), edge((9.0, 1.0), (0.0, 1.0))];
         assert_eq!(flag(Plan::new(4.0, 0.5), line.iter()), 2);
-        assert_eq!(
-            flag(Plan::new(4.0, 1.5), line.iter()),
-            0,
-            "one for, one against: outside"
-        );
+        assert_eq!(flag(Plan::new(4.0, 1.5), line.iter()), 0, "one for, one against: outside");
     }
 
     #[test]

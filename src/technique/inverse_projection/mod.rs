@@ -58,11 +58,7 @@ impl<'s> Prepare<'s> {
             );
         }
         let index = EdgeIndex::new(areas, &stage.mesh.plan_bounds());
-        Ok(Self {
-            stage,
-            settings: stage.scene.technique.inverse_projection,
-            index,
-        })
+        Ok(Self { stage, settings: stage.scene.technique.inverse_projection, index })
     }
 }
 

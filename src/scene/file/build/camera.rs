@@ -15,22 +15,13 @@ pub(super) fn camera(section: &mut Section<'_>) -> Result<CameraSpec> {
     let (near_m, far_m) = range(section)?;
     let view = view(section, eye, target, up.as_ref())?;
     let up = up.map_or(DVec3::Z, |taken| DVec3::from_array(taken.value));
-    Ok(CameraSpec {
-        view,
-        up,
-        projection,
-        near_m,
-        far_m,
-    })
+    Ok(CameraSpec { view, up, projection, near_m, far_m })
 }
 
 /// A point in plan or geographic coordinates.
 fn spot(section: &mut Section<'_>, plan: &str, geo: &str) -> Result<Option<Taken<Spot>>> {
     if let Some(Taken { value, place }) = section.numbers_at::<3>(plan)? {
-        return Ok(Some(Taken {
-            value: Spot::Plan(DVec3::from_array(value)),
-            place,
-        }));
+        return Ok(Some(Taken { value: Spot::Plan(DVec3::from_array(value)), place }));
     }
     let Some(Taken { value, place }) = section.numbers_at::<3>(geo)? else {
         return Ok(None);
@@ -41,10 +32,7 @@ fn spot(section: &mut Section<'_>, plan: &str, geo: &str) -> Result<Option<Taken
         );
         return Err(section.error_at(&place, what));
     }
-    Ok(Some(Taken {
-        value: Spot::Geo(DVec3::from_array(value)),
-        place,
-    }))
+    Ok(Some(Taken { value: Spot::Geo(DVec3::from_array(value)), place }))
 }
 
 fn view(
@@ -65,10 +53,9 @@ fn view(
     let blamed = up.map_or(&target.place, |up| &up.place);
     match (eye.value, target.value) {
         (Spot::Plan(from), Spot::Plan(to)) if from == to => {
-            return Err(section.error_at(
-                &target.place,
-                "`camera.eye` and `camera.target` are the same point",
-            ));
+            return Err(
+                section.error_at(&target.place, "`camera.eye` and `camera.target` are the same point")
+            );
         }
         (Spot::Plan(from), Spot::Plan(to)) => check_view(from, to, direction).map_err(|error| {
             let placed = section.error_at(blamed, error.what());
@@ -76,17 +63,12 @@ fn view(
         })?,
         _ => up.map_or(Ok(()), |up| nonzero(section, up))?,
     }
-    Ok(Some(ViewSpec {
-        eye: eye.value,
-        target: target.value,
-    }))
+    Ok(Some(ViewSpec { eye: eye.value, target: target.value }))
 }
 
 fn nonzero(section: &Section<'_>, up: &Taken<[f64; 3]>) -> Result<()> {
     let what = "`camera.up` has no direction: all its numbers are 0";
-    (up.value != [0.0; 3])
-        .then_some(())
-        .ok_or_else(|| section.error_at(&up.place, what))
+    (up.value != [0.0; 3]).then_some(()).ok_or_else(|| section.error_at(&up.place, what))
 }
 
 /// Whether a camera at `eye` that looks at `target` has a picture with `up` upwards.
@@ -118,27 +100,21 @@ fn projection(section: &mut Section<'_>) -> Result<Projection> {
         ProjectionName::Orthographic => "fov_y_deg",
     };
     if let Some((_, place)) = section.first_of(&[stray]) {
-        let other = if stray == "height_m" {
-            "orthographic"
-        } else {
-            "perspective"
-        };
+        let other = if stray == "height_m" { "orthographic" } else { "perspective" };
         let what = format!("`camera.{stray}` goes with projection = \"{other}\" only");
         return Err(section.error_at(place, what));
     }
     match kind {
-        ProjectionName::Perspective => Ok(Projection::Perspective {
-            fov_y_deg: section.number("fov_y_deg")?.unwrap_or(45.0),
-        }),
+        ProjectionName::Perspective => {
+            Ok(Projection::Perspective { fov_y_deg: section.number("fov_y_deg")?.unwrap_or(45.0) })
+        }
         ProjectionName::Orthographic => {
             let height_m = section.number("height_m")?;
             let missing = || {
                 section
                     .error("projection = \"orthographic\" needs `height_m`: what the picture's height spans")
             };
-            Ok(Projection::Orthographic {
-                height_m: height_m.ok_or_else(missing)?,
-            })
+            Ok(Projection::Orthographic { height_m: height_m.ok_or_else(missing)? })
         }
     }
 }
@@ -147,10 +123,8 @@ fn range(section: &mut Section<'_>) -> Result<(f64, Option<f64>)> {
     let near_m = section.number("near_m")?.unwrap_or(1.0);
     let far = section.number_at("far_m")?;
     match far {
-        Some(Taken { value, place }) if value <= near_m => Err(section.error_at(
-            &place,
-            format!("`camera.far_m` must be greater than near_m, which is {near_m}"),
-        )),
+        Some(Taken { value, place }) if value <= near_m => Err(section
+            .error_at(&place, format!("`camera.far_m` must be greater than near_m, which is {near_m}"))),
         far => Ok((near_m, far.map(|taken| taken.value))),
     }
 }

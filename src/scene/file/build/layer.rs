@@ -61,21 +61,14 @@ pub(in crate::scene::file) fn default_name(
 fn source(section: &mut Section<'_>) -> Result<LayerSource> {
     if let Some(taken) = section.text_at("source")? {
         let file = data_file(section.origin(), taken);
-        return Ok(LayerSource::File {
-            file,
-            layer: section.text("layer")?,
-        });
+        return Ok(LayerSource::File { file, layer: section.text("layer")? });
     }
     if let Some((key, place)) = section.first_of(&["layer", "crs"]) {
         return Err(section.error_at(place, format!("`{key}` goes with a layer's `source` only")));
     }
     if let Some(features) = section.tables("features")? {
         let shape = |node| Section::read(section.origin(), node, inline);
-        return features
-            .into_iter()
-            .map(shape)
-            .collect::<Result<_>>()
-            .map(LayerSource::Inline);
+        return features.into_iter().map(shape).collect::<Result<_>>().map(LayerSource::Inline);
     }
     let node = section.take_or_empty("generate");
     Section::read(section.origin(), node, generator).map(LayerSource::Generate)
@@ -107,13 +100,10 @@ fn generator(section: &mut Section<'_>) -> Result<VectorGenerator> {
         return Err(section.error_at(place, format!("`{key}` goes with kind = \"{of}\" only")));
     }
     let kind = match name {
-        VectorName::Roads => VectorKind::Roads {
-            segment_m: section.number("segment_m")?,
-        },
-        VectorName::Mosaic => VectorKind::Mosaic {
-            class: class(section)?,
-            holes: section.number("holes")?.unwrap_or(0.1),
-        },
+        VectorName::Roads => VectorKind::Roads { segment_m: section.number("segment_m")? },
+        VectorName::Mosaic => {
+            VectorKind::Mosaic { class: class(section)?, holes: section.number("holes")?.unwrap_or(0.1) }
+        }
     };
     Ok(VectorGenerator {
         kind,
@@ -135,13 +125,9 @@ fn count(section: &mut Section<'_>, name: VectorName) -> Result<usize> {
 
 fn class(section: &mut Section<'_>) -> Result<Option<(u32, u32)>> {
     match section.integers_at("class")? {
-        Some(Taken {
-            value: [class, of],
-            place,
-        }) if class >= of => Err(section.error_at(
-            &place,
-            format!("class {class} of {of}: classes are counted from 0"),
-        )),
+        Some(Taken { value: [class, of], place }) if class >= of => {
+            Err(section.error_at(&place, format!("class {class} of {of}: classes are counted from 0")))
+        }
         taken => Ok(taken.map(|taken| (taken.value[0] as u32, taken.value[1] as u32))),
     }
 }
@@ -149,39 +135,19 @@ fn class(section: &mut Section<'_>) -> Result<Option<(u32, u32)>> {
 fn style(section: &mut Section<'_>) -> Result<Style> {
     let origin = section.origin();
     Ok(Style {
-        fill: section
-            .take("fill")
-            .map(|node| Section::read(origin, node, fill))
-            .transpose()?,
-        outline: section
-            .take("outline")
-            .map(|node| Section::read(origin, node, outline))
-            .transpose()?,
-        line: section
-            .take("line")
-            .map(|node| Section::read(origin, node, line))
-            .transpose()?,
+        fill: section.take("fill").map(|node| Section::read(origin, node, fill)).transpose()?,
+        outline: section.take("outline").map(|node| Section::read(origin, node, outline)).transpose()?,
+        line: section.take("line").map(|node| Section::read(origin, node, line)).transpose()?,
     })
 }
 
 fn fill(section: &mut Section<'_>) -> Result<Fill> {
-    Ok(Fill {
-        color: color(section)?,
-        rule: section.name("rule")?.unwrap_or_default(),
-    })
+    Ok(Fill { color: color(section)?, rule: section.name("rule")?.unwrap_or_default() })
 }
 
 fn outline(section: &mut Section<'_>) -> Result<Outline> {
-    let line = Line {
-        color: color(section)?,
-        width: width(section)?,
-        join: join(section)?,
-        cap: Cap::Butt,
-    };
-    Ok(Outline {
-        line,
-        mode: section.name("mode")?.unwrap_or_default(),
-    })
+    let line = Line { color: color(section)?, width: width(section)?, join: join(section)?, cap: Cap::Butt };
+    Ok(Outline { line, mode: section.name("mode")?.unwrap_or_default() })
 }
 
 fn line(section: &mut Section<'_>) -> Result<Line> {
@@ -195,10 +161,7 @@ fn line(section: &mut Section<'_>) -> Result<Line> {
 
 fn color(section: &mut Section<'_>) -> Result<Color> {
     let opacity = section.number("opacity")?.unwrap_or(1.0);
-    Ok(section
-        .color("color")?
-        .unwrap_or(Color([0.0, 0.0, 0.0, 1.0]))
-        .with_opacity(opacity))
+    Ok(section.color("color")?.unwrap_or(Color([0.0, 0.0, 0.0, 1.0])).with_opacity(opacity))
 }
 
 fn width(section: &mut Section<'_>) -> Result<Width> {
@@ -217,8 +180,6 @@ fn join(section: &mut Section<'_>) -> Result<Join> {
     Ok(match name {
         JoinName::Round => Join::Round,
         JoinName::Bevel => Join::Bevel,
-        JoinName::Miter => Join::Miter {
-            limit: section.number("miter_limit")?.unwrap_or(4.0),
-        },
+        JoinName::Miter => Join::Miter { limit: section.number("miter_limit")?.unwrap_or(4.0) },
     })
 }

@@ -51,11 +51,7 @@ fn image(section: &mut Section<'_>) -> Result<ImageSettings> {
         return Err(section.error_at(&place, what));
     }
     let background = section.color("background")?.unwrap_or(Color([1.0; 4]));
-    Ok(ImageSettings {
-        width,
-        height,
-        background,
-    })
+    Ok(ImageSettings { width, height, background })
 }
 
 fn compositing(section: &mut Section<'_>) -> Result<Compositing> {
@@ -72,9 +68,7 @@ fn device(section: &mut Section<'_>) -> Result<Device> {
         subpixel_bits: section.integer("subpixel_bits")?.unwrap_or(exact.subpixel_bits),
         depth: section.name("depth")?.unwrap_or(exact.depth),
         stencil_bits: section.integer("stencil_bits")?.unwrap_or(exact.stencil_bits),
-        max_line_width_px: section
-            .number("max_line_width_px")?
-            .unwrap_or(exact.max_line_width_px),
+        max_line_width_px: section.number("max_line_width_px")?.unwrap_or(exact.max_line_width_px),
     })
 }
 
@@ -89,9 +83,7 @@ fn inverse_projection(section: &mut Section<'_>) -> Result<InverseProjection> {
     Ok(InverseProjection {
         samples: section.integer("samples")?.unwrap_or(default.samples),
         corners: section.name("corners")?.unwrap_or(default.corners),
-        point_in_polygon: section
-            .name("point_in_polygon")?
-            .unwrap_or(default.point_in_polygon),
+        point_in_polygon: section.name("point_in_polygon")?.unwrap_or(default.point_in_polygon),
         silhouette: section.name("silhouette")?.unwrap_or(default.silhouette),
     })
 }
@@ -124,9 +116,6 @@ fn data_file(origin: &Origin<'_>, taken: Taken<String>) -> DataFile {
 
 /// A file's name without its extension.
 fn stem(path: Option<&Path>, otherwise: &str) -> String {
-    let stem = path
-        .and_then(Path::file_stem)
-        .map(|stem| stem.to_string_lossy().into_owned());
-    stem.filter(|stem| !stem.is_empty() && !stem.starts_with('<'))
-        .unwrap_or_else(|| otherwise.into())
+    let stem = path.and_then(Path::file_stem).map(|stem| stem.to_string_lossy().into_owned());
+    stem.filter(|stem| !stem.is_empty() && !stem.starts_with('<')).unwrap_or_else(|| otherwise.into())
 }

@@ -30,10 +30,9 @@ fn source(section: &mut Section<'_>) -> Result<TerrainSource> {
         return Ok(TerrainSource::File(data_file(section.origin(), taken)));
     }
     if let Some((key, place)) = section.first_of(&["window", "crs", "bounds", "encoding"]) {
-        return Err(section.error_at(
-            place,
-            format!("`terrain.{key}` goes with a `source`, not with `generate`"),
-        ));
+        return Err(
+            section.error_at(place, format!("`terrain.{key}` goes with a `source`, not with `generate`"))
+        );
     }
     let node = section.take_or_empty("generate");
     Section::read(section.origin(), node, generator).map(TerrainSource::Generate)
@@ -43,9 +42,7 @@ fn ground(section: &mut Section<'_>) -> Result<GroundSpec> {
     if let Some(taken) = section.text_at("imagery")? {
         return Ok(GroundSpec::Imagery(data_file(section.origin(), taken)));
     }
-    let color = section
-        .color("color")?
-        .unwrap_or(Color::from_rgba8([0xc8, 0xb8, 0x9a, 0xff]));
+    let color = section.color("color")?.unwrap_or(Color::from_rgba8([0xc8, 0xb8, 0x9a, 0xff]));
     Ok(match section.name("shade")?.unwrap_or(ShadeName::Flat) {
         ShadeName::Flat => GroundSpec::Color(color),
         ShadeName::Hillshade => GroundSpec::Hillshade(color),
@@ -57,17 +54,10 @@ fn generator(section: &mut Section<'_>) -> Result<TerrainGenerator> {
     let posts = posts(section)?;
     let cell_m = section.number("cell_m")?.unwrap_or(30.0);
     let level = matches!(name, TerrainName::Plane | TerrainName::Ramp);
-    let height_m = section
-        .number("height_m")?
-        .unwrap_or(if level { 0.0 } else { 500.0 });
+    let height_m = section.number("height_m")?.unwrap_or(if level { 0.0 } else { 500.0 });
     refuse_foreign(section, name)?;
     let sides = (extent(posts.0, cell_m), extent(posts.1, cell_m));
-    Ok(TerrainGenerator {
-        kind: kind(section, name, sides)?,
-        posts,
-        cell_m,
-        height_m,
-    })
+    Ok(TerrainGenerator { kind: kind(section, name, sides)?, posts, cell_m, height_m })
 }
 
 fn extent(posts: usize, cell_m: f64) -> f64 {
@@ -75,18 +65,13 @@ fn extent(posts: usize, cell_m: f64) -> f64 {
 }
 
 fn posts(section: &mut Section<'_>) -> Result<(usize, usize)> {
-    let Some(Taken {
-        value: [columns, rows],
-        place,
-    }) = section.integers_at("posts")?
-    else {
+    let Some(Taken { value: [columns, rows], place }) = section.integers_at("posts")? else {
         return Ok((257, 257));
     };
     if columns * rows > MOST_POSTS {
-        return Err(section.error_at(
-            &place,
-            format!("{columns} x {rows} posts are too many: at most 2^28 in all"),
-        ));
+        return Err(
+            section.error_at(&place, format!("{columns} x {rows} posts are too many: at most 2^28 in all"))
+        );
     }
     Ok((columns, rows))
 }
@@ -116,18 +101,12 @@ fn kind(section: &mut Section<'_>, name: TerrainName, (east, north): (f64, f64))
     let quarter = 0.25 * if east > north { north } else { east };
     Ok(match name {
         TerrainName::Plane => TerrainKind::Plane,
-        TerrainName::Ramp => TerrainKind::Ramp {
-            slope_deg: section.number("slope_deg")?.unwrap_or(10.0),
-        },
-        TerrainName::Sine => TerrainKind::Sine {
-            wavelength_m: section.number("wavelength_m")?.unwrap_or(0.25 * longer),
-        },
-        TerrainName::Cone => TerrainKind::Cone {
-            radius_m: section.number("radius_m")?.unwrap_or(quarter),
-        },
-        TerrainName::Tent => TerrainKind::Tent {
-            radius_m: section.number("radius_m")?.unwrap_or(quarter),
-        },
+        TerrainName::Ramp => TerrainKind::Ramp { slope_deg: section.number("slope_deg")?.unwrap_or(10.0) },
+        TerrainName::Sine => {
+            TerrainKind::Sine { wavelength_m: section.number("wavelength_m")?.unwrap_or(0.25 * longer) }
+        }
+        TerrainName::Cone => TerrainKind::Cone { radius_m: section.number("radius_m")?.unwrap_or(quarter) },
+        TerrainName::Tent => TerrainKind::Tent { radius_m: section.number("radius_m")?.unwrap_or(quarter) },
         TerrainName::Fbm => TerrainKind::Fbm {
             seed,
             wavelength_m: section.number("wavelength_m")?.unwrap_or(0.5 * longer),

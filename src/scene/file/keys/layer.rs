@@ -7,53 +7,26 @@ use crate::scene::{Cap, OutlineMode, Rule};
 
 pub(super) static LAYER: TableShape = TableShape {
     keys: &[
-        key(
-            "name",
-            Shape::Text,
-            "The layer's name. Default: the file's name without its extension.",
-        ),
+        key("name", Shape::Text, "The layer's name. Default: the file's name without its extension."),
         key(
             "source",
             Shape::Text,
             "A vector file: .geojson .json .shp .fgb .gpkg. Relative to the scene file.",
         ),
-        key(
-            "features",
-            Shape::Tables(&FEATURE),
-            "Features written here, in plan coordinates.",
-        ),
-        key(
-            "generate",
-            Shape::Table(&GENERATE_LAYER),
-            "Features by a generator.",
-        ),
-        key(
-            "layer",
-            Shape::Text,
-            "Which layer of a file that has several (GeoPackage).",
-        ),
-        key(
-            "crs",
-            Shape::Text,
-            "The CRS of the data, over what the file says.",
-        ),
+        key("features", Shape::Tables(&FEATURE), "Features written here, in plan coordinates."),
+        key("generate", Shape::Table(&GENERATE_LAYER), "Features by a generator."),
+        key("layer", Shape::Text, "Which layer of a file that has several (GeoPackage)."),
+        key("crs", Shape::Text, "The CRS of the data, over what the file says."),
         key(
             "offset",
             Shape::Numbers(2),
             "Moves the layer in plan space: [dx, dy] in metres. Default: [0, 0].",
         ),
         key("fill", Shape::Table(&FILL), "The inside of polygons."),
-        key(
-            "outline",
-            Shape::Table(&OUTLINE),
-            "The border of polygons, over the fill.",
-        ),
+        key("outline", Shape::Table(&OUTLINE), "The border of polygons, over the fill."),
         key("line", Shape::Table(&LINE), "Lines."),
     ],
-    rules: &[
-        Keys::One(&["source", "features", "generate"]),
-        Keys::Some(&["fill", "outline", "line"]),
-    ],
+    rules: &[Keys::One(&["source", "features", "generate"]), Keys::Some(&["fill", "outline", "line"])],
 };
 
 static FEATURE: TableShape = TableShape {
@@ -92,11 +65,7 @@ static GENERATE_LAYER: TableShape = TableShape {
             Shape::Integers(2, 0, 1000),
             "mosaic: [k, n]: only class k (from 0) of n classes. Default: all.",
         ),
-        key(
-            "holes",
-            SHARE,
-            "mosaic: the share of polygons with a lake as a hole. Default: 0.1.",
-        ),
+        key("holes", SHARE, "mosaic: the share of polygons with a lake as a hole. Default: 0.1."),
     ],
     rules: &[],
 };
@@ -105,11 +74,7 @@ static FILL: TableShape = TableShape {
     keys: &[
         key("color", Shape::Color, "The colour.").required(),
         key("opacity", SHARE, "Multiplies the colour's alpha. Default: 1."),
-        key(
-            "rule",
-            choice::<Rule>(),
-            "What rings enclose. Default: \"even-odd\".",
-        ),
+        key("rule", choice::<Rule>(), "What rings enclose. Default: \"even-odd\"."),
     ],
     rules: &[],
 };
@@ -125,11 +90,7 @@ static OUTLINE: TableShape = TableShape {
             choice::<OutlineMode>(),
             "Which side of the border is drawn. Default: \"normal\" (both).",
         ),
-        key(
-            "join",
-            choice::<JoinName>(),
-            "How segments meet. Default: \"round\".",
-        ),
+        key("join", choice::<JoinName>(), "How segments meet. Default: \"round\"."),
         key(
             "miter_limit",
             Shape::Number(Range::FromOne),
@@ -143,21 +104,9 @@ static LINE: TableShape = TableShape {
     keys: &[
         key("color", Shape::Color, "The colour.").required(),
         key("opacity", SHARE, "Multiplies the colour's alpha. Default: 1."),
-        key(
-            "width_m",
-            POSITIVE,
-            "The whole width in metres of the plan (static).",
-        ),
-        key(
-            "width_px",
-            POSITIVE,
-            "The whole width in pixels of the screen (dynamic).",
-        ),
-        key(
-            "join",
-            choice::<JoinName>(),
-            "How segments meet. Default: \"round\".",
-        ),
+        key("width_m", POSITIVE, "The whole width in metres of the plan (static)."),
+        key("width_px", POSITIVE, "The whole width in pixels of the screen (dynamic)."),
+        key("join", choice::<JoinName>(), "How segments meet. Default: \"round\"."),
         key(
             "miter_limit",
             Shape::Number(Range::FromOne),

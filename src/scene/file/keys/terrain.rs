@@ -8,16 +8,8 @@ use crate::scene::file::spec::HeightEncoding;
 
 pub(super) static TERRAIN: TableShape = TableShape {
     keys: &[
-        key(
-            "source",
-            Shape::Text,
-            "A height file: .tif .hgt .asc .png .xyz. Relative to the scene file.",
-        ),
-        key(
-            "generate",
-            Shape::Table(&GENERATE_TERRAIN),
-            "Heights by a formula instead.",
-        ),
+        key("source", Shape::Text, "A height file: .tif .hgt .asc .png .xyz. Relative to the scene file."),
+        key("generate", Shape::Table(&GENERATE_TERRAIN), "Heights by a formula instead."),
         key(
             "window",
             Shape::Numbers(4),
@@ -28,46 +20,26 @@ pub(super) static TERRAIN: TableShape = TableShape {
             Shape::Numbers(2),
             "Moves the data in plan space: [dx, dy] in metres. Default: [0, 0].",
         ),
-        key(
-            "crs",
-            Shape::Text,
-            "The CRS of the data, over what the file says.",
-        ),
+        key("crs", Shape::Text, "The CRS of the data, over what the file says."),
         key(
             "bounds",
             Shape::Numbers(4),
             "The rectangle [x0, y0, x1, y1] that the data covers, for a file that does not say it (PNG).",
         ),
-        key(
-            "encoding",
-            choice::<HeightEncoding>(),
-            "How a PNG encodes heights.",
-        ),
-        key(
-            "diagonal",
-            choice::<Diagonal>(),
-            "How cells are split. Default: \"sw-ne\".",
-        ),
+        key("encoding", choice::<HeightEncoding>(), "How a PNG encodes heights."),
+        key("diagonal", choice::<Diagonal>(), "How cells are split. Default: \"sw-ne\"."),
         key(
             "vertical_scale",
             Shape::Number(Range::NotNegative),
             "Heights are multiplied by this. Default: 1.",
         ),
-        key(
-            "color",
-            Shape::Color,
-            "The ground's colour. Default: \"#c8b89a\".",
-        ),
+        key("color", Shape::Color, "The ground's colour. Default: \"#c8b89a\"."),
         key(
             "shade",
             choice::<ShadeName>(),
             "\"hillshade\": the colour lit from the north-west. Default: \"flat\".",
         ),
-        key(
-            "imagery",
-            Shape::Text,
-            "An image over the terrain's rectangle instead of a colour.",
-        ),
+        key("imagery", Shape::Text, "An image over the terrain's rectangle instead of a colour."),
     ],
     rules: &[
         Keys::One(&["source", "generate"]),
@@ -84,11 +56,7 @@ static GENERATE_TERRAIN: TableShape = TableShape {
             Shape::Integers(2, 2, 32768),
             "Posts from west to east and from south to north, at most 2^28 in all. Default: [257, 257].",
         ),
-        key(
-            "cell_m",
-            POSITIVE,
-            "The distance of neighbouring posts. Default: 30.",
-        ),
+        key("cell_m", POSITIVE, "The distance of neighbouring posts. Default: 30."),
         key(
             "height_m",
             Shape::Number(Range::Finite),

@@ -63,10 +63,9 @@ impl Compression {
     pub(super) fn unpack<'a>(self, packed: impl BufRead + 'a) -> Box<dyn Read + 'a> {
         match self {
             Self::None => Box::new(packed),
-            Self::Lzw => Box::new(LzwReader {
-                packed,
-                decoder: Decoder::with_tiff_size_switch(BitOrder::Msb, 8),
-            }),
+            Self::Lzw => {
+                Box::new(LzwReader { packed, decoder: Decoder::with_tiff_size_switch(BitOrder::Msb, 8) })
+            }
             Self::Deflate => Box::new(flate2::bufread::ZlibDecoder::new(packed)),
         }
     }
@@ -114,10 +113,8 @@ impl Predictor {
             1 => Ok(Self::None),
             2 => Ok(Self::Horizontal),
             3 if floating => Ok(Self::FloatingPoint),
-            _ => Err(
-                Error::new(format!("unsupported TIFF predictor {code} for these samples"))
-                    .help("convert it: gdal_translate -co COMPRESS=DEFLATE FILE OUT.tif"),
-            ),
+            _ => Err(Error::new(format!("unsupported TIFF predictor {code} for these samples"))
+                .help("convert it: gdal_translate -co COMPRESS=DEFLATE FILE OUT.tif")),
         }
     }
 
@@ -148,30 +145,9 @@ impl Predictor {
 fn sum_samples(row: &mut [u8], size: usize, stride: usize, endian: Endian) {
     match size {
         1 => sum_bytes(row, stride),
-        2 => sum_words(
-            row,
-            stride,
-            endian,
-            u16::from_le_bytes,
-            u16::to_le_bytes,
-            u16::wrapping_add,
-        ),
-        4 => sum_words(
-            row,
-            stride,
-            endian,
-            u32::from_le_bytes,
-            u32::to_le_bytes,
-            u32::wrapping_add,
-        ),
-        _ => sum_words(
-            row,
-            stride,
-            endian,
-            u64::from_le_bytes,
-            u64::to_le_bytes,
-            u64::wrapping_add,
-        ),
+        2 => sum_words(row, stride, endian, u16::from_le_bytes, u16::to_le_bytes, u16::wrapping_add),
+        4 => sum_words(row, stride, endian, u32::from_le_bytes, u32::to_le_bytes, u32::wrapping_add),
+        _ => sum_words(row, stride, endian, u64::from_le_bytes, u64::to_le_bytes, u64::wrapping_add),
     }
 }
 

@@ -62,13 +62,7 @@ impl Head {
             crs_hint: keys.crs_hint(),
             notes: notes.into_iter().flatten().collect(),
         };
-        Ok(Self {
-            header,
-            layout,
-            coding,
-            nodata,
-            scaling,
-        })
+        Ok(Self { header, layout, coding, nodata, scaling })
     }
 }
 
@@ -76,10 +70,8 @@ fn raster_size<R: Read + Seek>(directory: &Directory, source: &mut Source<R>) ->
     let mut read = |tag, name: &str| {
         let value = directory.whole(source, tag)?.unwrap_or(0);
         if value == 0 || value > 1 << 31 {
-            return Err(
-                Error::new(format!("the TIFF's {name} of {value} samples is absurd"))
-                    .help("the header is damaged: fetch the file again"),
-            );
+            return Err(Error::new(format!("the TIFF's {name} of {value} samples is absurd"))
+                .help("the header is damaged: fetch the file again"));
         }
         Ok(value as usize)
     };
@@ -95,10 +87,8 @@ fn coding<R: Read + Seek>(directory: &Directory, source: &mut Source<R>) -> Resu
             .help("extract the heights: gdal_translate -b 1 FILE OUT.tif"));
     }
     if get(tag::FILL_ORDER, 1)? != 1 {
-        return Err(
-            Error::new("the TIFF's bytes hold their bits in reverse (FillOrder 2)")
-                .help("rewrite the file: gdal_translate FILE OUT.tif"),
-        );
+        return Err(Error::new("the TIFF's bytes hold their bits in reverse (FillOrder 2)")
+            .help("rewrite the file: gdal_translate FILE OUT.tif"));
     }
     let sample = Sample::from_tags(get(tag::BITS, 1)?, get(tag::SAMPLE_FORMAT, 1)?)?;
     let interleaved = get(tag::PLANAR, 1)? != 2;
@@ -134,10 +124,8 @@ fn layout<R: Read + Seek>(
 ) -> Result<Layout> {
     let layout = Layout::read(directory, source, size, coding.sample.size() * coding.stride)?;
     if coding.compression != Compression::None && !layout.has_lengths() {
-        return Err(
-            Error::new("the TIFF does not say how long its compressed blocks are")
-                .help("rewrite the file: gdal_translate FILE OUT.tif"),
-        );
+        return Err(Error::new("the TIFF does not say how long its compressed blocks are")
+            .help("rewrite the file: gdal_translate FILE OUT.tif"));
     }
     Ok(layout)
 }
@@ -191,14 +179,10 @@ fn note_bands(bands: u64) -> Option<String> {
 
 fn note_units(keys: &GeoKeys) -> Option<String> {
     let unit = keys.foreign_vertical_unit()?;
-    Some(format!(
-        "the file declares heights in {unit}; they are taken as metres (set vertical_scale)"
-    ))
+    Some(format!("the file declares heights in {unit}; they are taken as metres (set vertical_scale)"))
 }
 
 fn note_scaling(scaling: Option<(f64, f64)>) -> Option<String> {
     let (factor, offset) = scaling?;
-    Some(format!(
-        "heights are samples x {factor} + {offset}, as the file declares"
-    ))
+    Some(format!("heights are samples x {factor} + {offset}, as the file declares"))
 }

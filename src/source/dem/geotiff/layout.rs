@@ -130,11 +130,7 @@ impl Layout {
         let index = row * self.across + column;
         let first = (column * self.block.0, row * self.block.1);
         // The last strip ends with the raster; tiles are whole.
-        let rows = if self.tiled {
-            self.block.1
-        } else {
-            self.block.1.min(self.size.1 - first.1)
-        };
+        let rows = if self.tiled { self.block.1 } else { self.block.1.min(self.size.1 - first.1) };
         let stored = (rows * self.row_bytes()) as u64;
         Block {
             index,

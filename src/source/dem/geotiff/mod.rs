@@ -78,9 +78,7 @@ impl<R: Read + Seek> GeoTiff<R> {
         buffers.heights.resize(self.columns_in(block), 0.0);
         let (mut samples, first) = self.open_block(block, rows.start)?;
         for row in first..rows.end {
-            samples
-                .read_exact(&mut buffers.bytes)
-                .map_err(|e| damaged(&e, block, row))?;
+            samples.read_exact(&mut buffers.bytes).map_err(|e| damaged(&e, block, row))?;
             if row >= rows.start {
                 coding.decode(buffers);
                 nodata.apply(&mut buffers.heights, scaling);
@@ -94,11 +92,7 @@ impl<R: Read + Seek> GeoTiff<R> {
     fn open_block(&mut self, block: &Block, row: usize) -> Result<(Box<dyn Read + '_>, usize)> {
         let compression = self.head.coding.compression;
         let (start, first, length) = match compression {
-            Compression::None => (
-                block.offset + (row * self.head.layout.row_bytes()) as u64,
-                row,
-                u64::MAX,
-            ),
+            Compression::None => (block.offset + (row * self.head.layout.row_bytes()) as u64, row, u64::MAX),
             _ => (block.offset, 0, block.length),
         };
         let input = &mut self.source.input;
@@ -114,9 +108,7 @@ impl<R: Read + Seek> GeoTiff<R> {
     /// Hands on the rows of a block that the file leaves out.
     fn fill_block(&self, block: &Block, part: &Part, buffers: &mut Buffers, sink: &mut dyn RowSink) {
         buffers.heights.clear();
-        buffers
-            .heights
-            .resize(self.columns_in(block), self.head.nodata.left_out());
+        buffers.heights.resize(self.columns_in(block), self.head.nodata.left_out());
         let Head { nodata, scaling, .. } = &self.head;
         nodata.apply(&mut buffers.heights, *scaling);
         for row in block.rows_of(part) {
@@ -141,10 +133,8 @@ impl<R: Read + Seek> GridFile for GeoTiff<R> {
             }
         }
         if stored == 0 {
-            return Err(
-                Error::new("the file leaves out all blocks of the wanted part: no data there")
-                    .help("choose another window"),
-            );
+            return Err(Error::new("the file leaves out all blocks of the wanted part: no data there")
+                .help("choose another window"));
         }
         Ok(())
     }
@@ -171,11 +161,8 @@ fn check_left_out(block: &Block) -> Result<()> {
     if columns * rows <= MOST {
         return Ok(());
     }
-    Err(Error::new(format!(
-        "block {} of {columns} x {rows} samples is not in the file",
-        block.index
-    ))
-    .help("it may be half a download: fetch it again"))
+    Err(Error::new(format!("block {} of {columns} x {rows} samples is not in the file", block.index))
+        .help("it may be half a download: fetch it again"))
 }
 
 /// Memory for a row of a block.
@@ -190,11 +177,7 @@ impl Coding {
     /// Decodes a row of a block.
     fn decode(self, buffers: &mut Buffers) {
         let kind = (self.sample.size(), self.stride);
-        let Buffers {
-            bytes,
-            scratch,
-            heights,
-        } = buffers;
+        let Buffers { bytes, scratch, heights } = buffers;
         let endian = self.predictor.undo(bytes, scratch, kind, self.endian);
         self.sample.decode(bytes, self.stride, endian, heights);
     }
@@ -202,10 +185,7 @@ impl Coding {
 
 fn damaged(error: &io::Error, block: &Block, row: usize) -> Error {
     let what = if error.kind() == io::ErrorKind::UnexpectedEof {
-        format!(
-            "block {} ends before its row {row} of {}",
-            block.index, block.size.1
-        )
+        format!("block {} ends before its row {row} of {}", block.index, block.size.1)
     } else {
         format!("block {} cannot be unpacked: {error}", block.index)
     };

@@ -82,10 +82,8 @@ impl<R: Read + Seek> Source<R> {
 }
 
 fn outside(at: u64, count: u64, length: u64) -> Error {
-    Error::new(format!(
-        "the TIFF points to {count} bytes at {at}, but the file has {length} bytes"
-    ))
-    .help("it may be half a download: fetch it again")
+    Error::new(format!("the TIFF points to {count} bytes at {at}, but the file has {length} bytes"))
+        .help("it may be half a download: fetch it again")
 }
 
 /// A tag's values: kind, count and where they are.
@@ -108,23 +106,13 @@ impl Directory {
     /// Reads the file's header and its first directory.
     pub(super) fn read<R: Read + Seek>(source: &mut Source<R>) -> Result<Self> {
         let head = source.bytes(0, 8)?;
-        let endian = if head.starts_with(b"II") {
-            Endian::Little
-        } else {
-            Endian::Big
-        };
+        let endian = if head.starts_with(b"II") { Endian::Little } else { Endian::Big };
         let big = endian.number(&head[2..4]) == 43;
-        let first = if big {
-            endian.number(&source.bytes(8, 8)?)
-        } else {
-            endian.number(&head[4..8])
-        };
+        let first = if big { endian.number(&source.bytes(8, 8)?) } else { endian.number(&head[4..8]) };
         let (count_size, entry_size) = if big { (8, 20) } else { (2, 12) };
         let count = endian.number(&source.bytes(first, count_size)?);
         if count > u64::from(u16::MAX) {
-            return Err(Error::new(format!(
-                "the TIFF promises {count} tags: its header is damaged"
-            )));
+            return Err(Error::new(format!("the TIFF promises {count} tags: its header is damaged")));
         }
         let start = first + count_size;
         let table = source.bytes(start, count * entry_size)?;
@@ -168,10 +156,7 @@ impl Directory {
             kind => return Err(wrong_kind(tag, kind, "whole numbers")),
         };
         let bytes = values(source, entry, most, size)?;
-        Ok(bytes
-            .chunks_exact(size as usize)
-            .map(|b| self.endian.number(b))
-            .collect())
+        Ok(bytes.chunks_exact(size as usize).map(|b| self.endian.number(b)).collect())
     }
 
     /// The double-precision numbers of a tag.
@@ -184,10 +169,7 @@ impl Directory {
             return Err(wrong_kind(tag, entry.kind, "double-precision numbers"));
         }
         let bytes = values(source, entry, MOST, 8)?;
-        Ok(bytes
-            .chunks_exact(8)
-            .map(|b| f64::from_bits(self.endian.number(b)))
-            .collect())
+        Ok(bytes.chunks_exact(8).map(|b| f64::from_bits(self.endian.number(b))).collect())
     }
 
     /// The text of a tag, up to its first zero byte.
@@ -209,18 +191,11 @@ impl Directory {
 fn entry(endian: Endian, big: bool, bytes: &[u8], at: u64) -> Option<(u16, Entry)> {
     let tag = endian.number(&bytes[..2]) as u16;
     let kind = endian.number(&bytes[2..4]) as u16;
-    let (count, place, inline) = if big {
-        (&bytes[4..12], &bytes[12..20], 8)
-    } else {
-        (&bytes[4..8], &bytes[8..12], 4)
-    };
+    let (count, place, inline) =
+        if big { (&bytes[4..12], &bytes[12..20], 8) } else { (&bytes[4..8], &bytes[8..12], 4) };
     let count = endian.number(count);
     let length = size_of_kind(kind)?.checked_mul(count)?;
-    let at = if length <= inline {
-        at + bytes.len() as u64 - inline
-    } else {
-        endian.number(place)
-    };
+    let at = if length <= inline { at + bytes.len() as u64 - inline } else { endian.number(place) };
     Some((tag, Entry { kind, count, at }))
 }
 
@@ -240,8 +215,6 @@ fn values<R: Read + Seek>(source: &mut Source<R>, entry: &Entry, most: u64, size
 }
 
 fn wrong_kind(tag: u16, kind: u16, wanted: &str) -> Error {
-    Error::new(format!(
-        "TIFF tag {tag} should hold {wanted}, but is of type {kind}"
-    ))
-    .help("rewrite the file: gdal_translate FILE OUT.tif")
+    Error::new(format!("TIFF tag {tag} should hold {wanted}, but is of type {kind}"))
+        .help("rewrite the file: gdal_translate FILE OUT.tif")
 }

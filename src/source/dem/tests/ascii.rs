@@ -14,9 +14,7 @@ fn error(text: &str) -> Error {
 }
 
 fn place(error: &Error) -> Option<(usize, usize)> {
-    error
-        .position()
-        .map(|Position { line, column, .. }| (line, column))
+    error.position().map(|Position { line, column, .. }| (line, column))
 }
 
 #[test]

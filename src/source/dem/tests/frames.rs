@@ -15,9 +15,8 @@ fn mirrored_and_south_up_rasters_are_turned() {
         let frame = Frame::new((3, 2), DVec2::new(50.0, 70.0), (column, row)).unwrap();
         let mut sheet = Sheet::new(&frame, frame.whole()).unwrap();
         for r in 0..2 {
-            let line: Vec<_> = (0..3)
-                .map(|c| frame.at(c as f64, r as f64).dot(DVec2::new(1.0, 100.0)))
-                .collect();
+            let line: Vec<_> =
+                (0..3).map(|c| frame.at(c as f64, r as f64).dot(DVec2::new(1.0, 100.0))).collect();
             sheet.take(r, 0, &line);
         }
         let posts = sheet.finish(&mut Vec::new()).unwrap();
@@ -34,13 +33,8 @@ fn mirrored_and_south_up_rasters_are_turned() {
 #[test]
 fn missing_files_and_directories_are_refused() {
     let options = DemOptions::default();
-    let missing = read(Path::new("no/such/file.tif"), &options)
-        .unwrap_err()
-        .to_string();
-    assert!(
-        missing.contains("no/such/file.tif") && missing.contains("check the path"),
-        "{missing}"
-    );
+    let missing = read(Path::new("no/such/file.tif"), &options).unwrap_err().to_string();
+    assert!(missing.contains("no/such/file.tif") && missing.contains("check the path"), "{missing}");
     let folder = tempfile::tempdir().unwrap();
     let message = read(folder.path(), &options).unwrap_err().to_string();
     assert!(message.contains("directory"), "{message}");

@@ -64,13 +64,7 @@ fn every_kind_layout_packing_predictor_and_byte_order_reads_back() {
 #[test]
 fn the_first_of_several_bands_is_read() {
     for (planar, packing, predictor) in [(false, 1, 1), (true, 5, 2), (false, 8, 2), (false, 8, 3)] {
-        let tiff = Tiff {
-            bands: 3,
-            planar,
-            packing,
-            predictor,
-            ..sample()
-        };
+        let tiff = Tiff { bands: 3, planar, packing, predictor, ..sample() };
         assert_read_back(&tiff);
         let dem = read_bytes("a.tif", &tiff.bytes(), &DemOptions::default()).unwrap();
         assert!(dem.notes[0].contains("3 bands"), "{:?}", dem.notes);
@@ -81,14 +75,9 @@ fn the_first_of_several_bands_is_read() {
 fn posts_stand_at_pixel_centres_or_at_points() {
     let area = posts(read_bytes("a.tif", &sample().bytes(), &DemOptions::default()).unwrap());
     assert_eq!(area.first, Plan::new(105.0, 205.0));
-    assert_eq!(
-        (area.east(), area.north()),
-        (DVec2::new(10.0, 0.0), DVec2::new(0.0, 10.0))
-    );
+    assert_eq!((area.east(), area.north()), (DVec2::new(10.0, 0.0), DVec2::new(0.0, 10.0)));
     let mut point = sample();
-    point
-        .tags
-        .push((34735, Values::Shorts(vec![1, 1, 0, 1, 1025, 0, 1, 2])));
+    point.tags.push((34735, Values::Shorts(vec![1, 1, 0, 1, 1025, 0, 1, 2])));
     let point = posts(read_bytes("a.tif", &point.bytes(), &DemOptions::default()).unwrap());
     assert_eq!(point.first, Plan::new(100.0, 210.0));
 }
@@ -98,15 +87,7 @@ fn a_rotated_raster_keeps_its_posts() {
     let mut tiff = sample();
     // x = 3 c + 4 r + 1000, y = 4 c - 3 r + 2000: turned by 53 degrees.
     let mut matrix = vec![0.0; 16];
-    for (i, v) in [
-        (0, 3.0),
-        (1, 4.0),
-        (3, 1000.0),
-        (4, 4.0),
-        (5, -3.0),
-        (7, 2000.0),
-        (15, 1.0),
-    ] {
+    for (i, v) in [(0, 3.0), (1, 4.0), (3, 1000.0), (4, 4.0), (5, -3.0), (7, 2000.0), (15, 1.0)] {
         matrix[i] = v;
     }
     tiff.tags = vec![(34264, Values::Doubles(matrix))];
@@ -115,10 +96,7 @@ fn a_rotated_raster_keeps_its_posts() {
     for (i, j) in [(0, 0), (6, 0), (0, 4), (3, 2)] {
         let (c, r) = (i as f64 + 0.5, (4 - j) as f64 + 0.5);
         let at = posts.plan(i, j);
-        assert_eq!(
-            (at.x, at.y),
-            (3.0 * c + 4.0 * r + 1000.0, 4.0 * c - 3.0 * r + 2000.0)
-        );
+        assert_eq!((at.x, at.y), (3.0 * c + 4.0 * r + 1000.0, 4.0 * c - 3.0 * r + 2000.0));
         assert_eq!(posts.world(i, j).z, height(i, 4 - j));
     }
 }
@@ -147,10 +125,7 @@ fn nodata_is_compared_in_the_samples_own_type() {
 
 #[test]
 fn a_nodata_value_outside_the_type_matches_nothing() {
-    let tiff = Tiff {
-        nodata: Some("-9999"),
-        ..Tiff::new((4, 4), Kind::U8, height)
-    };
+    let tiff = Tiff { nodata: Some("-9999"), ..Tiff::new((4, 4), Kind::U8, height) };
     let posts = posts(read_bytes("a.tif", &tiff.bytes(), &DemOptions::default()).unwrap());
     assert!(posts.heights().iter().all(|h| h.is_finite()));
 }
@@ -162,29 +137,16 @@ fn a_window_grows_to_whole_posts() {
     let posts = posts(read_bytes("a.tif", &tiff.bytes(), &window([117.0, 216.0, 125.0, 224.0])).unwrap());
     assert_eq!(posts.first, Plan::new(115.0, 215.0));
     assert_eq!((posts.columns(), posts.rows()), (2, 2));
-    assert_eq!(
-        posts.heights(),
-        [height(1, 3), height(2, 3), height(1, 2), height(2, 2)]
-    );
+    assert_eq!(posts.heights(), [height(1, 3), height(2, 3), height(1, 2), height(2, 2)]);
 }
 
 #[test]
 fn a_window_of_any_place_shows_the_same_heights_as_the_whole() {
-    let tiff = Tiff {
-        tile: Some((4, 2)),
-        packing: 5,
-        predictor: 3,
-        ..Tiff::new((19, 11), Kind::F32, height)
-    };
+    let tiff =
+        Tiff { tile: Some((4, 2)), packing: 5, predictor: 3, ..Tiff::new((19, 11), Kind::F32, height) };
     let bytes = tiff.bytes();
     let whole = posts(read_bytes("a.tif", &bytes, &DemOptions::default()).unwrap());
-    for (x, y, w, h) in [
-        (0, 0, 3, 3),
-        (4, 2, 5, 1),
-        (17, 9, 1, 1),
-        (3, 0, 15, 10),
-        (8, 5, 4, 4),
-    ] {
+    for (x, y, w, h) in [(0, 0, 3, 3), (4, 2, 5, 1), (17, 9, 1, 1), (3, 0, 15, 10), (8, 5, 4, 4)] {
         let at = whole.plan(x, y);
         let end = whole.plan(x + w, y + h);
         let part = posts(read_bytes("a.tif", &bytes, &window([at.x, at.y, end.x, end.y])).unwrap());
@@ -200,15 +162,8 @@ fn a_window_beyond_the_raster_is_noted_and_one_that_misses_is_refused() {
     let dem = read_bytes("a.tif", &sample().bytes(), &window([0.0, 0.0, 120.0, 220.0])).unwrap();
     assert!(dem.notes[0].contains("[105, 205, 165, 245]"), "{:?}", dem.notes);
     let message = refusal("a.tif", &sample().bytes(), &window([0.0, 0.0, 50.0, 50.0]));
-    assert!(
-        message.contains("misses") && message.contains("[105, 205, 165, 245]"),
-        "{message}"
-    );
-    for wrong in [
-        [9.0, 9.0, 9.0, 9.0],
-        [120.0, 220.0, 110.0, 230.0],
-        [f64::NAN, 0.0, 1.0, 1.0],
-    ] {
+    assert!(message.contains("misses") && message.contains("[105, 205, 165, 245]"), "{message}");
+    for wrong in [[9.0, 9.0, 9.0, 9.0], [120.0, 220.0, 110.0, 230.0], [f64::NAN, 0.0, 1.0, 1.0]] {
         assert!(refusal("a.tif", &sample().bytes(), &window(wrong)).contains("encloses nothing"));
     }
 }
@@ -246,32 +201,16 @@ fn a_file_without_a_place_is_local_or_takes_bounds() {
     let dem = read_bytes("a.tif", &tiff.bytes(), &DemOptions::default()).unwrap();
     assert!(dem.notes[0].contains("local grid"), "{:?}", dem.notes);
     assert_eq!(posts(dem).first, Plan::new(0.0, 0.0));
-    let bounds = DemOptions {
-        bounds: Some([0.0, 0.0, 70.0, 50.0]),
-        ..DemOptions::default()
-    };
+    let bounds = DemOptions { bounds: Some([0.0, 0.0, 70.0, 50.0]), ..DemOptions::default() };
     let placed = posts(read_bytes("a.tif", &tiff.bytes(), &bounds).unwrap());
     assert_eq!(placed.first, Plan::new(5.0, 5.0));
 }
 
 #[test]
 fn what_is_unsupported_is_named_with_the_way_out() {
-    for (packing, name) in [
-        (7, "JPEG"),
-        (34887, "LERC"),
-        (34925, "LZMA"),
-        (50000, "ZSTD"),
-        (999, "999"),
-    ] {
-        let message = refusal(
-            "a.tif",
-            &Tiff { packing, ..sample() }.bytes(),
-            &DemOptions::default(),
-        );
-        assert!(
-            message.contains(name) && message.contains("COMPRESS=DEFLATE"),
-            "{message}"
-        );
+    for (packing, name) in [(7, "JPEG"), (34887, "LERC"), (34925, "LZMA"), (50000, "ZSTD"), (999, "999")] {
+        let message = refusal("a.tif", &Tiff { packing, ..sample() }.bytes(), &DemOptions::default());
+        assert!(message.contains(name) && message.contains("COMPRESS=DEFLATE"), "{message}");
     }
     let mut gcps = sample();
     gcps.tags.retain(|(tag, _)| *tag != 33550);
@@ -303,8 +242,7 @@ fn a_small_packed_block_cannot_promise_a_huge_raster() {
     for packing in [5, 8] {
         let mut tiff = Tiff { packing, ..sample() };
         let rows = 1_000_000;
-        tiff.tags
-            .extend([257, 278].map(|tag| (tag, Values::Longs(vec![rows]))));
+        tiff.tags.extend([257, 278].map(|tag| (tag, Values::Longs(vec![rows]))));
         let message = refusal("a.tif", &tiff.bytes(), &DemOptions::default());
         assert!(message.contains("can stand for"), "{message}");
     }
@@ -338,11 +276,7 @@ fn describe_counts_without_holding_the_raster() {
     assert_eq!(summary.bounds, [105.0, 205.0, 285.0, 305.0]);
     assert_eq!((summary.nodata_count, summary.nodata.as_deref()), (1, Some("-7")));
     assert_eq!(summary.heights, Some([0.0, 100.0]));
-    let told = (
-        summary.sample.as_str(),
-        summary.compression.as_str(),
-        summary.layout.as_str(),
-    );
+    let told = (summary.sample.as_str(), summary.compression.as_str(), summary.layout.as_str());
     assert_eq!(told, ("int16", "LZW", "tiles of 16 x 16"));
 }
 
@@ -370,10 +304,7 @@ impl Seek for Counting {
 fn a_window_of_a_large_tiled_raster_reads_its_own_tiles_only() {
     // 10,000 x 10,000 float32: 40 x 40 tiles that all share the bytes of one, 256 KiB unpacked.
     const TILE: usize = 256;
-    let one = Tiff {
-        tile: Some((TILE, TILE)),
-        ..Tiff::new((TILE, TILE), Kind::F32, |c, r| (c + r) as f64)
-    };
+    let one = Tiff { tile: Some((TILE, TILE)), ..Tiff::new((TILE, TILE), Kind::F32, |c, r| (c + r) as f64) };
     let mut large = one.clone();
     let blocks = 10_000_usize.div_ceil(TILE).pow(2);
     let block_bytes = (TILE * TILE * 4) as u64;
@@ -385,17 +316,12 @@ fn a_window_of_a_large_tiled_raster_reads_its_own_tiles_only() {
         (33922, Values::Doubles(vec![0.0, 0.0, 0.0, 0.0, 100_000.0, 0.0])),
     ]);
     let read = Rc::new(Cell::new(0));
-    let counting = Counting {
-        inner: Cursor::new(large.bytes()),
-        read: Rc::clone(&read),
-    };
+    let counting = Counting { inner: Cursor::new(large.bytes()), read: Rc::clone(&read) };
     let mut file = GeoTiff::open(counting, None, None).unwrap();
     let header = read.get();
     let frame = file.header().frame;
     // Columns 5115..=5125 and rows from the north 4994..=5004: tiles 19 to 20 across and 19 down.
-    let (part, _) = frame
-        .part(Some([51_155.0, 49_955.0, 51_255.0, 50_055.0]))
-        .unwrap();
+    let (part, _) = frame.part(Some([51_155.0, 49_955.0, 51_255.0, 50_055.0])).unwrap();
     let mut sheet = Sheet::new(&frame, part).unwrap();
     file.scan(&part, &mut sheet).unwrap();
     let posts = sheet.finish(&mut Vec::new()).unwrap();
@@ -403,20 +329,12 @@ fn a_window_of_a_large_tiled_raster_reads_its_own_tiles_only() {
     assert_eq!(posts.world(0, 0).z, ((5115 % TILE) + (5004 % TILE)) as f64);
     let tiles = 2;
     assert!(header < 60_000, "{header} bytes for the header");
-    assert!(
-        read.get() - header <= tiles * block_bytes as usize,
-        "{} bytes",
-        read.get() - header
-    );
+    assert!(read.get() - header <= tiles * block_bytes as usize, "{} bytes", read.get() - header);
 }
 
 #[test]
 fn lzw_without_an_end_code_reads_until_the_rows_are_full() {
-    let tiff = Tiff {
-        packing: 5,
-        strip_rows: 5,
-        ..Tiff::new((64, 5), Kind::U8, height)
-    };
+    let tiff = Tiff { packing: 5, strip_rows: 5, ..Tiff::new((64, 5), Kind::U8, height) };
     let mut bytes = tiff.bytes();
     // Shorten the only strip by its last byte, which holds the end code.
     let table = bytes.windows(4).position(|w| w == [0x17, 1, 4, 0]).unwrap();

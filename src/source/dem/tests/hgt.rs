@@ -6,10 +6,8 @@ use crate::space::Plan;
 
 /// A 3-arc-second tile that rises 1 m a row to the south, a void in its north-east corner.
 fn tile() -> Vec<u8> {
-    let mut bytes: Vec<u8> = (0..1201_i16)
-        .flat_map(|row| [(row - 300).to_be_bytes(); 1201])
-        .flatten()
-        .collect();
+    let mut bytes: Vec<u8> =
+        (0..1201_i16).flat_map(|row| [(row - 300).to_be_bytes(); 1201]).flatten().collect();
     bytes[2400..2402].copy_from_slice(&[0x80, 0]);
     bytes
 }

@@ -33,10 +33,7 @@ fn posts(dem: Dem) -> Posts {
 }
 
 fn window(window: [f64; 4]) -> DemOptions {
-    DemOptions {
-        window: Some(window),
-        ..DemOptions::default()
-    }
+    DemOptions { window: Some(window), ..DemOptions::default() }
 }
 
 /// The message of a refusal, which must name the file.

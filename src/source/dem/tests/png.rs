@@ -17,18 +17,12 @@ pub(super) fn mapbox() -> Vec<u8> {
 
 fn encode(pixels: &[u8], (columns, rows): (u32, u32), kind: ExtendedColorType) -> Vec<u8> {
     let mut bytes = Vec::new();
-    image::codecs::png::PngEncoder::new(&mut bytes)
-        .write_image(pixels, columns, rows, kind)
-        .unwrap();
+    image::codecs::png::PngEncoder::new(&mut bytes).write_image(pixels, columns, rows, kind).unwrap();
     bytes
 }
 
 fn options(bounds: Option<[f64; 4]>) -> DemOptions {
-    DemOptions {
-        encoding: Some(PngEncoding::Mapbox),
-        bounds,
-        ..DemOptions::default()
-    }
+    DemOptions { encoding: Some(PngEncoding::Mapbox), bounds, ..DemOptions::default() }
 }
 
 #[test]
@@ -69,10 +63,9 @@ fn the_encoding_must_be_said() {
 
 #[test]
 fn other_pixels_than_8_bit_colours_are_refused() {
-    for (kind, bytes, name) in [
-        (ExtendedColorType::L8, 1, "grey"),
-        (ExtendedColorType::Rgb16, 6, "more than 8 bits"),
-    ] {
+    for (kind, bytes, name) in
+        [(ExtendedColorType::L8, 1, "grey"), (ExtendedColorType::Rgb16, 6, "more than 8 bits")]
+    {
         let png = encode(&vec![0; 4 * bytes], (2, 2), kind);
         let message = refusal("a.png", &png, &options(None));
         assert!(message.contains(name), "{message}");

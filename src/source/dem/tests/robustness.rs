@@ -17,10 +17,7 @@ fn valid_files() -> Vec<(&'static str, Vec<u8>)> {
         tags: vec![
             (33550, Values::Doubles(vec![10.0, 10.0, 0.0])),
             (33922, Values::Doubles(vec![0.0, 0.0, 0.0, 100.0, 300.0, 0.0])),
-            (
-                34735,
-                Values::Shorts(vec![1, 1, 0, 2, 1024, 0, 1, 1, 3072, 0, 1, 32733]),
-            ),
+            (34735, Values::Shorts(vec![1, 1, 0, 2, 1024, 0, 1, 1, 3072, 0, 1, 32733])),
         ],
         ..Tiff::new((9, 7), Kind::F32, |c, r| (c * r) as f64)
     };
@@ -29,20 +26,13 @@ fn valid_files() -> Vec<(&'static str, Vec<u8>)> {
         ("a.tif", tiff(5, 2, Some((4, 4)), true, false).bytes()),
         ("a.tif", tiff(8, 3, Some((8, 8)), false, true).bytes()),
         ("a.png", png::mapbox()),
-        (
-            "a.asc",
-            b"ncols 3\nnrows 2\nxllcorner 10\nyllcorner 20\ncellsize 2\n1 2 3\n4 5 6\n".to_vec(),
-        ),
+        ("a.asc", b"ncols 3\nnrows 2\nxllcorner 10\nyllcorner 20\ncellsize 2\n1 2 3\n4 5 6\n".to_vec()),
         ("a.xyz", b"x y z\n0 0 1\n1 0 2\n0 1 3\n1 1 4\n".to_vec()),
     ]
 }
 
 fn try_all(name: &str, bytes: &[u8], window: Option<[f64; 4]>) {
-    let options = DemOptions {
-        window,
-        encoding: Some(PngEncoding::Mapbox),
-        bounds: None,
-    };
+    let options = DemOptions { window, encoding: Some(PngEncoding::Mapbox), bounds: None };
     with_file(name, bytes, |path| {
         let outcomes = [read(&path, &options).err(), describe(&path, &options).err()];
         for error in outcomes.into_iter().flatten() {
@@ -55,10 +45,7 @@ fn try_all(name: &str, bytes: &[u8], window: Option<[f64; 4]>) {
 #[test]
 fn valid_files_read() {
     for (name, bytes) in valid_files() {
-        let options = DemOptions {
-            encoding: Some(PngEncoding::Mapbox),
-            ..DemOptions::default()
-        };
+        let options = DemOptions { encoding: Some(PngEncoding::Mapbox), ..DemOptions::default() };
         with_file(name, &bytes, |path| read(&path, &options)).unwrap();
     }
 }

@@ -47,9 +47,7 @@ pub(super) enum Values {
 impl Tiff {
     /// A single-band uncompressed little-endian TIFF of strips, cell 10, its south-west corner at (100, 200).
     pub(super) fn new(size: (usize, usize), kind: Kind, height: impl Fn(usize, usize) -> f64) -> Self {
-        let samples = (0..size.0 * size.1)
-            .map(|i| height(i % size.0, i / size.0))
-            .collect();
+        let samples = (0..size.0 * size.1).map(|i| height(i % size.0, i / size.0)).collect();
         let north = 200.0 + 10.0 * size.1 as f64;
         Self {
             size,
@@ -74,11 +72,7 @@ impl Tiff {
 
     /// The file's bytes.
     pub(super) fn bytes(&self) -> Vec<u8> {
-        let mut out = if self.big_endian {
-            b"MM".to_vec()
-        } else {
-            b"II".to_vec()
-        };
+        let mut out = if self.big_endian { b"MM".to_vec() } else { b"II".to_vec() };
         if self.big {
             self.short(&mut out, 43);
             self.short(&mut out, 8);
@@ -118,11 +112,7 @@ impl Tiff {
 
     /// The bytes of a block after the predictor, before packing.
     fn block(&self, plane: usize, (left, top): (usize, usize), (across, down): (usize, usize)) -> Vec<u8> {
-        let down = if self.tile.is_some() {
-            down
-        } else {
-            down.min(self.size.1 - top)
-        };
+        let down = if self.tile.is_some() { down } else { down.min(self.size.1 - top) };
         let stride = if self.planar { 1 } else { self.bands };
         let mut bytes = Vec::new();
         for row in top..top + down {
@@ -130,11 +120,7 @@ impl Tiff {
                 .map(|i| {
                     let (c, band) = (i / stride, plane + i % stride);
                     let inside = c < self.size.0 && row < self.size.1;
-                    if inside && band == 0 {
-                        self.samples[row * self.size.0 + c]
-                    } else {
-                        0.0
-                    }
+                    if inside && band == 0 { self.samples[row * self.size.0 + c] } else { 0.0 }
                 })
                 .collect();
             bytes.extend(self.row(&samples, stride));
@@ -157,10 +143,7 @@ impl Tiff {
                 })
                 .collect(),
             3 => {
-                let planes: Vec<u8> = (0..size)
-                    .rev()
-                    .flat_map(|b| words.iter().map(move |w| w[b]))
-                    .collect();
+                let planes: Vec<u8> = (0..size).rev().flat_map(|b| words.iter().map(move |w| w[b])).collect();
                 (0..planes.len())
                     .map(|i| planes[i].wrapping_sub(if i < stride { 0 } else { planes[i - stride] }))
                     .collect()
@@ -177,9 +160,9 @@ impl Tiff {
 
     fn pack(&self, bytes: &[u8]) -> Vec<u8> {
         match self.packing {
-            5 => weezl::encode::Encoder::with_tiff_size_switch(weezl::BitOrder::Msb, 8)
-                .encode(bytes)
-                .unwrap(),
+            5 => {
+                weezl::encode::Encoder::with_tiff_size_switch(weezl::BitOrder::Msb, 8).encode(bytes).unwrap()
+            }
             8 | 32946 => {
                 let mut packer = flate2::write::ZlibEncoder::new(Vec::new(), flate2::Compression::default());
                 packer.write_all(bytes).unwrap();
@@ -291,16 +274,8 @@ impl Tiff {
 }
 
 impl Kind {
-    pub(super) const ALL: [Self; 8] = [
-        Self::U8,
-        Self::I8,
-        Self::U16,
-        Self::I16,
-        Self::U32,
-        Self::I32,
-        Self::F32,
-        Self::F64,
-    ];
+    pub(super) const ALL: [Self; 8] =
+        [Self::U8, Self::I8, Self::U16, Self::I16, Self::U32, Self::I32, Self::F32, Self::F64];
 
     pub(super) fn is_floating(self) -> bool {
         matches!(self, Self::F32 | Self::F64)

@@ -31,31 +31,16 @@ fn a_window_filters_points() {
     let few = points(read_bytes("a.xyz", POINTS.as_bytes(), &window([0.0, 0.0, 10.0, 9.0])).unwrap());
     assert_eq!(few.len(), 3);
     let message = super::refusal("a.xyz", POINTS.as_bytes(), &window([50.0, 50.0, 60.0, 60.0]));
-    assert!(
-        message.contains("0 points") && message.contains("[0, 0, 10, 10]"),
-        "{message}"
-    );
+    assert!(message.contains("0 points") && message.contains("[0, 0, 10, 10]"), "{message}");
 }
 
 #[test]
 fn a_repeated_point_is_dropped_but_two_heights_are_refused() {
-    let dem = read_bytes(
-        "a.xyz",
-        format!("{POINTS}-0.0 0 1\n").as_bytes(),
-        &DemOptions::default(),
-    )
-    .unwrap();
-    assert!(
-        dem.notes.iter().any(|n| n.starts_with("1 point")),
-        "{:?}",
-        dem.notes
-    );
+    let dem = read_bytes("a.xyz", format!("{POINTS}-0.0 0 1\n").as_bytes(), &DemOptions::default()).unwrap();
+    assert!(dem.notes.iter().any(|n| n.starts_with("1 point")), "{:?}", dem.notes);
     assert_eq!(points(dem).len(), 5);
     let message = refusal(&format!("{POINTS}0 0 1.5\n"));
-    assert!(
-        message.contains("1 high in line 3 and 1.5 high in line 9"),
-        "{message}"
-    );
+    assert!(message.contains("1 high in line 3 and 1.5 high in line 9"), "{message}");
 }
 
 #[test]
@@ -76,13 +61,7 @@ fn errors_name_line_and_column() {
 
 #[test]
 fn describe_tells_their_extent() {
-    let summary = with_file("a.xyz", POINTS.as_bytes(), |p| {
-        describe(&p, &DemOptions::default())
-    })
-    .unwrap();
+    let summary = with_file("a.xyz", POINTS.as_bytes(), |p| describe(&p, &DemOptions::default())).unwrap();
     assert_eq!((summary.count, summary.size), (5, None));
-    assert_eq!(
-        (summary.bounds, summary.heights),
-        ([0.0, 0.0, 10.0, 10.0], Some([1.0, 9.0]))
-    );
+    assert_eq!((summary.bounds, summary.heights), ([0.0, 0.0, 10.0, 10.0], Some([1.0, 9.0])));
 }
