@@ -63,7 +63,8 @@ fn tie_side(frame: &ViewFrame, ray: &Ray, a: World, b: World) -> f64 {
 ///
 /// Exact: equal means that they meet the ray in the very same point.
 pub fn compare_along_ray(ray: &Ray, first: &[World; 3], second: &[World; 3]) -> Ordering {
-    let (t1, t2) = (Parameter::new(ray, first), Parameter::new(ray, second));
+    let parameter = |triangle| Parameter::new(ray, &TrianglePlane::new(triangle));
+    let (t1, t2) = (parameter(first), parameter(second));
     if (t1.value - t2.value).abs() > t1.error + t2.error {
         return if t1.value < t2.value { Ordering::Less } else { Ordering::Greater };
     }
@@ -77,7 +78,7 @@ pub fn compare_along_ray(ray: &Ray, first: &[World; 3], second: &[World; 3]) -> 
 /// Whether the view depth at which a ray meets a triangle is at least `depth` metres (exactly).
 pub fn is_hit_beyond(frame: &ViewFrame, ray: &Ray, triangle: &[World; 3], depth: f64) -> bool {
     // The ray reaches view depth `reach` (a power of two) at parameter 1.
-    let (t, limit) = (Parameter::new(ray, triangle), depth / frame.reach());
+    let (t, limit) = (Parameter::new(ray, &TrianglePlane::new(triangle)), depth / frame.reach());
     if (t.value - limit).abs() > t.error {
         return t.value > limit;
     }
@@ -89,12 +90,39 @@ pub fn is_hit_beyond(frame: &ViewFrame, ray: &Ray, triangle: &[World; 3], depth:
 /// The ray's parameter (0 at `from`, 1 at `through`) where it meets a triangle's plane, to a relative 2^-30 however
 /// grazing the ray; 0 for a plane that holds the ray's direction.
 pub fn hit_parameter(ray: &Ray, triangle: &[World; 3]) -> f64 {
-    let fast = Parameter::new(ray, triangle);
-    if fast.error < fast.value.abs() / f64::from(1 << 30) {
-        return fast.value;
+    TrianglePlane::new(triangle).hit_parameter(ray)
+}
+
+/// A triangle's plane, for many rays.
+#[derive(Debug, Clone, Copy)]
+pub struct TrianglePlane {
+    triangle: [World; 3],
+    normal: DVec3,
+    /// What the normal's components may be made of: their terms' magnitudes.
+    spread: DVec3,
+}
+
+impl TrianglePlane {
+    /// The plane of a triangle.
+    #[inline]
+    pub fn new(triangle: &[World; 3]) -> Self {
+        let [a, b, c] = *triangle;
+        let (u, v) = (b - a, c - a);
+        let (m, p) = (u.abs(), v.abs());
+        let spread = DVec3::new(m.y * p.z + m.z * p.y, m.z * p.x + m.x * p.z, m.x * p.y + m.y * p.x);
+        Self { triangle: *triangle, normal: u.cross(v), spread }
     }
-    let (n, d) = hit_fraction(ray, triangle);
-    if d.0.is_empty() { 0.0 } else { n.rounded() / d.rounded() }
+
+    /// As the function [`hit_parameter`].
+    #[inline]
+    pub fn hit_parameter(&self, ray: &Ray) -> f64 {
+        let fast = Parameter::new(ray, self);
+        if fast.error < fast.value.abs() * (1.0 / (1u64 << 30) as f64) {
+            return fast.value;
+        }
+        let (n, d) = hit_fraction(ray, &self.triangle);
+        if d.0.is_empty() { 0.0 } else { n.rounded() / d.rounded() }
+    }
 }
 
 /// A ray's parameter at a triangle's plane in plain doubles, with a bound of its error (infinite or NaN when the plane
@@ -105,24 +133,21 @@ struct Parameter {
 }
 
 impl Parameter {
-    #[inline]
-    fn new(ray: &Ray, [a, b, c]: &[World; 3]) -> Self {
-        let (u, v) = (*b - *a, *c - *a);
-        let (start, along) = (*a - ray.from, ray.through - ray.from);
-        let normal = u.cross(v);
-        let (n, d) = (start.dot(normal), along.dot(normal));
-        let (m, p) = (u.abs(), v.abs());
-        let spread = DVec3::new(m.y * p.z + m.z * p.y, m.z * p.x + m.x * p.z, m.x * p.y + m.y * p.x);
+    #[inline(always)]
+    fn new(ray: &Ray, plane: &TrianglePlane) -> Self {
+        let (start, along) = (plane.triangle[0] - ray.from, ray.through - ray.from);
+        let (n, d) = (start.dot(plane.normal), along.dot(plane.normal));
         // Nine roundings bound each product's path (see `sign_of_det`), one more the quotient.
-        let (n_error, d_error) = (10.0 * U * start.abs().dot(spread), 10.0 * U * along.abs().dot(spread));
+        let n_error = 10.0 * U * start.abs().dot(plane.spread);
+        let d_error = 10.0 * U * along.abs().dot(plane.spread);
         let value = n / d;
         let certain = d.abs() - d_error;
-        let error = if certain > 0.0 {
-            (n_error + value.abs() * d_error) / certain + 2.0 * U * value.abs()
+        if certain > 0.0 {
+            let error = (n_error + value.abs() * d_error) / certain + 2.0 * U * value.abs();
+            Self { value, error }
         } else {
-            f64::INFINITY
-        };
-        Self { value: if certain > 0.0 { value } else { 0.0 }, error }
+            Self { value: 0.0, error: f64::INFINITY }
+        }
     }
 }
 

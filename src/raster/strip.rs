@@ -205,7 +205,7 @@ impl Patch {
             let (x0, x1) = (max_f32(x0, first_x), min_f32(x1, last_x));
             let (y0, y1) = (max_f32(y0, first_y), min_f32(y1, last_y));
             let sum = (ax + bx + cx) + (ay + by + cy);
-            let exists = sum - sum == 0.0;
+            let exists = sum.is_finite();
             let near = exists & (x0 <= x1) & (y0 <= y1);
             let one = (x0 == x1) & (y0 == y1);
             // Edge functions at the first sample, on the screen (y down); of one sign inside.

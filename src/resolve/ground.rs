@@ -25,6 +25,11 @@ impl<'a> GroundPaint<'a> {
         Self { ground, mesh, compositor, flat }
     }
 
+    /// Whether the paint depends on the triangle alone.
+    pub fn is_constant_on_triangles(&self) -> bool {
+        !matches!(self.ground, Ground::Imagery(_))
+    }
+
     /// The paint at a plan point of a triangle.
     #[inline]
     pub fn at(&self, triangle: u32, plan: Plan) -> Paint {

@@ -1,6 +1,6 @@
 //! The surface point of a sample whose triangle is known.
 
-use crate::predicate;
+use crate::predicate::TrianglePlane;
 use crate::space::{Plan, Ray, ViewFrame, World};
 
 /// Where a ray meets the terrain.
@@ -17,8 +17,13 @@ pub struct Hit {
 /// Where a ray meets a triangle's plane.
 #[inline]
 pub fn hit(frame: &ViewFrame, ray: &Ray, triangle: &[World; 3]) -> Hit {
-    let t = predicate::hit_parameter(ray, triangle);
-    let along = ray.through - ray.from;
-    let at = ray.from + along * t;
+    hit_plane(frame, ray, &TrianglePlane::new(triangle))
+}
+
+/// Where a ray meets a plane that many rays may meet.
+#[inline]
+pub(super) fn hit_plane(frame: &ViewFrame, ray: &Ray, plane: &TrianglePlane) -> Hit {
+    let t = plane.hit_parameter(ray);
+    let at = ray.from + (ray.through - ray.from) * t;
     Hit { plan: at.plan(), height: at.z, depth: t * frame.reach() }
 }

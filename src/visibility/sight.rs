@@ -1,9 +1,11 @@
 //! What a technique sees, whichever machine is imitated.
 
+use super::hit::hit_plane;
 use super::{Hit, Machine, Visible, hit};
+use crate::predicate::TrianglePlane;
 use crate::raster::{Counts, Lattice};
 use crate::scene::Device;
-use crate::space::ViewFrame;
+use crate::space::{Plan, ViewFrame};
 use crate::terrain::{Mesh, SKY};
 
 /// The triangle and the surface point of each sample of a lattice: exact, or as a [`Device`] finds them.
@@ -81,6 +83,28 @@ impl<'a> Sight<'a> {
         match &self.machine {
             None => Some(hit(self.frame, &self.frame.ray(at), &self.mesh.triangle(id)?)),
             Some(machine) => machine.hit(at, self.stored[row * self.visible.lattice.columns + column]),
+        }
+    }
+
+    /// The plan points of a row of samples, infinite where the sky is seen; the same as those of [`Sight::hit`].
+    pub fn plan_of_row(&self, row: usize, plan: &mut [Plan]) {
+        let sky = Plan::new(f64::INFINITY, f64::INFINITY);
+        if self.machine.is_some() {
+            for (column, to) in plan.iter_mut().enumerate() {
+                *to = self.hit(column, row).map_or(sky, |hit| hit.plan);
+            }
+            return;
+        }
+        // Neighbours often see the same triangle: its plane is made once.
+        let (mut id, mut plane) = (SKY, None);
+        for (column, to) in plan.iter_mut().enumerate() {
+            let seen = self.triangle(column, row);
+            if seen != id {
+                id = seen;
+                plane = if id == SKY { None } else { self.mesh.triangle(id).map(|t| TrianglePlane::new(&t)) };
+            }
+            let ray = || self.frame.ray(self.visible.lattice.at(column, row));
+            *to = plane.as_ref().map_or(sky, |plane| hit_plane(self.frame, &ray(), plane).plan);
         }
     }
 

@@ -149,6 +149,14 @@ impl EdgeIndex {
         if columns.is_empty() || rows.is_empty() || self.members_in(&columns, &rows) == 0 {
             return;
         }
+        if columns.len() * rows.len() <= 4 {
+            for row in rows {
+                columns.clone().for_each(|column| found.extend_from_slice(self.members_of(column, row)));
+            }
+            found.sort_unstable();
+            found.dedup();
+            return;
+        }
         for row in rows {
             let south = self.corner(0, row).y;
             let Some((west, east)) = quad.span(south, south + self.cell) else {

@@ -30,6 +30,7 @@ pub fn draw(stage: &Stage, settings: &InverseProjection, index: &EdgeIndex, opti
     };
     (options.progress)(0.5);
     let compositor = Compositor::new(stage.scene.compositing);
+    let wants = |name: &str| options.buffers.iter().any(|b| b == name);
     let drawing = Drawing {
         settings,
         judge: Judge { index, rule: settings.point_in_polygon },
@@ -37,7 +38,7 @@ pub fn draw(stage: &Stage, settings: &InverseProjection, index: &EdgeIndex, opti
         paints: index.areas().iter().map(|a| a.color.map(|c| compositor.paint(c))).collect(),
         sky: compositor.paint(stage.scene.image.background),
         compositor,
-        wants_quads: options.buffers.iter().any(|b| b == "quad"),
+        wants: Wants { colors: wants("color"), quads: wants("quad") },
         centres,
         corners,
     };
@@ -61,11 +62,17 @@ struct Drawing<'a> {
     paints: Vec<Option<Paint>>,
     sky: Paint,
     compositor: Compositor,
-    wants_quads: bool,
+    wants: Wants,
     /// What the pixels' centres see, and those of the pixels around the picture.
     centres: Seen<'a>,
     /// What the pixels' corners see, where those are asked for.
     corners: Option<Seen<'a>>,
+}
+
+/// Which buffers are kept on the way because someone asked for them.
+struct Wants {
+    colors: bool,
+    quads: bool,
 }
 
 /// What a lattice sees, with the plan points at hand.
@@ -80,7 +87,8 @@ struct Seen<'a> {
 /// A row of finished pixels.
 #[derive(Default)]
 struct Row {
-    colors: Vec<[f64; 4]>,
+    image: Vec<[u8; 4]>,
+    colors: Vec<f64>,
     classes: Vec<u8>,
     edges: Vec<u32>,
     quads: Vec<f64>,
@@ -96,8 +104,9 @@ struct Counts {
 }
 
 /// Room for the lists of one pixel, used again from pixel to pixel.
-#[derive(Default)]
 struct Lists {
+    /// The last triangle and its ground.
+    ground: (u32, Paint),
     near: Vec<u32>,
     windings: Vec<Winding>,
     involved: Vec<Involved>,
@@ -116,11 +125,7 @@ impl<'a> Seen<'a> {
         sight.see();
         let mut plan = vec![Plan::new(f64::INFINITY, f64::INFINITY); lattice.columns * lattice.rows];
         parallel::for_each_chunk(&mut plan, lattice.columns, |row, points| {
-            for (column, point) in points.iter_mut().enumerate() {
-                if let Some(hit) = sight.hit(column, row) {
-                    *point = hit.plan;
-                }
-            }
+            sight.plan_of_row(row, points);
         });
         Self { stage, lattice: *lattice, sight, plan }
     }
@@ -151,15 +156,24 @@ impl<'a> Seen<'a> {
 
 impl Drawing<'_> {
     fn row(&self, y: usize, width: usize) -> Row {
-        let mut row = Row::default();
-        let mut lists = Lists::default();
+        let mut row =
+            Row { image: Vec::with_capacity(width), classes: Vec::with_capacity(width), ..Row::default() };
+        let mut lists =
+            Lists { ground: (SKY, self.sky), near: Vec::new(), windings: Vec::new(), involved: Vec::new() };
+        let mut last = (self.sky, code_values(self.compositor.encoded(self.sky)));
         for x in 0..width {
             let pixel = self.pixel((x, y), &mut lists, &mut row.counts);
-            row.colors.push(self.compositor.encoded(pixel.paint));
+            if pixel.paint != last.0 {
+                last = (pixel.paint, code_values(self.compositor.encoded(pixel.paint)));
+            }
+            row.image.push(last.1);
             row.classes.push(pixel.class);
             row.edges.push(pixel.edges);
             row.counts.classes[pixel.class as usize] += 1;
-            if self.wants_quads {
+            if self.wants.colors {
+                row.colors.extend(self.compositor.encoded(pixel.paint));
+            }
+            if self.wants.quads {
                 row.quads.extend(pixel.quad.0.iter().flat_map(|p| [p.x, p.y]));
             }
         }
@@ -170,21 +184,30 @@ impl Drawing<'_> {
         // The lattice of centres starts one pixel before the picture.
         let centre = (at.0 + 1, at.1 + 1);
         let plan = self.centres.plan(centre);
-        let none = Quadrilateral::point(Plan::default());
         if !plan.is_finite() {
-            return Pixel { paint: self.sky, class: N, edges: 0, quad: none };
+            return Pixel { paint: self.sky, class: N, edges: 0, quad: Quadrilateral::point(plan) };
         }
-        let ground = self.ground.at(self.centres.sight.triangle(centre.0, centre.1), plan);
-        let quad = self.range(at).filter(|quad| {
-            // Only where edges may be near does it matter whether the range means anything.
-            let matters = self.wants_quads || self.judge.index.has_edges_near(quad);
-            !matters || self.settings.silhouette == Silhouette::Smear || !self.spans_silhouette(at)
-        });
-        let Some(quad) = quad else {
+        let id = self.centres.sight.triangle(centre.0, centre.1);
+        if !self.ground.is_constant_on_triangles() || lists.ground.0 != id {
+            lists.ground = (id, self.ground.at(id, plan));
+        }
+        let ground = lists.ground.1;
+        let Some(quad) = self.range(at) else {
             counts.refused += 1;
             return self.whole(Quadrilateral::point(plan), plan, ground, lists);
         };
-        self.classify(&quad, lists);
+        // Only where edges may be near does it matter whether the range means anything.
+        let may_meet_edges = self.judge.index.has_edges_near(&quad);
+        let is_doubtful =
+            (may_meet_edges || self.wants.quads) && self.settings.silhouette == Silhouette::Centre;
+        if is_doubtful && self.spans_silhouette(at) {
+            counts.refused += 1;
+            return self.whole(Quadrilateral::point(plan), plan, ground, lists);
+        }
+        lists.near.clear();
+        if may_meet_edges {
+            self.classify(&quad, lists);
+        }
         if lists.near.is_empty() {
             return self.whole(quad, plan, ground, lists);
         }
@@ -229,6 +252,9 @@ impl Drawing<'_> {
     fn whole(&self, quad: Quadrilateral, plan: Plan, ground: Paint, lists: &mut Lists) -> Pixel {
         lists.near.clear();
         self.involve(plan, lists);
+        if lists.involved.is_empty() {
+            return Pixel { paint: ground, class: N, edges: 0, quad };
+        }
         let is_covered = lists.involved.iter().any(|i| self.paints[i.area as usize].is_some());
         let paint = self.compose(plan, ground, lists);
         Pixel { paint, class: if is_covered { F } else { N }, edges: 0, quad }
@@ -292,8 +318,7 @@ impl Drawing<'_> {
     }
 
     fn frame(&self, (width, height): (usize, usize), rows: Vec<Row>, options: &FrameOptions) -> Frame {
-        let colors = || rows.iter().flat_map(|r| r.colors.iter());
-        let image = Buffer::from_values(width, height, colors().map(|c| code_values(*c)).collect());
+        let image = Buffer::from_values(width, height, rows.iter().flat_map(|r| &r.image).copied().collect());
         let wants = |name: &str| options.buffers.iter().any(|b| b == name);
         let plane = |name, components, values| Plane { name, width, height, components, values };
         let mut planes = Vec::new();
@@ -301,7 +326,11 @@ impl Drawing<'_> {
             planes.extend(self.surface_planes((width, height)).into_iter().filter(|p| wants(p.name)));
         }
         if wants("color") {
-            planes.push(plane("color", 4, Values::F64(colors().flatten().copied().collect())));
+            planes.push(plane(
+                "color",
+                4,
+                Values::F64(rows.iter().flat_map(|r| &r.colors).copied().collect()),
+            ));
         }
         if wants("class") {
             planes.push(plane(
@@ -323,14 +352,14 @@ impl Drawing<'_> {
         Frame { image, planes, counts: self.counts(&rows) }
     }
 
-    /// What the pixels' centres see: depth (infinite: sky), triangle, plan point (0, 0 in the sky).
+    /// What the pixels' centres see: depth (infinite: sky), triangle, plan point (both infinite in the sky).
     fn surface_planes(&self, (width, height): (usize, usize)) -> [Plane; 3] {
         let (mut depth, mut triangle, mut plan) = (Vec::new(), Vec::new(), Vec::new());
         for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x + 1, y + 1))) {
             let hit = self.centres.sight.hit(x, y);
             depth.push(hit.map_or(f64::INFINITY, |h| h.depth));
             triangle.push(if hit.is_some() { self.centres.sight.triangle(x, y) } else { SKY });
-            let at = hit.map_or(Plan::default(), |h| h.plan);
+            let at = hit.map_or(Plan::new(f64::INFINITY, f64::INFINITY), |h| h.plan);
             plan.extend([at.x, at.y]);
         }
         let plane = |name, components, values| Plane { name, width, height, components, values };
