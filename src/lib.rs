@@ -1,4 +1,35 @@
 //! Drapery: the reference renderer for 2D vector data draped over 3D terrain.
+//!
+//! Data walks through the rooms in this order; `docs/architecture.md` has the picture.
+//!
+//! 1. [`source`] reads what a scene file ([`scene::file`]) names: terrain and vectors, brought to one plan by [`crs`];
+//! 2. [`scene`] is what is drawn, in memory, in scene-local coordinates ([`space`]);
+//! 3. [`terrain`] makes a mesh with bounding boxes of the heights;
+//! 4. [`raster`] and [`visibility`] find, exactly, which triangle each sample sees, and where;
+//! 5. [`technique`] draws, each beside its paper; [`resolve`] composes colours;
+//! 6. [`output`] writes pictures, buffers and numbers.
+//!
+//! ```
+//! use drapery::scene::file::SceneFile;
+//! use drapery::technique::{self, FrameOptions, Kind, Stage};
+//!
+//! let text = r##"
+//!     schema = 1
+//!     image = { width = 64, height = 48 }
+//!     terrain.generate = { kind = "cone", posts = [33, 33], cell_m = 30.0, height_m = 200.0 }
+//!     [[layer]]
+//!     features = [ { line = [[-400, -300], [0, 0], [400, 100]] } ]
+//!     line = { color = "#ff7f00", width_m = 20 }
+//! "##;
+//! let file = SceneFile::parse(text, None, &[])?;
+//! let (scene, surface) = drapery::source::load::load(&file, &|_| {})?;
+//! let stage = Stage::new(scene, surface)?;
+//! let prepared = technique::prepare(Kind::InverseProjection, &stage)?;
+//! let frame = prepared.frame(&FrameOptions { tile: 128, buffers: &[], progress: &|_| {} })?;
+//! assert_eq!(frame.image.width(), 64);
+//! # Ok::<(), drapery::Error>(())
+//! ```
+#![cfg_attr(not(test), warn(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
 pub mod buffer;
 pub mod crs;

@@ -113,12 +113,19 @@ impl TrianglePlane {
         Self { triangle: *triangle, normal: u.cross(v), spread }
     }
 
+    /// The parameter in plain doubles, and whether it is good to a relative 2^-30.
+    #[inline(always)]
+    pub fn quick_hit_parameter(&self, ray: &Ray) -> (f64, bool) {
+        let fast = Parameter::new(ray, self);
+        (fast.value, fast.error < fast.value.abs() * (1.0 / (1u64 << 30) as f64))
+    }
+
     /// As the function [`hit_parameter`].
     #[inline]
     pub fn hit_parameter(&self, ray: &Ray) -> f64 {
-        let fast = Parameter::new(ray, self);
-        if fast.error < fast.value.abs() * (1.0 / (1u64 << 30) as f64) {
-            return fast.value;
+        let (value, is_sure) = self.quick_hit_parameter(ray);
+        if is_sure {
+            return value;
         }
         let (n, d) = hit_fraction(ray, &self.triangle);
         if d.0.is_empty() { 0.0 } else { n.rounded() / d.rounded() }
@@ -142,11 +149,11 @@ impl Parameter {
         let d_error = 10.0 * U * along.abs().dot(plane.spread);
         let value = n / d;
         let certain = d.abs() - d_error;
-        if certain > 0.0 {
-            let error = (n_error + value.abs() * d_error) / certain + 2.0 * U * value.abs();
-            Self { value, error }
-        } else {
-            Self { value: 0.0, error: f64::INFINITY }
+        let error = (n_error + value.abs() * d_error) / certain + 2.0 * U * value.abs();
+        let is_certain = certain > 0.0;
+        Self {
+            value: if is_certain { value } else { 0.0 },
+            error: if is_certain { error } else { f64::INFINITY },
         }
     }
 }

@@ -108,7 +108,7 @@ fn write_values<T: PixelBytes>(to: &mut dyn Write, values: &[T]) -> io::Result<(
 /// Infinities (no coordinates) stay.
 ///
 /// # Panics
-/// When a pixel has an odd number of components, or they are integers.
+/// When a pixel has an odd number of components.
 pub fn absolute(plane: &Plane, origin: DVec2) -> Plane {
     assert!(plane.components.is_multiple_of(2), "plan coordinates come in pairs");
     let moved = |values: &mut dyn Iterator<Item = f64>| {
@@ -118,7 +118,9 @@ pub fn absolute(plane: &Plane, origin: DVec2) -> Plane {
     let values = match &plane.values {
         Values::F64(values) => moved(&mut values.iter().copied()),
         Values::F32(values) => moved(&mut values.iter().map(|value| f64::from(*value))),
-        Values::U32(_) | Values::U16(_) | Values::U8(_) => panic!("plan coordinates are no integers"),
+        Values::U32(values) => moved(&mut values.iter().map(|value| f64::from(*value))),
+        Values::U16(values) => moved(&mut values.iter().map(|value| f64::from(*value))),
+        Values::U8(values) => moved(&mut values.iter().map(|value| f64::from(*value))),
     };
     Plane { values: Values::F64(values), ..*plane }
 }

@@ -126,7 +126,7 @@ const GUARD: f64 = 256.0;
 const PROJECTION_ERROR: f64 = 1e-7;
 
 impl Patch {
-    /// Whether a box qualifies: all of it beyond the near plane and before the far one, its picture within [`GUARD`]
+    /// Whether a box qualifies: all of it beyond the near plane and before the far one, its picture within `GUARD`
     /// samples of the tile's middle, and doubles precise enough at its size.
     #[inline]
     pub fn new(view: &TileView, depth: (f64, f64), size: f64, rectangle: &[f64; 4]) -> Option<Self> {

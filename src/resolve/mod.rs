@@ -24,6 +24,12 @@ impl Paint {
         Self(self.0.map(|v| v / count))
     }
 
+    /// So many times this paint, as a part of a sum.
+    #[must_use]
+    pub fn times(self, count: f64) -> Self {
+        Self(self.0.map(|v| v * count))
+    }
+
     /// The sum of two paints.
     #[must_use]
     #[inline]

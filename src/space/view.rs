@@ -172,7 +172,7 @@ impl ViewFrame {
     }
 
     /// The line of sight of a screen point.
-    #[inline]
+    #[inline(always)]
     pub fn ray(&self, at: Screen) -> Ray {
         let (x, y) = self.offset(at);
         match self.lens {

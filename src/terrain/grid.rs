@@ -60,7 +60,7 @@ impl Grid {
         match self.diagonal {
             Diagonal::SwNe => true,
             Diagonal::NwSe => false,
-            Diagonal::Alternating => (i + j) % 2 == 0,
+            Diagonal::Alternating => (i + j).is_multiple_of(2),
         }
     }
 

@@ -22,6 +22,8 @@ pub struct EdgeIndex {
     edges: Vec<Edge>,
     origin: Plan,
     cell: f64,
+    /// 1 / cell, to find cells without a division.
+    per_metre: f64,
     columns: usize,
     rows: usize,
     /// Where each cell's edges start in `members`; one more entry than cells.
@@ -51,6 +53,7 @@ impl EdgeIndex {
         let mut index = Self {
             origin: layout.origin,
             cell: layout.cell,
+            per_metre: 1.0 / layout.cell,
             columns: layout.columns,
             rows: layout.rows,
             member_starts: Vec::new(),
@@ -110,7 +113,7 @@ impl EdgeIndex {
     /// The cell of a point; `None` outside the grid.
     #[inline]
     fn cell_of(&self, p: Plan) -> Option<(usize, usize)> {
-        let (x, y) = ((p.x - self.origin.x) / self.cell, (p.y - self.origin.y) / self.cell);
+        let (x, y) = ((p.x - self.origin.x) * self.per_metre, (p.y - self.origin.y) * self.per_metre);
         let inside = x >= 0.0 && y >= 0.0 && x < self.columns as f64 && y < self.rows as f64;
         inside.then_some((x as usize, y as usize))
     }
@@ -119,7 +122,7 @@ impl EdgeIndex {
     #[inline]
     fn cells_between(&self, low: f64, high: f64, count: usize) -> Range<usize> {
         const MARGIN: f64 = 1e-6;
-        let (low, high) = (low / self.cell - MARGIN, high / self.cell + MARGIN);
+        let (low, high) = (low * self.per_metre - MARGIN, high * self.per_metre + MARGIN);
         if high < 0.0 || low >= count as f64 {
             return 0..0;
         }

@@ -2,7 +2,7 @@
 
 use super::SILHOUETTE_RATIO;
 use super::edge_index::{EdgeIndex, Winding};
-use super::judgment::Judge;
+use super::judgment::{Judge, NearEdge};
 use super::quadrilateral::Quadrilateral;
 use crate::buffer::{Buffer, Plane, Values};
 use crate::parallel;
@@ -20,6 +20,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 const N: u8 = 0;
 const P: u8 = 1;
 const F: u8 = 2;
+
+/// Up to so many areas partly in a pixel, samples are told apart by which of them they lie in.
+const FEW: usize = 4;
 
 /// Draws a frame.
 pub fn draw(stage: &Stage, settings: &InverseProjection, index: &EdgeIndex, options: &FrameOptions) -> Frame {
@@ -108,6 +111,8 @@ struct Lists {
     /// The last triangle and its ground.
     ground: (u32, Paint),
     near: Vec<u32>,
+    /// The near edges made ready for many samples.
+    ready: Vec<NearEdge>,
     windings: Vec<Winding>,
     involved: Vec<Involved>,
 }
@@ -158,8 +163,13 @@ impl Drawing<'_> {
     fn row(&self, y: usize, width: usize) -> Row {
         let mut row =
             Row { image: Vec::with_capacity(width), classes: Vec::with_capacity(width), ..Row::default() };
-        let mut lists =
-            Lists { ground: (SKY, self.sky), near: Vec::new(), windings: Vec::new(), involved: Vec::new() };
+        let mut lists = Lists {
+            ground: (SKY, self.sky),
+            near: Vec::new(),
+            ready: Vec::new(),
+            windings: Vec::new(),
+            involved: Vec::new(),
+        };
         let mut last = (self.sky, code_values(self.compositor.encoded(self.sky)));
         for x in 0..width {
             let pixel = self.pixel((x, y), &mut lists, &mut row.counts);
@@ -221,7 +231,8 @@ impl Drawing<'_> {
     /// neighbours, or from its corners; `None` where one of them sees the sky.
     fn range(&self, at: (usize, usize)) -> Option<Quadrilateral> {
         let seen = self.corners.as_ref().unwrap_or(&self.centres);
-        let quad = Quadrilateral(self.corner_samples(at).map(|sample| seen.plan(sample)));
+        let [a, b, c, d] = self.corner_samples(at);
+        let quad = Quadrilateral([seen.plan(a), seen.plan(b), seen.plan(c), seen.plan(d)]);
         quad.0.iter().all(|p| p.is_finite()).then_some(quad)
     }
 
@@ -256,16 +267,47 @@ impl Drawing<'_> {
             return Pixel { paint: ground, class: N, edges: 0, quad };
         }
         let is_covered = lists.involved.iter().any(|i| self.paints[i.area as usize].is_some());
-        let paint = self.compose(plan, ground, lists);
+        let paint = self.compose(ground, &lists.involved, |_| true);
         Pixel { paint, class: if is_covered { F } else { N }, edges: 0, quad }
     }
 
     /// She 3.5: the mean of the composed colours of the samples (3.4).
     fn mean(&self, quad: &Quadrilateral, plan: Plan, ground: Paint, lists: &mut Lists) -> Paint {
         self.involve(plan, lists);
+        lists.ready.clear();
+        lists.ready.extend(lists.near.iter().map(|&e| NearEdge::new(self.judge.index.edge(e))));
+        let partial = lists.involved.iter().filter(|i| !i.near.is_empty()).count();
         let n = self.settings.samples;
-        let sum = quad.samples(n).fold(Paint::CLEAR, |sum, s| sum.plus(self.compose(s, ground, lists)));
+        let sum = if partial <= FEW {
+            self.sum_of_kinds(quad.samples(n), ground, lists)
+        } else {
+            quad.samples(n).fold(Paint::CLEAR, |sum, sample| {
+                let is_in = |at: usize| self.is_in(&lists.involved[at], sample, lists);
+                sum.plus(self.compose(ground, &lists.involved, is_in))
+            })
+        };
         sum.divided_by(f64::from(n * n))
+    }
+
+    /// The sum of the samples' colours where few areas are partly in the pixel: samples in the same areas have the same colour,
+    /// which is composed once.
+    fn sum_of_kinds(&self, samples: impl Iterator<Item = Plan>, ground: Paint, lists: &Lists) -> Paint {
+        let mut counts = [0u32; 1 << FEW];
+        for sample in samples {
+            let mut kind = 0;
+            for (bit, involved) in lists.involved.iter().filter(|i| !i.near.is_empty()).enumerate() {
+                kind |= usize::from(self.is_in(involved, sample, lists)) << bit;
+            }
+            counts[kind] += 1;
+        }
+        let mut sum = Paint::CLEAR;
+        for (kind, count) in counts.into_iter().enumerate().filter(|(_, count)| *count > 0) {
+            let partial_before =
+                |at: usize| lists.involved[..at].iter().filter(|i| !i.near.is_empty()).count();
+            let is_in = |at: usize| lists.involved[at].near.is_empty() || kind >> partial_before(at) & 1 == 1;
+            sum = sum.plus(self.compose(ground, &lists.involved, is_in).times(f64::from(count)));
+        }
+        sum
     }
 
     /// Lists the areas with a part in the pixel, in draw order: those whose edges meet it, and those that contain all of it.
@@ -292,19 +334,16 @@ impl Drawing<'_> {
         take_whole_below(u32::MAX, &mut lists.involved);
     }
 
-    /// The colour at one sample: the ground and every area that contains the sample, in draw order.
-    fn compose(&self, sample: Plan, ground: Paint, lists: &Lists) -> Paint {
+    /// The colour of the ground and every involved area that `is_in` says contains the sample, in draw order.
+    fn compose(&self, ground: Paint, involved: &[Involved], is_in: impl Fn(usize) -> bool) -> Paint {
         let mut paint = ground;
-        for involved in &lists.involved {
-            let Some(source) = self.paints[involved.area as usize] else {
-                continue;
-            };
-            let cut = self.judge.index.areas()[involved.area as usize].cut;
+        for (at, Involved { area, .. }) in involved.iter().enumerate() {
+            let Some(source) = self.paints[*area as usize] else { continue };
+            let cut = self.judge.index.areas()[*area as usize].cut;
             let is_kept = |(area, wanted): (u32, bool)| {
-                let whole = lists.involved.binary_search_by_key(&area, |i| i.area);
-                whole.is_ok_and(|at| self.is_in(&lists.involved[at], sample, lists)) == wanted
+                involved.binary_search_by_key(&area, |i| i.area).is_ok_and(&is_in) == wanted
             };
-            if self.is_in(involved, sample, lists) && cut.is_none_or(is_kept) {
+            if is_in(at) && cut.is_none_or(is_kept) {
                 paint = self.compositor.over(paint, source);
             }
         }
@@ -314,7 +353,7 @@ impl Drawing<'_> {
     #[inline]
     fn is_in(&self, involved: &Involved, sample: Plan, lists: &Lists) -> bool {
         involved.near.is_empty()
-            || self.judge.contains(involved.area, &lists.near[involved.near.clone()], sample)
+            || self.judge.contains(involved.area, &lists.ready[involved.near.clone()], sample)
     }
 
     fn frame(&self, (width, height): (usize, usize), rows: Vec<Row>, options: &FrameOptions) -> Frame {

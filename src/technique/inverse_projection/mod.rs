@@ -2,15 +2,15 @@
 //! optimization in visual quality and running performance", Transactions in GIS.
 //!
 //! Input: a [`Stage`]. Output: a picture whose every pixel asks the plan for its colour:
-//! 1. preprocess: lines are expanded to polygons of edges with normals ([`expansion`], 3.1);
-//! 2. the depth buffer gives each pixel a quadrilateral in the plan ([`quadrilateral`], 3.2);
-//! 3. pixels are N (no area), F (wholly in areas) or P (an edge meets the quadrilateral) (`classify`, 3.3);
-//! 4. P pixels take n x n samples, bilinear in the quadrilateral (3.4), judged by edge normals ([`judgment`], 3.5)
+//! 1. preprocess: lines are expanded to polygons of edges with normals (`expansion`, 3.1);
+//! 2. the depth buffer gives each pixel a quadrilateral in the plan (`quadrilateral`, 3.2);
+//! 3. pixels are N (no area), F (wholly in areas) or P (an edge meets the quadrilateral) (`frame`, 3.3);
+//! 4. P pixels take n x n samples, bilinear in the quadrilateral (3.4), judged by edge normals (`judgment`, 3.5)
 //!    and averaged.
 //!
 //! Where the paper is silent:
 //! - A pixel that sees the sky is sky. A pixel whose quadrilateral has a corner in the sky, or spans a silhouette (a side
-//!   longer than [`SILHOUETTE_RATIO`] times what both its ends would make of it), has no meaningful range in the plan: it takes
+//!   longer than `SILHOUETTE_RATIO` times what both its ends would make of it), has no meaningful range in the plan: it takes
 //!   one sample at its own centre and is counted in `refused`. `silhouette = "smear"` uses such a quadrilateral all the same
 //!   when its corners see terrain.
 //! - At the image's border the neighbours' centres lie outside the picture; they are looked at all the same (a guard band of one pixel).

@@ -17,7 +17,13 @@ impl Quadrilateral {
     /// The rectangle around it.
     #[inline]
     pub fn bounds(&self) -> PlanBox {
-        PlanBox::around(self.0)
+        let [a, b, c, d] = self.0;
+        let low = |a, b, c, d| math::min(math::min(a, b), math::min(c, d));
+        let high = |a, b, c, d| math::max(math::max(a, b), math::max(c, d));
+        PlanBox {
+            min: Plan::new(low(a.x, b.x, c.x, d.x), low(a.y, b.y, c.y, d.y)),
+            max: Plan::new(high(a.x, b.x, c.x, d.x), high(a.y, b.y, c.y, d.y)),
+        }
     }
 
     /// The sides, in order.

@@ -1,0 +1,101 @@
+//! The same scene gives the same bits: whatever the threads, the tiles, the build, the place of the scene.
+//!
+//! The hashes below are those of every buffer of a scene together. They change only when a pixel changes, which is then
+//! said in the commit.
+
+use drapery::buffer::Plane;
+use drapery::scene::file::SceneFile;
+use drapery::technique::{self, FrameOptions, Kind, Stage};
+
+/// Mountains, land use, an outlined lake, a road with a sharp turn; seen in perspective over the horizon.
+const MOUNTAINS: &str = r##"
+schema = 1
+image = { width = 150, height = 100, background = "#dde8f0" }
+[camera]
+eye = [EX, EY, 700.0]
+target = [TX, TY, 150.0]
+[terrain]
+generate = { kind = "fbm", seed = 11, posts = [65, 57], cell_m = 32.0, height_m = 600.0 }
+offset = [OX, OY]
+shade = "hillshade"
+[[layer]]
+name = "land use"
+generate = { kind = "mosaic", seed = 4, count = 40, holes = 0.3 }
+fill = { color = "#558855", opacity = 0.5 }
+outline = { color = "#223322", width_m = 5.0, mode = "inset" }
+[[layer]]
+name = "road"
+offset = [OX, OY]
+features = [ { line = [[-900, -800], [-250.5, 100], [300, -600], [800.25, 700]] } ]
+line = { color = "#ff7f00", width_m = 18.0 }
+"##;
+
+/// The same on a machine with single precision, snapping and a coarse depth buffer, with linear blending.
+const IMITATED: &str = r##"
+[device]
+precision = "f32"
+subpixel_bits = 8
+depth = "unorm24"
+[compositing]
+space = "linear"
+[technique.inverse-projection]
+corners = "true"
+point_in_polygon = "winding"
+"##;
+
+fn mountains(at: (i64, i64), more: &str) -> String {
+    let place = |value: i64, by: i64| format!("{}.0", value + by);
+    MOUNTAINS
+        .replace("EX", &place(-300, at.0))
+        .replace("EY", &place(-1500, at.1))
+        .replace("TX", &place(0, at.0))
+        .replace("TY", &place(0, at.1))
+        .replace("OX", &place(0, at.0))
+        .replace("OY", &place(0, at.1))
+        + more
+}
+
+/// The hash of the picture and of each buffer.
+fn hashes(text: &str, tile: usize, threads: usize) -> Vec<String> {
+    let file = SceneFile::parse(text, None, &[]).unwrap_or_else(|e| panic!("{e}"));
+    let run = || {
+        let (scene, surface) = drapery::source::load::load(&file, &|_| {}).unwrap();
+        let stage = Stage::new(scene, surface).unwrap();
+        let prepared = technique::prepare(Kind::InverseProjection, &stage).unwrap();
+        let buffers: Vec<String> = prepared.buffer_names().iter().map(|n| (*n).to_owned()).collect();
+        let frame = prepared.frame(&FrameOptions { tile, buffers: &buffers, progress: &|_| {} }).unwrap();
+        let mut hashes = vec![format!("image {}", frame.image.hash())];
+        hashes.extend(frame.planes.iter().map(|p: &Plane| format!("{} {}", p.name, p.hash())));
+        hashes
+    };
+    drapery::parallel::with_threads(threads, run).unwrap()
+}
+
+fn together(hashes: &[String]) -> String {
+    blake3::hash(hashes.join("\n").as_bytes()).to_hex()[..16].to_owned()
+}
+
+#[test]
+fn every_buffer_keeps_its_bits_for_any_number_of_threads_and_any_tiles() {
+    for more in ["", IMITATED] {
+        let text = mountains((0, 0), more);
+        let one = hashes(&text, 128, 1);
+        for (tile, threads) in [(128, 2), (32, 3), (50, 7), (128, 16)] {
+            assert_eq!(hashes(&text, tile, threads), one, "tiles of {tile}, {threads} threads");
+        }
+    }
+}
+
+#[test]
+fn every_buffer_keeps_its_bits_when_the_scene_is_moved_by_5000_km() {
+    for more in ["", IMITATED] {
+        let here = hashes(&mountains((0, 0), more), 128, 2);
+        assert_eq!(hashes(&mountains((5_000_000, -5_000_000), more), 128, 2), here);
+    }
+}
+
+#[test]
+fn every_buffer_has_the_bits_of_the_last_version_in_every_build() {
+    assert_eq!(together(&hashes(&mountains((0, 0), ""), 128, 2)), "exact");
+    assert_eq!(together(&hashes(&mountains((0, 0), IMITATED), 128, 2)), "imitated");
+}
