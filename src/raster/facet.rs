@@ -130,7 +130,7 @@ impl Facet {
 
     /// Draws the samples of columns and rows `from..=to`.
     pub fn fill(&self, tile: &mut Tile, from: (usize, usize), to: (usize, usize)) {
-        pulp::Arch::new().dispatch(Fill { facet: self, tile, from, to });
+        tile.arch.dispatch(Fill { facet: self, tile, from, to });
     }
 
     #[inline(always)]

@@ -10,6 +10,8 @@ pub mod device;
 mod facet;
 mod lattice;
 mod strip;
+#[cfg(test)]
+mod tests;
 mod tile;
 
 pub use facet::Facet;

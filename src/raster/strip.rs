@@ -144,7 +144,7 @@ impl Patch {
     /// Draws rows of cells of a grid: the posts of column `i` on of rows `j..=j + rows`; `heights(row)` gives the
     /// sixteen heights of a row of posts, NaN where there is none.
     pub fn draw_grid(&self, tile: &mut Tile, grid: &Grid, node: Node) {
-        let arch = pulp::Arch::new();
+        let arch = tile.arch;
         let (columns, rows) = grid.cells(node);
         let mut posts = [Points::NONE; LANES];
         arch.dispatch(Project { view: &tile.view, grid, node, to: &mut posts });
@@ -172,7 +172,7 @@ impl Patch {
 
     /// Draws triangles of a TIN, sixteen at a time.
     pub fn draw_tin(&self, tile: &mut Tile, tin: &Tin, ids: std::ops::Range<u32>) {
-        let (arch, mut sorted) = (pulp::Arch::new(), Sorted::NOTHING);
+        let (arch, mut sorted) = (tile.arch, Sorted::NOTHING);
         for start in ids.clone().step_by(LANES) {
             let mut corners = [Points::NONE; 3];
             for id in start..ids.end.min(start + LANES as u32) {

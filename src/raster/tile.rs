@@ -52,6 +52,8 @@ pub struct Tile<'a> {
     pub samples: &'a mut Samples,
     /// What was done.
     pub counts: Counts,
+    /// The vectors that kernels are run with; the bits are the same with any.
+    pub(super) arch: pulp::Arch,
 }
 
 /// The memory of a tile: used again from frame to frame.
@@ -100,7 +102,7 @@ impl<'a> Tile<'a> {
     /// A tile that has seen nothing, in memory that is used again.
     pub fn new(view: TileView, mesh: &'a Mesh, samples: &'a mut Samples) -> Self {
         samples.reset(view.width, view.height);
-        Self { mesh, samples, counts: Counts::default(), view }
+        Self { mesh, samples, counts: Counts::default(), view, arch: pulp::Arch::new() }
     }
 
     /// The key of a depth in metres.
