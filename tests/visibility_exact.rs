@@ -93,11 +93,14 @@ fn check(frame: &ViewFrame, mesh: &Mesh, tile: usize) -> Result<(), TestCaseErro
     Ok(())
 }
 
-fn grid(n: usize, diagonal: Diagonal, heights: &[f64]) -> Mesh {
+fn grid(n: usize, cell: f64, diagonal: Diagonal, heights: &[f64]) -> Mesh {
     let heights: Vec<f64> = heights.iter().copied().cycle().take(n * n).collect();
-    let first = Plan::new(-((n - 1) as f64) / 2.0, -((n - 1) as f64) / 2.0);
-    Mesh::new(Surface::Grid(Posts::new((n, n), first, (DVec2::X, DVec2::Y), heights).unwrap()), diagonal)
-        .unwrap()
+    let first = Plan::new(-((n - 1) as f64) / 2.0 * cell, -((n - 1) as f64) / 2.0 * cell);
+    Mesh::new(
+        Surface::Grid(Posts::new((n, n), first, (DVec2::X * cell, DVec2::Y * cell), heights).unwrap()),
+        diagonal,
+    )
+    .unwrap()
 }
 
 fn camera(eye: [f64; 3], target: [f64; 3], near: f64, far: f64) -> Viewpoint {
@@ -122,35 +125,38 @@ proptest! {
         diagonal in prop_oneof![Just(Diagonal::SwNe), Just(Diagonal::NwSe), Just(Diagonal::Alternating)],
         tile in prop_oneof![Just(5usize), Just(8), Just(64)],
     ) {
-        let mesh = grid(7, diagonal, &heights);
+        let mesh = grid(7, 1.0, diagonal, &heights);
         if let Ok(frame) = ViewFrame::perspective(&camera(eye, target, near, far), 60.0, (17, 13)) {
             check(&frame, &mesh, tile)?;
         }
     }
 
     #[test]
-    fn an_orthographic_sample_on_posts_and_edges_sees_one_of_their_triangles(
+    fn an_orthographic_sample_on_or_a_hair_beside_posts_and_edges_sees_the_right_triangle(
         heights in prop::collection::vec((-8..8i32).prop_map(|h| f64::from(h) / 4.0), 49),
-        shift in (-4..4i32).prop_map(|s| f64::from(s) / 4.0),
+        shift in (-4..4i32, prop_oneof![Just(0.0), Just(1e-7), Just(-1e-9), Just(1e-12), Just(-1e-14)])
+            .prop_map(|(quarters, hair)| f64::from(quarters) / 4.0 + hair),
+        pixels_a_cell in prop_oneof![Just(2.0), Just(0.75)],
+        cell in prop_oneof![Just(1.0), Just(0.3), Just(0.7)],
         tilt in prop_oneof![Just(0.0), Just(1.0), 0.0..3.0f64],
     ) {
-        let mesh = grid(7, Diagonal::SwNe, &heights);
+        let mesh = grid(7, cell, Diagonal::SwNe, &heights);
         let view = Viewpoint {
-            eye: World::new(shift, shift - tilt * 10.0, 10.0),
-            target: World::new(shift, shift, 0.0),
+            eye: World::new(shift * cell, shift * cell - tilt * 10.0, 10.0),
+            target: World::new(shift * cell, shift * cell, 0.0),
             up: DVec3::Y,
             near: 0.5,
             far: f64::INFINITY,
         };
-        // A pixel is half a cell: seen from straight above, samples fall on posts, edges and diagonals.
-        let frame = ViewFrame::orthographic(&view, 8.0, (16, 16)).unwrap();
+        // A pixel is a simple part of a cell: seen from straight above, samples fall on posts, edges and diagonals, or a hair beside.
+        let frame = ViewFrame::orthographic(&view, 16.0 / pixels_a_cell * cell, (16, 16)).unwrap();
         check(&frame, &mesh, 8)?;
     }
 }
 
 #[test]
 fn every_sample_over_a_closed_surface_is_covered_once_from_straight_above() {
-    let mesh = grid(33, Diagonal::Alternating, &[0.0]);
+    let mesh = grid(33, 1.0, Diagonal::Alternating, &[0.0]);
     let view = Viewpoint {
         eye: World::new(0.0, 0.0, 10.0),
         target: World::new(0.0, 0.0, 0.0),
