@@ -162,7 +162,7 @@ impl TileView {
         if outside || depth + spread < self.frame.near() || depth - spread > self.frame.far() {
             return None;
         }
-        Some(BoxReach { center, axes, depth: (depth - spread, depth + spread), size })
+        Some(BoxReach { center, axes, depth: (depth - spread, depth + spread), size, slack })
     }
 }
 
@@ -175,6 +175,8 @@ pub struct BoxReach {
     pub depth: (f64, f64),
     /// A bound of the sizes of all coordinates that enter, metres.
     pub size: f64,
+    /// A bound of the error of homogeneous tile coordinates of points in the box.
+    pub slack: f64,
 }
 
 impl BoxReach {

@@ -9,6 +9,7 @@
 pub mod device;
 mod facet;
 mod lattice;
+mod outcode;
 mod strip;
 #[cfg(test)]
 mod tests;
@@ -16,6 +17,7 @@ mod tile;
 
 pub use facet::Facet;
 pub use lattice::{Lattice, TileView};
+pub use outcode::{MISSING, outcodes};
 pub use strip::{LANES, Patch};
 pub use tile::{Counts, Samples, Tile};
 

@@ -50,13 +50,11 @@ impl Points {
     fn project(&mut self, line: &PostLine, heights: &[f64; LANES]) {
         for (k, h) in heights.iter().enumerate() {
             let i = k as f64;
-            let x = line.origin.x + i * line.step.x + h * line.up.x;
-            let y = line.origin.y + i * line.step.y + h * line.up.y;
-            let w = line.origin.z + i * line.step.z + h * line.up.z;
+            let p = line.at(i, *h);
             let depth = line.depth.x + i * line.depth.y + h * line.depth.z;
-            let inverse = 1.0 / w;
-            self.x[k] = (x * inverse) as f32;
-            self.y[k] = (y * inverse) as f32;
+            let inverse = 1.0 / p.z;
+            self.x[k] = (p.x * inverse) as f32;
+            self.y[k] = (p.y * inverse) as f32;
             self.key[k] = (if line.is_parallel { -depth } else { inverse }) as f32;
         }
     }
@@ -91,13 +89,25 @@ fn shifted<const SHIFT: usize>(values: &[f32; LANES + 1]) -> &[f32; LANES] {
 }
 
 /// A line of posts in homogeneous tile coordinates.
-struct PostLine {
+pub(super) struct PostLine {
     origin: DVec3,
     step: DVec3,
     up: DVec3,
     /// View depth of the first post at height 0, per post, per metre of height.
     depth: DVec3,
     is_parallel: bool,
+}
+
+impl PostLine {
+    /// Homogeneous tile coordinates of post `i` of the line, `height` metres high.
+    #[inline(always)]
+    pub(super) fn at(&self, i: f64, height: f64) -> DVec3 {
+        DVec3::new(
+            self.origin.x + i * self.step.x + height * self.up.x,
+            self.origin.y + i * self.step.y + height * self.up.y,
+            self.origin.z + i * self.step.z + height * self.up.z,
+        )
+    }
 }
 
 /// The outcome of sorting sixteen triangles.
@@ -324,20 +334,9 @@ impl pulp::WithSimd for Project<'_> {
     #[inline(always)]
     fn with_simd<S: pulp::Simd>(self, _: S) {
         let (columns, rows) = self.grid.cells(self.node);
-        let posts = self.grid.posts();
-        let lines = GridLines::new(self.view, self.grid, columns.start);
+        let lines = GridLines::new(self.view, self.grid, (columns.start, rows.start));
         for (points, j) in self.to.iter_mut().zip(rows.start..=rows.end) {
-            let row = &posts.heights()[j * posts.columns()..(j + 1) * posts.columns()];
-            let row = &row[columns.start..=columns.end];
-            let line = lines.line(j);
-            match row.first_chunk() {
-                Some(heights) => points.project(&line, heights),
-                None => {
-                    let mut heights = [f64::NAN; LANES];
-                    heights[..row.len()].copy_from_slice(row);
-                    points.project(&line, &heights);
-                }
-            }
+            points.project(&lines.line(j), &lines.heights(self.grid, &columns, j));
         }
     }
 }
@@ -369,8 +368,9 @@ fn edge_doubt(longest: f32, point_error: f32) -> f32 {
 }
 
 /// The lines of posts of a grid in one column of nodes.
-struct GridLines {
-    /// Post (i, 0) at height 0, then the step to the next row, as lines.
+pub(super) struct GridLines {
+    first_row: usize,
+    /// The node's first post at height 0, then the steps to the next post and the next row.
     origin: DVec3,
     step: DVec3,
     next_row: DVec3,
@@ -381,13 +381,15 @@ struct GridLines {
 }
 
 impl GridLines {
-    fn new(view: &TileView, grid: &Grid, i: usize) -> Self {
+    /// The lines from post (i, j) on: near the node, so that a large terrain costs no precision.
+    pub(super) fn new(view: &TileView, grid: &Grid, (i, j): (usize, usize)) -> Self {
         let posts = grid.posts();
-        let first = posts.plan(i, 0);
+        let first = posts.plan(i, j);
         let start = crate::space::World::new(first.x, first.y, 0.0);
         let (east, north) = (posts.east().extend(0.0), posts.north().extend(0.0));
         let from_eye = start - view.frame.eye();
         Self {
+            first_row: j,
             origin: view.map_point(start),
             step: view.map(east),
             next_row: view.map(north),
@@ -398,9 +400,10 @@ impl GridLines {
         }
     }
 
+    /// The line of row `j` of the grid.
     #[inline(always)]
-    fn line(&self, j: usize) -> PostLine {
-        let j = j as f64;
+    pub(super) fn line(&self, j: usize) -> PostLine {
+        let j = (j - self.first_row) as f64;
         PostLine {
             origin: self.origin + self.next_row * j,
             step: self.step,
@@ -408,5 +411,18 @@ impl GridLines {
             depth: self.depth + DVec3::X * (self.depth_next_row * j),
             is_parallel: self.is_parallel,
         }
+    }
+
+    /// The heights of a row of a node's posts, NaN beyond its last column.
+    #[inline(always)]
+    pub(super) fn heights(&self, grid: &Grid, columns: &std::ops::Range<usize>, j: usize) -> [f64; LANES] {
+        let start = j * grid.posts().columns();
+        let row = &grid.posts().heights()[start + columns.start..=start + columns.end];
+        let mut heights = [f64::NAN; LANES];
+        match row.first_chunk::<LANES>() {
+            Some(whole) => heights = *whole,
+            None => heights[..row.len()].copy_from_slice(row),
+        }
+        heights
     }
 }

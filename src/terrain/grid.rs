@@ -83,9 +83,15 @@ impl Grid {
     pub(super) fn triangle(&self, id: u32) -> Option<[World; 3]> {
         let cell = (id / 2) as usize;
         let (i, j) = (cell % (self.posts.columns() - 1), cell / (self.posts.columns() - 1));
-        let corners = half_corners(self.splits_sw_ne(i, j), id % 2 == 1);
+        let corners = self.half_corners(i, j, id % 2 == 1);
         let [a, b, c] = corners.map(|(di, dj)| self.posts.world(i + di, j + dj));
         (a.z + b.z + c.z).is_finite().then_some([a, b, c])
+    }
+
+    /// The corners of a half of cell (i, j) as offsets from its south-west post, counter-clockwise.
+    #[inline(always)]
+    pub fn half_corners(&self, i: usize, j: usize, second: bool) -> [(usize, usize); 3] {
+        half_corners(self.splits_sw_ne(i, j), second)
     }
 
     pub(super) fn plan_bounds(&self) -> PlanBox {

@@ -14,9 +14,9 @@ pub use hit::{Hit, hit};
 pub use sight::Sight;
 
 use crate::parallel;
-use crate::raster::{Counts, Facet, Lattice, Patch, Samples, Tile, TileView};
+use crate::raster::{Counts, Facet, Lattice, MISSING, Patch, Samples, Tile, TileView, outcodes};
 use crate::space::ViewFrame;
-use crate::terrain::{Mesh, Node, SKY};
+use crate::terrain::{Grid, Mesh, Node, SKY};
 
 /// The default side of a tile in samples: its keys and triangles fit the second-level cache.
 pub const TILE: usize = 128;
@@ -131,7 +131,7 @@ fn draw_node(tile: &mut Tile, mesh: &Mesh, node: Node) {
         draw_children(tile, mesh, node);
     } else {
         let patch = rectangle.as_ref().and_then(|r| Patch::new(&tile.view, reach.depth, reach.size, r));
-        draw_leaf(tile, mesh, node, patch);
+        draw_leaf(tile, mesh, node, patch, reach.slack);
         if let Some((from, to)) = rectangle.and_then(|r| tile.samples_in(r)) {
             tile.touch(from, to);
         }
@@ -152,18 +152,32 @@ fn draw_children(tile: &mut Tile, mesh: &Mesh, node: Node) {
     }
 }
 
-fn draw_leaf(tile: &mut Tile, mesh: &Mesh, node: Node, patch: Option<Patch>) {
+fn draw_leaf(tile: &mut Tile, mesh: &Mesh, node: Node, patch: Option<Patch>, slack: f64) {
     match (mesh, patch) {
         (Mesh::Grid(grid), Some(patch)) => patch.draw_grid(tile, grid, node),
         (Mesh::Tin(tin), Some(patch)) => patch.draw_tin(tile, tin, tin.leaf(node)),
-        (Mesh::Grid(grid), None) => {
-            let (columns, rows) = grid.cells(node);
-            for j in rows {
-                let first = grid.first_triangle(columns.start, j);
-                draw_facets(tile, mesh, first..first + 2 * columns.len() as u32);
+        (Mesh::Grid(grid), None) => draw_cells(tile, grid, node, slack),
+        (Mesh::Tin(tin), None) => draw_facets(tile, mesh, tin.leaf(node)),
+    }
+}
+
+/// Draws the cells of a node that is too near or too large on the screen for a [`Patch`], leaving out triangles whose
+/// corners all lie beside the tile on one side.
+fn draw_cells(tile: &mut Tile, grid: &Grid, node: Node, slack: f64) {
+    let (columns, rows) = grid.cells(node);
+    let codes = outcodes(&tile.view, grid, node, slack);
+    for j in rows.clone() {
+        for i in columns.clone() {
+            let code = |(di, dj): (usize, usize)| codes[j - rows.start + dj][i - columns.start + di];
+            for second in [false, true] {
+                let [a, b, c] = grid.half_corners(i, j, second).map(code);
+                if a & b & c != 0 || (a | b | c) & MISSING != 0 {
+                    continue;
+                }
+                let id = grid.first_triangle(i, j) + u32::from(second);
+                draw_facets(tile, tile.mesh, id..id + 1);
             }
         }
-        (Mesh::Tin(tin), None) => draw_facets(tile, mesh, tin.leaf(node)),
     }
 }
 
