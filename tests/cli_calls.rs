@@ -170,6 +170,15 @@ fn a_starter_scene_names_the_files_as_given_and_loads() {
 }
 
 #[test]
+fn points_that_span_no_triangle_are_refused_with_their_file() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("p.xyz"), "0 0 1\n1 1 2\n2 2 3\n").unwrap();
+    std::fs::write(folder.path().join("s.toml"), "schema = 1\nterrain = { source = \"p.xyz\" }\n").unwrap();
+    let said = refused(called_in(&folder, &["render", "s.toml"]), 2);
+    assert!(said.contains("p.xyz: the points span no triangle") && said.contains("s.toml:2:"), "{said}");
+}
+
+#[test]
 fn info_says_what_a_terrain_holds_in_aligned_lines() {
     let folder = valley();
     let text = done(called_in(&folder, &["info", "dem.asc"]));

@@ -154,6 +154,87 @@ proptest! {
     }
 }
 
+/// A number between 10^low and 10^high, every order of magnitude alike.
+fn magnitude(low: f64, high: f64) -> impl Strategy<Value = f64> {
+    (low..high).prop_map(|exponent| 10f64.powf(exponent))
+}
+
+/// The eye at a distance from the target, in a direction that is also steep or grazing.
+fn eye_at(target: [f64; 3], direction: [f64; 3], distance: f64) -> [f64; 3] {
+    let along = DVec3::from(direction).normalize_or(DVec3::Z);
+    (DVec3::from(target) + along * distance).into()
+}
+
+fn direction() -> impl Strategy<Value = [f64; 3]> {
+    let slope = prop_oneof![-1.0..1.0f64, -1e-9..1e-9f64, Just(0.0)];
+    (slope.clone(), slope, prop_oneof![Just(1.0), -1.0..1.0f64, -1e-6..1e-6f64])
+        .prop_map(|(x, y, z)| [x, y, z])
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(12))]
+
+    #[test]
+    fn a_sample_sees_the_right_triangle_at_every_scale_distance_and_angle_of_view(
+        heights in prop::collection::vec(height(), 36),
+        cell in magnitude(-3.0, 4.0),
+        steepness in magnitude(-6.0, 5.0),
+        away in magnitude(-1.0, 8.0),
+        place in prop::array::uniform2(-2.5..2.5f64),
+        direction in direction(),
+        spread in prop_oneof![Just(1.0), magnitude(-4.0, 1.0)],
+        lens in prop_oneof![Just(None), Just(Some(None)), Just(Some(Some(0.01))), Just(Some(Some(179.0)))],
+        diagonal in prop_oneof![Just(Diagonal::SwNe), Just(Diagonal::NwSe), Just(Diagonal::Alternating)],
+        tile in prop_oneof![Just(5usize), Just(8), Just(64)],
+    ) {
+        let n = 6;
+        let heights: Vec<f64> = heights.iter().map(|h| h * cell * steepness).collect();
+        let first = Plan::new(-2.5 * cell, -2.5 * cell);
+        let posts = Posts::new((n, n), first, (DVec2::X * cell, DVec2::Y * cell), heights).unwrap();
+        let mesh = Mesh::new(Surface::Grid(posts), diagonal);
+        prop_assume!(mesh.is_ok());
+        let target = [place[0] * cell, place[1] * cell, 0.0];
+        let distance = away * cell;
+        let view = camera(eye_at(target, direction, distance), target, distance * 1e-3, f64::INFINITY);
+        let extent = 6.0 * cell * spread;
+        let frame = match lens {
+            None => ViewFrame::orthographic(&view, extent, (13, 11)),
+            Some(None) => {
+                let fov = 2.0 * (extent / 2.0 / distance).atan().to_degrees();
+                ViewFrame::perspective(&view, fov.clamp(1e-9, 179.9), (13, 11))
+            }
+            Some(Some(fov)) => ViewFrame::perspective(&view, fov, (13, 11)),
+        };
+        if let Ok(frame) = frame {
+            check(&frame, &mesh.unwrap(), tile)?;
+        }
+    }
+
+    #[test]
+    fn a_sample_sees_the_right_triangle_of_a_network_of_slivers(
+        points in prop::collection::vec((-3.0..3.0f64, -1.0..1.0f64, -1.0..1.0f64), 12..40),
+        thin in magnitude(-9.0, 0.0),
+        direction in direction(),
+        away in magnitude(0.0, 7.0),
+        spread in magnitude(-3.0, 1.0),
+        orthographic in any::<bool>(),
+    ) {
+        let points = points.iter().map(|&(x, y, z)| World::new(x, y * thin, z)).collect();
+        let mesh = Mesh::new(Surface::Points(points), Diagonal::SwNe);
+        prop_assume!(mesh.is_ok());
+        let target = [0.0, 0.0, 0.0];
+        let view = camera(eye_at(target, direction, away), target, away * 1e-3, f64::INFINITY);
+        let frame = if orthographic {
+            ViewFrame::orthographic(&view, 8.0 * spread, (13, 11))
+        } else {
+            ViewFrame::perspective(&view, (2.0 * (4.0 * spread / away).atan().to_degrees()).min(179.0), (13, 11))
+        };
+        if let Ok(frame) = frame {
+            check(&frame, &mesh.unwrap(), 8)?;
+        }
+    }
+}
+
 #[test]
 fn every_sample_over_a_closed_surface_is_covered_once_from_straight_above() {
     let mesh = grid(33, 1.0, Diagonal::Alternating, &[0.0]);

@@ -150,9 +150,11 @@ fn crs_lines(terrain: &Terrain<'_>, vectors: &[(&Path, VectorSummary)]) -> Resul
     if terrain.plan().is_some() {
         return Ok(String::new());
     }
+    let ground = bounds(&terrain.summary);
     let guess = vectors.iter().find_map(|(path, summary)| {
-        let code = summary.crs.as_ref().and_then(Crs::epsg)?;
-        summary.bounds.meets(&bounds(&terrain.summary)).then_some((*path, code))
+        let crs = summary.crs.as_ref()?;
+        let code = crs.epsg()?;
+        (summary.bounds.meets(&ground) && can_hold(crs, &ground)).then_some((*path, code))
     });
     Ok(match guess {
         Some((path, code)) => format!(
@@ -161,6 +163,12 @@ fn crs_lines(terrain: &Terrain<'_>, vectors: &[(&Path, VectorSummary)]) -> Resul
         ),
         None => "# crs = \"EPSG:32733\"                   # the file does not say it\n".into(),
     })
+}
+
+/// Whether a rectangle can be in a CRS: one in degrees ends at the poles. (A GeoJSON of metres still counts as degrees.)
+fn can_hold(crs: &Crs, bounds: &PlanBox) -> bool {
+    let on_globe = |p: Plan| p.x.abs() <= 360.0 && p.y.abs() <= 90.0;
+    !crs.is_geographic() || (on_globe(bounds.min) && on_globe(bounds.max))
 }
 
 fn bounds(summary: &DemSummary) -> PlanBox {
@@ -287,6 +295,20 @@ mod tests {
             let LayerSource::File { file, .. } = &parsed.layers[0].source else { panic!("no file") };
             assert_eq!(file.path, json);
         }
+    }
+
+    #[test]
+    fn a_terrain_in_metres_does_not_get_the_degrees_of_a_geojson_that_lies_on_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let (grid, json) = (folder.path().join("dem.asc"), folder.path().join("both.json"));
+        std::fs::write(&json, BOTH).unwrap();
+        let line = |cell: &str| {
+            std::fs::write(&grid, GRID.replace("cellsize 100", cell)).unwrap();
+            let summary = vector::describe(&json).unwrap().remove(0);
+            crs_lines(&Terrain::of(&grid).unwrap(), &[(json.as_path(), summary)]).unwrap()
+        };
+        assert!(line("cellsize 100").starts_with("# crs"), "{}", line("cellsize 100"));
+        assert!(line("cellsize 10").starts_with("crs = \"EPSG:4326\""), "{}", line("cellsize 10"));
     }
 
     #[test]

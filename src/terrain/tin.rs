@@ -6,7 +6,7 @@ use crate::math;
 use crate::parallel;
 use crate::space::World;
 use glam::DVec3;
-use spade::{DelaunayTriangulation, HasPosition, Point2, Triangulation};
+use spade::{DelaunayTriangulation, HasPosition, InsertionError, Point2, Triangulation};
 use std::ops::Range;
 
 /// Triangles in a leaf of the hierarchy.
@@ -36,6 +36,16 @@ impl HasPosition for Sample {
     }
 }
 
+/// What the triangulation could not take, in words.
+fn refused(error: InsertionError) -> Error {
+    let why = match error {
+        InsertionError::TooSmall => "a coordinate is nearer to 0 than 1.8e-43, but not 0",
+        InsertionError::TooLarge => "a coordinate is beyond 3e60",
+        InsertionError::NAN => "a coordinate is not a number",
+    };
+    Error::new(format!("the points cannot be triangulated: {why}"))
+}
+
 impl Tin {
     /// The Delaunay triangulation of points; of points at the same place the last counts.
     ///
@@ -48,8 +58,7 @@ impl Tin {
             );
         }
         let samples = points.iter().enumerate().map(|(i, &at)| Sample { at, index: i as u32 }).collect();
-        let delaunay = DelaunayTriangulation::<Sample>::bulk_load_stable(samples)
-            .map_err(|e| Error::new(format!("the points cannot be triangulated: {e}")))?;
+        let delaunay = DelaunayTriangulation::<Sample>::bulk_load_stable(samples).map_err(refused)?;
         let mut triangles: Vec<[u32; 3]> =
             delaunay.inner_faces().map(|f| f.vertices().map(|v| v.data().index)).map(from_lowest).collect();
         if triangles.is_empty() {

@@ -8,9 +8,9 @@ use super::refusal::harmless;
 use super::scene_input::SceneInput;
 use super::stop::{Outcome, Status};
 use drapery::output::{Batch, RESULT_SCHEMA, RenderResult, RunResult, SceneResult};
-use drapery::scene::file::SceneFile;
+use drapery::scene::file::{SceneFile, TerrainSource};
 use drapery::technique::{Kind, Stage};
-use drapery::{Result, parallel, source};
+use drapery::{Error, Result, parallel, source};
 use draw::{Drawing, Wish};
 use std::path::PathBuf;
 
@@ -76,7 +76,7 @@ fn render(
     for note in &scene.notes {
         bar.say(&format!("note: {}", harmless(note)));
     }
-    let stage = Stage::new(scene, surface)?;
+    let stage = Stage::new(scene, surface).map_err(|error| of_terrain(error, file))?;
     let kinds = techniques::applying(asked, &stage, bar)?;
     let wish =
         Wish { buffers: techniques::buffers(&arguments.buffers, &kinds, &stage)?, repeat: arguments.repeat };
@@ -103,6 +103,18 @@ fn scene_result(stage: &Stage, file: &SceneFile) -> SceneResult {
         hash: file.hash.clone(),
         plan_space: scene.plan_space.clone(),
         origin: scene.origin.to_array(),
+    }
+}
+
+/// An error of the terrain's surface: its file and the line that names it.
+fn of_terrain(error: Error, scene: &SceneFile) -> Error {
+    let TerrainSource::File(file) = &scene.terrain.source else {
+        return error;
+    };
+    let error = error.in_file(&file.path);
+    match file.position {
+        Some(position) => error.named_in(scene.path.as_deref(), position),
+        None => error,
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::blame::of_key;
 use super::layer;
-use super::terrain::{Terrain, height_range};
+use super::terrain::{REACH, Terrain, height_range, in_reach};
 use crate::error::{Error, Result};
 use crate::math::max;
 use crate::scene::file::{SceneFile, Spot, check_view};
@@ -23,6 +23,13 @@ pub(super) fn camera(scene: &SceneFile, terrain: &Terrain, layers: &[Layer]) -> 
         }
         None => framing(scene, terrain, layers),
     };
+    for (at, key) in [(eye, "camera.eye"), (target, "camera.target")] {
+        if !at.to_vec().to_array().into_iter().all(in_reach) {
+            let error = Error::new(format!("a place more than {REACH:e} m from the terrain"))
+                .help("coordinates are metres in the scene's plan space");
+            return Err(of_key(scene, key, error));
+        }
+    }
     check_view(eye.to_vec(), target.to_vec(), spec.up).map_err(|error| of_key(scene, "camera", error))?;
     Ok(Camera {
         eye,

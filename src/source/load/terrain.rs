@@ -38,6 +38,10 @@ pub(super) fn terrain(
     stretch(&mut surface, scene.terrain.vertical_scale)?;
     let offset = scene.terrain.offset;
     let bounds = bounds(&surface);
+    within_reach(&surface, &bounds, anchor + offset).map_err(|error| match &scene.terrain.source {
+        TerrainSource::File(file) => Named::new(scene, file).blame(error),
+        TerrainSource::Generate(_) => of_key(scene, "terrain", error),
+    })?;
     Ok(Terrain { bounds, surface, place: Place { space, anchor, offset } })
 }
 
@@ -261,6 +265,28 @@ fn stretch(surface: &mut Surface, by: f64) -> Result<()> {
     }
     Ok(())
 }
+
+/// Refuses a terrain so far from 0, or so high, that nothing near it could be told apart.
+fn within_reach(surface: &Surface, bounds: &PlanBox, origin: DVec2) -> Result<()> {
+    let (low, high) = height_range(surface, bounds);
+    let corners = [bounds.min.to_vec(), bounds.max.to_vec()].map(|corner| corner + origin);
+    let plan = corners.into_iter().flat_map(|corner| [corner.x, corner.y]);
+    let local = [bounds.min.x, bounds.min.y, bounds.max.x, bounds.max.y];
+    match plan.chain(local).chain([low, high]).find(|number| !in_reach(*number)) {
+        None => Ok(()),
+        Some(far) => Err(Error::new(format!("the terrain reaches {far:e} m, beyond {REACH:e} m"))
+            .help("check the file's heights, its nodata value and position, and the scene's offset")),
+    }
+}
+
+/// Whether a coordinate or height in metres is one that scenes can have.
+pub(super) fn in_reach(number: f64) -> bool {
+    number.abs() <= REACH
+}
+
+/// The farthest coordinate and the greatest height of a scene, in metres: some planets on. There a number has a
+/// resolution of 0.1 mm.
+pub(super) const REACH: f64 = 1e12;
 
 /// The rectangle that a surface lies in.
 pub(super) fn bounds(surface: &Surface) -> PlanBox {

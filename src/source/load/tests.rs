@@ -320,6 +320,22 @@ fn an_error_in_a_data_file_names_the_file_the_feature_and_the_scene_line() {
 }
 
 #[test]
+fn what_is_out_of_reach_is_refused_with_its_file_or_key() {
+    let ascii = "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3 4e30\n";
+    let folder = Folder::new().with("d.asc", ascii).with("p.xyz", "0 0 1\n1e30 0 2\n0 1e30 3\n");
+    let said = folder.refused("terrain = { source = \"d.asc\" }").to_string();
+    assert!(said.contains("d.asc: the terrain reaches 4e30 m, beyond 1e12 m"), "{said}");
+    let said = folder.refused("terrain = { source = \"p.xyz\" }").to_string();
+    assert!(said.contains("p.xyz: the terrain reaches"), "{said}");
+    let plane = "generate = { kind = \"plane\", posts = [5, 5], cell_m = 10.0 }";
+    let said = folder.refused(&format!("terrain = {{ {plane}, offset = [1e300, 0] }}")).to_string();
+    assert!(said.contains("`terrain`: the terrain reaches 1e300 m"), "{said}");
+    let camera = "camera = { eye = [0, 0, 1e200], target = [0, 1, 0], up = [0, 1, 0] }";
+    let said = folder.refused(&format!("{camera}\nterrain = {{ {plane} }}")).to_string();
+    assert!(said.contains("`camera.eye`: a place more than 1e12 m from the terrain"), "{said}");
+}
+
+#[test]
 fn an_unknown_crs_is_blamed_on_its_key() {
     let folder = Folder::new().with("d.asc", grid((5, 5), (0.0, 0.0), 100.0, hills));
     let said = folder.refused("crs = \"EPSG:99\"\nterrain = { source = \"d.asc\" }").to_string();

@@ -18,6 +18,8 @@ pub(super) struct Collector {
     pub(super) stored_vertices: usize,
     points: usize,
     empty: usize,
+    /// Rings that enclose nothing.
+    thin_rings: usize,
 }
 
 impl Collector {
@@ -49,6 +51,7 @@ impl Collector {
                 ring.pop();
             }
         }
+        self.thin_rings += rings.iter().filter(|ring| ring.len() < 3).count();
         self.push(rings, Shape::Polygon);
         Ok(())
     }
@@ -83,6 +86,11 @@ impl Collector {
     pub(super) fn finish(&mut self) {
         self.note_count(self.points, "point", "left out: points are not drawn");
         self.note_count(self.empty, "geometry", "without coordinates left out");
+        let thin = match self.thin_rings {
+            1 => "of fewer than 3 vertices: nothing lies in it",
+            _ => "of fewer than 3 vertices: nothing lies in them",
+        };
+        self.note_count(self.thin_rings, "ring", thin);
         if let Some(note) = self.crs.as_ref().and_then(Crs::note) {
             self.notes.push(note);
         }

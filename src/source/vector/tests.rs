@@ -165,6 +165,16 @@ fn geojson_keeps_order_and_indices_and_tells_what_it_leaves_out() {
 }
 
 #[test]
+fn rings_that_enclose_nothing_are_told() {
+    let text = r#"{"type":"MultiPolygon","coordinates":[[[[0,0]]],[[[0,0],[1,1],[0,0]]],[[[0,0],[1,0],[0,1],[0,0]]]]}"#;
+    let read = read_bytes("a.geojson", text.as_bytes()).unwrap();
+    assert_eq!(read.notes, ["2 rings of fewer than 3 vertices: nothing lies in them"]);
+    let text = r#"{"type":"Polygon","coordinates":[[[0,0]]]}"#;
+    let read = read_bytes("a.geojson", text.as_bytes()).unwrap();
+    assert_eq!(read.notes, ["1 ring of fewer than 3 vertices: nothing lies in it"]);
+}
+
+#[test]
 fn geojson_may_be_a_feature_or_a_bare_geometry() {
     for text in [
         r#"{"type":"Feature","geometry":{"type":"LineString","coordinates":[[0,0],[1,1e0]]}}"#,
@@ -234,6 +244,7 @@ fn shapefile_parts_become_rings_without_closing_vertices() {
         [
             "there is no .prj beside the file, so its CRS is not known",
             "1 geometry without coordinates left out",
+            "1 ring of fewer than 3 vertices: nothing lies in it",
         ]
     );
 }
