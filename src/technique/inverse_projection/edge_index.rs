@@ -142,7 +142,7 @@ impl EdgeIndex {
         &self.covers[self.cover_starts[cell] as usize..self.cover_starts[cell + 1] as usize]
     }
 
-    /// Collects the edges in the cells that a quadrilateral touches, each once, in order.
+    /// Collects the edges whose boxes meet a quadrilateral's in the cells that it touches, each once, in order.
     pub fn edges_near(&self, quad: &Quadrilateral, found: &mut Vec<u32>) {
         found.clear();
         let bounds = quad.bounds();
@@ -154,7 +154,9 @@ impl EdgeIndex {
         }
         if columns.len() * rows.len() <= 4 {
             for row in rows {
-                columns.clone().for_each(|column| found.extend_from_slice(self.members_of(column, row)));
+                columns
+                    .clone()
+                    .for_each(|column| self.take_near(self.members_of(column, row), &bounds, found));
             }
             found.sort_unstable();
             found.dedup();
@@ -166,11 +168,21 @@ impl EdgeIndex {
                 continue;
             };
             for column in self.cells_between(west - self.origin.x, east - self.origin.x, self.columns) {
-                found.extend_from_slice(self.members_of(column, row));
+                self.take_near(self.members_of(column, row), &bounds, found);
             }
         }
         found.sort_unstable();
         found.dedup();
+    }
+
+    /// Adds the edges whose boxes meet `bounds`.
+    #[inline(always)]
+    fn take_near(&self, members: &[u32], bounds: &PlanBox, found: &mut Vec<u32>) {
+        let apart = |p: f64, q: f64, low: f64, high: f64| (p < low) & (q < low) | (p > high) & (q > high);
+        found.extend(members.iter().copied().filter(|&member| {
+            let Edge { a, b, .. } = self.edge(member);
+            !(apart(a.x, b.x, bounds.min.x, bounds.max.x) | apart(a.y, b.y, bounds.min.y, bounds.max.y))
+        }));
     }
 
     /// Whether any edge lies in the cells around a quadrilateral.

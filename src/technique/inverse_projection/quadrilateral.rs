@@ -65,8 +65,13 @@ impl Quadrilateral {
             return false;
         }
         // All corners strictly on one side of the segment's line?
-        let sides = self.0.map(|p| orient2d(a, b, p));
-        if sides.iter().all(|s| *s > 0.0) || sides.iter().all(|s| *s < 0.0) {
+        let (mut all_left, mut all_right) = (true, true);
+        for p in self.0 {
+            let side = orient2d(a, b, p);
+            all_left &= side > 0.0;
+            all_right &= side < 0.0;
+        }
+        if all_left || all_right {
             return false;
         }
         self.sides().iter().any(|(p, q)| segments_meet(a, b, *p, *q)) || self.contains(a)
