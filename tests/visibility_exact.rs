@@ -1,6 +1,7 @@
 //! Each sample sees the triangle that exact rational ray casting finds, whatever the tiles, the camera and the terrain.
 
 use dashu::rational::RBig;
+use drapery::math;
 use drapery::raster::Lattice;
 use drapery::scene::{Diagonal, Posts, Surface};
 use drapery::space::{Plan, Ray, ViewFrame, Viewpoint, World};
@@ -156,7 +157,7 @@ proptest! {
 
 /// A number between 10^low and 10^high, every order of magnitude alike.
 fn magnitude(low: f64, high: f64) -> impl Strategy<Value = f64> {
-    (low..high).prop_map(|exponent| 10f64.powf(exponent))
+    (low..high).prop_map(|exponent| math::pow(10.0, exponent))
 }
 
 /// The eye at a distance from the target, in a direction that is also steep or grazing.
@@ -200,7 +201,7 @@ proptest! {
         let frame = match lens {
             None => ViewFrame::orthographic(&view, extent, (13, 11)),
             Some(None) => {
-                let fov = 2.0 * (extent / 2.0 / distance).atan().to_degrees();
+                let fov = 2.0 * math::atan(extent / 2.0 / distance).to_degrees();
                 ViewFrame::perspective(&view, fov.clamp(1e-9, 179.9), (13, 11))
             }
             Some(Some(fov)) => ViewFrame::perspective(&view, fov, (13, 11)),
@@ -227,7 +228,7 @@ proptest! {
         let frame = if orthographic {
             ViewFrame::orthographic(&view, 8.0 * spread, (13, 11))
         } else {
-            ViewFrame::perspective(&view, (2.0 * (4.0 * spread / away).atan().to_degrees()).min(179.0), (13, 11))
+            ViewFrame::perspective(&view, math::min(2.0 * math::atan(4.0 * spread / away).to_degrees(), 179.0), (13, 11))
         };
         if let Ok(frame) = frame {
             check(&frame, &mesh.unwrap(), 8)?;

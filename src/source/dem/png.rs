@@ -120,7 +120,7 @@ fn place(path: &Path, size: (usize, usize), bounds: Option<[f64; 4]>) -> Result<
         return Ok((frame, "placed by the world file beside it; it has no CRS"));
     }
     match bounds {
-        Some(bounds) => Ok((Frame::within(size, bounds)?, "placed by the given bounds; it has no CRS")),
+        Some(bounds) => Ok((Frame::within(size, bounds)?, "placed by the given bounds")),
         None => Ok((
             Frame::local(size)?,
             "the image says neither its place nor its CRS: a local grid, cell 1, south-west post at (0, 0)",

@@ -30,7 +30,9 @@ pub(super) fn terrain(
     let (mut surface, space, anchor) = match &scene.terrain.source {
         TerrainSource::Generate(generator) => {
             progress("making the terrain");
-            let surface = Surface::Grid(generate::terrain(generator)?);
+            let surface = Surface::Grid(
+                generate::terrain(generator).map_err(|error| of_key(scene, "terrain.generate", error))?,
+            );
             (surface, asked_plan(scene)?, DVec2::ZERO)
         }
         TerrainSource::File(file) => from_file(scene, file, progress, notes)?,

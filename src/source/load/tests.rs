@@ -330,6 +330,9 @@ fn what_is_out_of_reach_is_refused_with_its_file_or_key() {
     let plane = "generate = { kind = \"plane\", posts = [5, 5], cell_m = 10.0 }";
     let said = folder.refused(&format!("terrain = {{ {plane}, offset = [1e300, 0] }}")).to_string();
     assert!(said.contains("`terrain`: the terrain reaches 1e300 m"), "{said}");
+    let none = "generate = { kind = \"plane\", posts = [5, 5], cell_m = 1e-300 }";
+    let said = folder.refused(&format!("terrain = {{ {none} }}")).to_string();
+    assert!(said.contains("`terrain.generate`: the grid's rows and columns do not span the plan"), "{said}");
     let camera = "camera = { eye = [0, 0, 1e200], target = [0, 1, 0], up = [0, 1, 0] }";
     let said = folder.refused(&format!("{camera}\nterrain = {{ {plane} }}")).to_string();
     assert!(said.contains("`camera.eye`: a place more than 1e12 m from the terrain"), "{said}");
