@@ -239,3 +239,11 @@ fn every_buffer_has_the_same_bits_for_any_tiles_and_threads() {
         assert_eq!(run(tile, threads), reference, "tiles of {tile}, {threads} threads");
     }
 }
+
+#[test]
+fn an_edge_that_begins_far_outside_the_terrain_keeps_its_inside() {
+    // The middle of the polygon's long western edge lies beyond the terrain (which ends at 16 m).
+    let polygon = || polygon(&[&[(-3.3, -900.0), (2.1, 30.0), (400.0, 30.0), (400.0, -900.0)]]);
+    let by = |point_in_polygon| nadir(16, vec![polygon()], InverseProjection { point_in_polygon, ..exact() });
+    assert_eq!(by(PointInPolygon::EdgeNormals).image, by(PointInPolygon::Winding).image);
+}

@@ -253,3 +253,35 @@ fn every_sample_over_a_closed_surface_is_covered_once_from_straight_above() {
     let seen = visible.triangles().iter().filter(|id| **id != SKY).count();
     assert_eq!(seen, 64 * 64, "the half-open rule keeps one rim of two");
 }
+
+#[test]
+fn a_camera_that_looks_along_a_line_of_posts_or_a_diagonal_sees_the_whole_plain() {
+    let mesh = grid(33, 30.0, Diagonal::SwNe, &[0.0]);
+    for target in
+        [[100.0, 0.0, 5.0], [100.0, -100.0, 5.0], [100.0, 100.0, 5.0], [0.0, 100.0, 5.0], [-100.0, 0.0, 5.0]]
+    {
+        let view = Viewpoint { up: DVec3::Z, ..camera([0.0, 0.0, 5.0], target, 0.01, f64::INFINITY) };
+        let frame = ViewFrame::perspective(&view, 120.0, (101, 67)).unwrap();
+        let mut visible = Visible::new(&Lattice::centres(&frame, 0), 64);
+        visible.see(&frame, &mesh);
+        // From 5 m above a plain that reaches 480 m, the rows 2 below the horizon and more see it.
+        let ids = visible.triangles();
+        let missing =
+            (36..67).flat_map(|r| (0..101).map(move |c| (c, r))).filter(|(c, r)| ids[r * 101 + c] == SKY);
+        assert_eq!(missing.count(), 0, "towards {target:?}");
+    }
+}
+
+#[test]
+fn a_needle_whose_corners_fall_together_in_single_precision_is_seen() {
+    let p = |x: f64, y: f64| World::new(x, y, 0.0);
+    let points = vec![p(-100.0, -1e-7), p(-100.0, 1e-7), p(100.0, 0.0), p(0.0, 300.0), p(0.0, -300.0)];
+    let mesh = Mesh::new(Surface::Points(points), Diagonal::SwNe).unwrap();
+    let view =
+        Viewpoint { up: DVec3::Y, ..camera([0.5, -20.0, 500.0], [0.5, -20.0, 0.0], 0.1, f64::INFINITY) };
+    let frame = ViewFrame::orthographic(&view, 202.0, (91, 101)).unwrap();
+    let mut visible = Visible::new(&Lattice::centres(&frame, 0), 64);
+    visible.see(&frame, &mesh);
+    let row = &visible.triangles()[40 * 91..41 * 91];
+    assert!(row[10..80].iter().all(|id| *id != SKY), "{row:?}");
+}

@@ -119,8 +119,14 @@ impl Facet {
         let mut doubt = EVALUATION_DOUBT;
         let edges = shape.edges.map(|e| {
             let slope = e.x.abs() + e.y.abs();
-            doubt = math::max(shape.edge_error / slope + EVALUATION_DOUBT, doubt);
-            e / slope
+            // An edge in the eye's plane, or of no length, has no slope on the screen: its samples are decided exactly.
+            let is_clear = slope > 0.0;
+            doubt = if is_clear {
+                math::max(shape.edge_error / slope + EVALUATION_DOUBT, doubt)
+            } else {
+                f64::INFINITY
+            };
+            if is_clear { e / slope } else { DVec3::ZERO }
         });
         // A key is evaluated from the first of 16 samples on: two roundings of what it changes by over them.
         let is_key_sure = is_key_sure && shape.key.x.abs() * 64.0 * SINGLE <= KEY_ERROR / 8.0 * least_key;

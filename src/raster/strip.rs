@@ -294,7 +294,7 @@ impl Patch {
         let key = (DVec3::Z * (a[2] * area) + edges[2] * (b[2] - a[2]) + edges[0] * (c[2] - a[2])) / area;
         let least = if k0.abs() < k1.abs() { k0.abs() } else { k1.abs() };
         let is_key_sure = 8.0 * doubt * (k1 - k0) <= KEY_ERROR / 4.0 * least * area.abs();
-        if !is_key_sure {
+        if !is_key_sure || area == 0.0 {
             if let Some(corners) = tile.mesh.triangle(id) {
                 Facet::draw(tile, id, &corners);
             }

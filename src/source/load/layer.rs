@@ -43,6 +43,13 @@ fn layer(
             from_file(scene, spec, (named, layer.as_deref()), terrain, notes)?
         }
         LayerSource::Inline(shapes) => {
+            if let Some(index) =
+                shapes.iter().position(|shape| !parts(shape).all(|part| is_drawable(shape, part)))
+            {
+                let what = "a ring of fewer than 3 points or a line of fewer than 2 can not be drawn";
+                let error = Error::new(what).help("write all corners of the ring, all points of the line");
+                return Err(of_key(scene, &format!("layer.{}.features.{index}", spec.name), error));
+            }
             let shift = terrain.place.shift(spec.offset);
             let numbered = shapes.iter().cloned().enumerate();
             let features = numbered.map(|(index, shape)| Feature { index, shape });
@@ -82,6 +89,11 @@ fn from_file(
     named.require()?;
     let blame = |error| named.blame(error);
     let file = vector::read(named.path(), layer).map_err(blame)?;
+    if !file.features.iter().any(|f| parts(&f.shape).any(|part| is_drawable(&f.shape, part))) {
+        let told = if file.notes.is_empty() { "it is empty".into() } else { file.notes.join("; ") };
+        let error = Error::new(format!("nothing in this layer can be drawn: {told}"));
+        return Err(blame(error.help("leave the layer out, or give a file with polygons or lines")));
+    }
     notes.extend(file.notes);
     let key = format!("layer.{}.crs", spec.name);
     let stated = spec.crs.as_ref().map(|text| Crs::parse(text)).transpose();
@@ -90,6 +102,17 @@ fn from_file(
     let shift = terrain.place.shift(spec.offset);
     let moved = parallel::map_owned(file.features, |feature| moved(feature, &map, shift));
     moved.into_iter().collect::<Result<_>>().map_err(blame)
+}
+
+/// The rings or polylines of a shape.
+fn parts(shape: &Shape) -> impl Iterator<Item = &Vec<Plan>> {
+    let (Shape::Polygon(parts) | Shape::Line(parts)) = shape;
+    parts.iter()
+}
+
+/// Whether a part has enough points to cover anything: 3 of a ring, 2 of a line.
+fn is_drawable(shape: &Shape, part: &[Plan]) -> bool {
+    part.len() >= if matches!(shape, Shape::Polygon(_)) { 3 } else { 2 }
 }
 
 /// How the layer's coordinates become plan coordinates, with a note where that is worth one.

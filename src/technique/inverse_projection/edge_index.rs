@@ -391,15 +391,37 @@ impl EdgeIndex {
         column
     }
 
+    /// The middle of the part of an edge that lies in the grid.
+    fn middle_in_grid(&self, edge: &Edge) -> Option<Plan> {
+        let (low, high) = (self.origin, self.corner(self.columns, self.rows));
+        let along = edge.b - edge.a;
+        let (mut from, mut to) = (0.0, 1.0);
+        for (start, step, low, high) in
+            [(edge.a.x, along.x, low.x, high.x), (edge.a.y, along.y, low.y, high.y)]
+        {
+            if step == 0.0 {
+                if start < low || start > high {
+                    return None;
+                }
+                continue;
+            }
+            let (p, q) = ((low - start) / step, (high - start) / step);
+            from = math::max(if p < q { p } else { q }, from);
+            to = math::min(if p < q { q } else { p }, to);
+        }
+        (from <= to).then(|| edge.a + along * ((from + to) / 2.0))
+    }
+
     /// Finds on which side of each ring's edges the outside is.
     fn find_outsides(&mut self) {
         let outside: Vec<bool> = parallel::map_indices(self.edges.len(), |k| {
             let edge = &self.edges[k];
             let area = &self.areas[edge.area as usize];
-            area.is_rings && {
-                let middle = Plan::from((edge.a.to_vec() + edge.b.to_vec()) / 2.0);
-                area.rule.contains(self.winding_of(edge.area, middle)) != is_left(edge, middle)
-            }
+            // An edge beside the grid meets no pixel.
+            area.is_rings
+                && self.middle_in_grid(edge).is_some_and(|middle| {
+                    area.rule.contains(self.winding_of(edge.area, middle)) != is_left(edge, middle)
+                })
         });
         for (edge, is_left) in self.edges.iter_mut().zip(outside) {
             edge.outside_is_left = is_left;

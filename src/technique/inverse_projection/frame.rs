@@ -211,7 +211,7 @@ impl Drawing<'_> {
         let is_doubtful =
             (may_meet_edges || self.wants.quads) && self.settings.silhouette == Silhouette::Centre;
         if is_doubtful && self.spans_silhouette(at) {
-            counts.refused += 1;
+            counts.refused += u64::from(may_meet_edges);
             return self.whole(Quadrilateral::point(plan), plan, ground, lists);
         }
         lists.near.clear();

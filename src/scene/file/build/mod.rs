@@ -16,7 +16,7 @@ pub(super) use camera::check_view;
 pub(super) use layer::default_name;
 
 /// The most pixels that an image may have.
-const MOST_PIXELS: usize = 1 << 28;
+const MOST_PIXELS: usize = 1 << 26;
 
 /// Builds the whole scene file.
 pub(super) fn scene(origin: &Origin<'_>, root: Node) -> Result<SceneFile> {
@@ -47,7 +47,7 @@ fn image(section: &mut Section<'_>) -> Result<ImageSettings> {
         None => (800, section.place().clone()),
     };
     if width * height > MOST_PIXELS {
-        let what = format!("`image` of {width} x {height} pixels is too large: at most 2^28 in all");
+        let what = format!("`image` of {width} x {height} pixels is too large: at most 2^26 in all");
         return Err(section.error_at(&place, what));
     }
     let background = section.color("background")?.unwrap_or(Color([1.0; 4]));

@@ -49,7 +49,7 @@ static IMAGE: TableShape = TableShape {
         key(
             "width",
             Shape::Integer(1, LONGEST_SIDE),
-            "Pixels a row. Default: 1200. At most 2^28 pixels in all.",
+            "Pixels a row. Default: 1200. At most 2^26 pixels in all.",
         ),
         key("height", Shape::Integer(1, LONGEST_SIDE), "Rows. Default: 800."),
         key("background", Shape::Color, "The sky. Default: \"#ffffff\"."),
