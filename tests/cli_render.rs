@@ -330,3 +330,32 @@ fn what_a_run_does_not_write_stays() {
     place.rendered(&[]);
     assert_eq!(place.names("out"), before);
 }
+
+#[test]
+fn shapes_that_can_not_be_drawn_are_refused_with_their_place() {
+    let place = Place::new();
+    for shape in ["polygon = [[1, 2]]", "polygon = [[1, 2], [3, 4]]", "line = [[1, 2]]"] {
+        let scene = SCENE.replace("line = [[499200, 6999500], [500800, 7000300]]", shape);
+        fs::write(place.path().join("small.toml"), scene).unwrap();
+        let said = place.refused(&[]);
+        assert!(said.contains("small.toml") && said.contains("layer.road.features.0"), "{shape}: {said}");
+    }
+}
+
+#[test]
+fn a_layer_file_in_which_nothing_can_be_drawn_is_refused_with_what_it_holds() {
+    let place = Place::new();
+    let scene = SCENE
+        .replace("features = [{ line = [[499200, 6999500], [500800, 7000300]] }]", "source = \"it.geojson\"");
+    fs::write(place.path().join("small.toml"), scene).unwrap();
+    for (geometry, told) in [
+        (r#"{ "type": "Point", "coordinates": [1, 2] }"#, "point"),
+        (r#"{ "type": "Polygon", "coordinates": [] }"#, "without coordinates"),
+        (r#"{ "type": "Polygon", "coordinates": [[[1, 2]]] }"#, "ring"),
+    ] {
+        let text = format!(r#"{{ "type": "Feature", "properties": {{}}, "geometry": {geometry} }}"#);
+        fs::write(place.path().join("it.geojson"), text).unwrap();
+        let said = place.refused(&[]);
+        assert!(said.contains("it.geojson") && said.contains(told), "{geometry}: {said}");
+    }
+}
