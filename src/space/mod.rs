@@ -216,6 +216,15 @@ impl PlanBox {
             && other.min.y <= self.max.y
     }
 
+    /// Whether another box lies wholly in this one.
+    #[inline]
+    pub fn contains(&self, other: &Self) -> bool {
+        self.min.x <= other.min.x
+            && other.max.x <= self.max.x
+            && self.min.y <= other.min.y
+            && other.max.y <= self.max.y
+    }
+
     /// The box grown by a margin in metres on each side.
     #[must_use]
     pub fn grown(&self, margin: f64) -> Self {

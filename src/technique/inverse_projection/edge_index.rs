@@ -175,6 +175,14 @@ impl EdgeIndex {
         found.dedup();
     }
 
+    /// The cell around a point when neither an edge nor an area has a part in it.
+    #[inline]
+    pub fn empty_cell(&self, p: Plan) -> Option<PlanBox> {
+        let (column, row) = self.cell_of(p)?;
+        let is_empty = self.members_of(column, row).is_empty() && self.covers_of(column, row).is_empty();
+        is_empty.then(|| PlanBox { min: self.corner(column, row), max: self.corner(column + 1, row + 1) })
+    }
+
     /// Adds the edges whose boxes meet `bounds`.
     #[inline(always)]
     fn take_near(&self, members: &[u32], bounds: &PlanBox, found: &mut Vec<u32>) {
@@ -185,10 +193,9 @@ impl EdgeIndex {
         }));
     }
 
-    /// Whether any edge lies in the cells around a quadrilateral.
+    /// Whether any edge lies in the cells around a quadrilateral of these bounds.
     #[inline]
-    pub fn has_edges_near(&self, quad: &Quadrilateral) -> bool {
-        let bounds = quad.bounds();
+    pub fn has_edges_near(&self, bounds: &PlanBox) -> bool {
         let (low, high) = (bounds.min - self.origin, bounds.max - self.origin);
         let columns = self.cells_between(low.x, high.x, self.columns);
         let rows = self.cells_between(low.y, high.y, self.rows);

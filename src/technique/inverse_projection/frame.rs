@@ -9,7 +9,7 @@ use crate::parallel;
 use crate::raster::Lattice;
 use crate::resolve::{Compositor, GroundPaint, Paint, code_values};
 use crate::scene::{Corners, InverseProjection, Silhouette};
-use crate::space::Plan;
+use crate::space::{Plan, PlanBox};
 use crate::technique::{Frame, FrameOptions, Stage};
 use crate::terrain::SKY;
 use crate::visibility::{Hit, Sight};
@@ -110,6 +110,8 @@ struct Counts {
 struct Lists {
     /// The last triangle and its ground.
     ground: (u32, Paint),
+    /// A part of the plan that no edge and no area has a part in.
+    empty: PlanBox,
     near: Vec<u32>,
     /// The near edges made ready for many samples.
     ready: Vec<NearEdge>,
@@ -165,6 +167,7 @@ impl Drawing<'_> {
             Row { image: Vec::with_capacity(width), classes: Vec::with_capacity(width), ..Row::default() };
         let mut lists = Lists {
             ground: (SKY, self.sky),
+            empty: PlanBox::EMPTY,
             near: Vec::new(),
             ready: Vec::new(),
             windings: Vec::new(),
@@ -207,7 +210,11 @@ impl Drawing<'_> {
             return self.whole(Quadrilateral::point(plan), plan, ground, lists);
         };
         // Only where edges may be near does it matter whether the range means anything.
-        let may_meet_edges = self.judge.index.has_edges_near(&quad);
+        let bounds = quad.bounds();
+        if !self.wants.quads && lists.empty.contains(&bounds) {
+            return Pixel { paint: ground, class: N, edges: 0, quad };
+        }
+        let may_meet_edges = self.judge.index.has_edges_near(&bounds);
         let is_doubtful =
             (may_meet_edges || self.wants.quads) && self.settings.silhouette == Silhouette::Centre;
         if is_doubtful && self.spans_silhouette(at) {
@@ -217,6 +224,8 @@ impl Drawing<'_> {
         lists.near.clear();
         if may_meet_edges {
             self.classify(&quad, lists);
+        } else if let Some(empty) = self.judge.index.empty_cell(plan) {
+            lists.empty = empty;
         }
         if lists.near.is_empty() {
             return self.whole(quad, plan, ground, lists);
