@@ -27,7 +27,7 @@ target = [0.0, 0.0, 60.0]
 generate = {{ kind = "fbm", seed = 3, posts = [{posts}, {posts}], cell_m = 30.0, height_m = 160.0 }}
 [[layer]]
 name = "roads"
-generate = {{ kind = "roads", seed = 5, count = {segments} }}
+generate = {{ kind = "roads", seed = 5, count = {segments}, segment_m = 10.0 }}
 line = {{ color = "#ff7f00", width_m = 5.0 }}
 "##
     );
