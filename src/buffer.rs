@@ -11,13 +11,6 @@ pub struct Buffer<T> {
     values: Vec<T>,
 }
 
-impl<T: Clone> Buffer<T> {
-    /// An image of one value.
-    pub fn filled(width: usize, height: usize, value: T) -> Self {
-        Self { width, height, values: vec![value; width * height] }
-    }
-}
-
 impl<T> Buffer<T> {
     /// An image of these values, rows from the top.
     ///
@@ -43,11 +36,6 @@ impl<T> Buffer<T> {
         &self.values
     }
 
-    /// All values, rows from the top.
-    pub fn values_mut(&mut self) -> &mut [T] {
-        &mut self.values
-    }
-
     /// The value of pixel (x, y).
     ///
     /// # Panics
@@ -65,11 +53,6 @@ impl<T> Buffer<T> {
     #[inline]
     pub fn row(&self, y: usize) -> &[T] {
         &self.values[y * self.width..(y + 1) * self.width]
-    }
-
-    /// The image of `f` of each value.
-    pub fn map<U>(&self, f: impl FnMut(&T) -> U) -> Buffer<U> {
-        Buffer { width: self.width, height: self.height, values: self.values.iter().map(f).collect() }
     }
 }
 

@@ -235,14 +235,6 @@ impl ViewFrame {
         }
     }
 
-    /// The world size of a pixel at a view depth (Zechmeister eqs. 4.1 and 4.2), metres.
-    pub fn pixel_size(&self, depth: f64) -> f64 {
-        match self.lens {
-            Lens::Central { pixel } => depth * pixel,
-            Lens::Parallel { pixel } => pixel,
-        }
-    }
-
     /// A view from the south at 35 degrees that frames a box of the plan: the default camera's eye and target.
     pub fn framing(plan: &PlanBox, (low, high): (f64, f64), fov_y_deg: f64, aspect: f64) -> (World, World) {
         let middle = (plan.min.to_vec() + plan.max.to_vec()) / 2.0;

@@ -90,12 +90,6 @@ impl Mesh {
         }
     }
 
-    /// The lowest and the highest height; `None` when all is hole.
-    pub fn height_range(&self) -> Option<(f64, f64)> {
-        let bounds = self.bounds(self.root())?;
-        Some((bounds.center.z - bounds.axes[2].z, bounds.center.z + bounds.axes[2].z))
-    }
-
     /// The node that holds everything.
     pub fn root(&self) -> Node {
         let level = match self {

@@ -74,14 +74,6 @@ impl Visible {
         });
     }
 
-    /// The triangle that sample (column, row) sees.
-    #[inline]
-    pub fn triangle(&self, column: usize, row: usize) -> u32 {
-        let tiles_a_row = self.lattice.columns.div_ceil(self.tile);
-        let tile = &self.tiles[row / self.tile * tiles_a_row + column / self.tile];
-        tile.samples.ids[row % self.tile * tile.samples.stride() + column % self.tile]
-    }
-
     /// The triangles of all samples, rows from the top.
     pub fn triangles(&self) -> Vec<u32> {
         self.gather(SKY, |samples| &samples.ids)

@@ -419,6 +419,7 @@ impl Drawing<'_> {
     }
 
     fn counts(&self, rows: &[Row]) -> Vec<(&'static str, u64)> {
+        let seen = self.centres.sight.counts();
         let sum = |f: &dyn Fn(&Counts) -> u64| rows.iter().map(|r| f(&r.counts)).sum();
         vec![
             ("areas", self.judge.index.areas().len() as u64),
@@ -429,6 +430,9 @@ impl Drawing<'_> {
             ("refused", sum(&|c| c.refused)),
             ("samples", sum(&|c| c.samples)),
             ("edge_tests", sum(&|c| c.edge_tests)),
+            ("triangles_drawn", seen.triangles),
+            ("hidden_nodes", seen.hidden_nodes),
+            ("exact_decisions", seen.exact_decisions),
         ]
     }
 }
