@@ -34,6 +34,8 @@
 pub mod buffer;
 pub mod crs;
 mod error;
+pub mod footprint;
+pub mod interval;
 pub mod math;
 pub mod output;
 pub mod parallel;
@@ -45,6 +47,7 @@ pub mod source;
 pub mod space;
 pub mod technique;
 pub mod terrain;
+pub mod truth;
 pub mod visibility;
 
 pub use error::{Error, Position, Result};

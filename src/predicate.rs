@@ -59,6 +59,18 @@ fn tie_side(frame: &ViewFrame, ray: &Ray, a: World, b: World) -> f64 {
     0.0
 }
 
+/// From which side a triangle is seen: the sign of `normal . (corner - eye)` (perspective) or of `normal . forward`
+/// (orthographic), the normal `(b - a) x (c - a)`; 0 exactly when it is seen edge-on.
+pub fn facing(frame: &ViewFrame, [a, b, c]: &[World; 3]) -> f64 {
+    match frame.lens() {
+        Lens::Central { .. } => orient3d(*a, *b, *c, frame.eye()),
+        Lens::Parallel { .. } => {
+            let forward = Difference { of: frame.forward(), minus: DVec3::ZERO };
+            sign_of_det(&[Difference::new(*b, *a), Difference::new(*c, *a), forward])
+        }
+    }
+}
+
 /// Which of two triangles a ray that crosses both meets first; the ray crosses neither edge-on.
 ///
 /// Exact: equal means that they meet the ray in the very same point.

@@ -1,0 +1,154 @@
+//! A packed tree of boxes: which of many boxes meet one.
+
+use crate::parallel;
+use crate::space::{Plan, PlanBox};
+
+/// Boxes or nodes in a node.
+const FAN: usize = 8;
+
+/// Levels that a tree of as many boxes as a `u32` counts can have.
+const MOST_LEVELS: usize = 12;
+
+/// Boxes sorted along a Morton curve, packed eight to a node, level by level. Their corners are rounded outwards to single
+/// precision: a query may name a box that it just misses, never miss one that it meets.
+#[derive(Debug, Default)]
+pub struct BoxTree {
+    /// The number of each leaf's box, in the order of the curve.
+    order: Vec<u32>,
+    /// Level 0 holds the boxes, each further level the boxes around eight of the one below.
+    levels: Vec<Vec<Small>>,
+}
+
+/// West, south, east, north.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Small([f32; 4]);
+
+impl Small {
+    fn around(plan: &PlanBox) -> Self {
+        let down = |v: f64| if f64::from(v as f32) > v { (v as f32).next_down() } else { v as f32 };
+        let up = |v: f64| if f64::from(v as f32) < v { (v as f32).next_up() } else { v as f32 };
+        Self([down(plan.min.x), down(plan.min.y), up(plan.max.x), up(plan.max.y)])
+    }
+
+    fn joined(boxes: &[Self]) -> Self {
+        boxes.iter().skip(1).fold(boxes[0], |Self([w, s, e, n]), Self([a, b, c, d])| {
+            let least = |p: f32, q: f32| if p < q { p } else { q };
+            let most = |p: f32, q: f32| if p > q { p } else { q };
+            Self([least(w, *a), least(s, *b), most(e, *c), most(n, *d)])
+        })
+    }
+
+    #[inline(always)]
+    fn meets(&self, other: &Self) -> bool {
+        let (Self([w, s, e, n]), Self([a, b, c, d])) = (self, other);
+        // No short circuit: four comparisons cost less than a branch.
+        (w <= c) & (a <= e) & (s <= d) & (b <= n)
+    }
+}
+
+impl BoxTree {
+    /// A tree over these boxes; those that are empty meet nothing.
+    pub fn new(boxes: &[PlanBox]) -> Self {
+        let mut whole = PlanBox::EMPTY;
+        for plan in boxes.iter().filter(|b| !b.is_empty()) {
+            whole.include(plan.min);
+            whole.include(plan.max);
+        }
+        let mut order: Vec<(u64, u32)> =
+            boxes.iter().enumerate().map(|(k, plan)| (morton(&whole, plan), k as u32)).collect();
+        parallel::sort_by_key(&mut order, |entry| *entry);
+        let order: Vec<u32> = order.into_iter().map(|(_, k)| k).collect();
+        let mut levels = vec![order.iter().map(|&k| Small::around(&boxes[k as usize])).collect::<Vec<_>>()];
+        while let Some(top) = levels.last().filter(|top| top.len() > 1) {
+            let next = top.chunks(FAN).map(Small::joined).collect();
+            levels.push(next);
+        }
+        Self { order, levels }
+    }
+
+    /// Calls `visit` with the number of each box that meets `plan` until it returns false; returns whether it never did.
+    #[inline]
+    pub fn query(&self, plan: &PlanBox, mut visit: impl FnMut(u32) -> bool) -> bool {
+        let wanted = Small::around(plan);
+        let top = self.levels.len().saturating_sub(1);
+        if self.order.is_empty() || !self.levels[top][0].meets(&wanted) {
+            return true;
+        }
+        let mut stack = [(0u32, 0u32); FAN * MOST_LEVELS];
+        let mut height = 1;
+        stack[0] = (top as u32, 0);
+        while height > 0 {
+            height -= 1;
+            let (level, node) = stack[height];
+            if level == 0 {
+                if !visit(self.order[node as usize]) {
+                    return false;
+                }
+                continue;
+            }
+            let below = &self.levels[level as usize - 1];
+            let start = node as usize * FAN;
+            for k in (start..(start + FAN).min(below.len())).rev() {
+                if below[k].meets(&wanted) {
+                    stack[height] = (level - 1, k as u32);
+                    height += 1;
+                }
+            }
+        }
+        true
+    }
+
+    /// Bytes held.
+    pub fn bytes(&self) -> usize {
+        size_of_val(&self.order[..]) + self.levels.iter().map(|l| size_of_val(&l[..])).sum::<usize>()
+    }
+}
+
+/// The place of a box's middle on a Morton curve over the whole.
+fn morton(whole: &PlanBox, plan: &PlanBox) -> u64 {
+    let size = whole.max - whole.min;
+    let middle = Plan::from((plan.min.to_vec() + plan.max.to_vec()) / 2.0);
+    let place = |v: f64, low: f64, size: f64| ((v - low) / size * 65_536.0) as u32;
+    spread(place(middle.x, whole.min.x, size.x)) | spread(place(middle.y, whole.min.y, size.y)) << 1
+}
+
+/// Every bit of a number moved to the even places.
+fn spread(v: u32) -> u64 {
+    let mut v = u64::from(v);
+    for (shift, mask) in [
+        (16, 0x0000_ffff_0000_ffff),
+        (8, 0x00ff_00ff_00ff_00ff),
+        (4, 0x0f0f_0f0f_0f0f_0f0f),
+        (2, 0x3333_3333_3333_3333),
+        (1, 0x5555_5555_5555_5555u64),
+    ] {
+        v = (v | v << shift) & mask;
+    }
+    v
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn plan_box() -> impl Strategy<Value = PlanBox> {
+        (-1e3..1e3f64, -1e3..1e3f64, 0.0..50.0f64, 0.0..50.0f64)
+            .prop_map(|(x, y, w, h)| PlanBox::around([Plan::new(x, y), Plan::new(x + w, y + h)]))
+    }
+
+    proptest! {
+        #[test]
+        fn a_query_names_every_box_that_meets_it_and_hardly_any_other(
+            boxes in prop::collection::vec(plan_box(), 0..300),
+            wanted in plan_box(),
+        ) {
+            let mut found = Vec::new();
+            BoxTree::new(&boxes).query(&wanted, |k| { found.push(k as usize); true });
+            found.sort_unstable();
+            let near: Vec<usize> = (0..boxes.len()).filter(|&k| boxes[k].grown(1e-3).meets(&wanted)).collect();
+            prop_assert!((0..boxes.len()).filter(|&k| boxes[k].meets(&wanted)).all(|k| found.contains(&k)));
+            prop_assert!(found.iter().all(|k| near.contains(k)));
+        }
+    }
+}

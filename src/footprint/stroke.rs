@@ -1,0 +1,176 @@
+//! A stroke's segment as convex shapes and discs: its rectangle, the join at its start, its caps.
+
+use super::primitive::{Convex, HalfPlane, Primitive};
+use super::{PixelSize, grows_with_distance};
+use crate::interval::Ball;
+use crate::math;
+use crate::predicate::orient2d;
+use crate::scene::{Cap, Join, Line, Width};
+use crate::space::{Plan, PlanBox};
+
+/// A segment of a stroke.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Segment {
+    /// The vertex before it; `None` at a line's start.
+    pub(super) before: Option<Plan>,
+    /// Where it starts.
+    pub(super) from: Plan,
+    /// Where it ends; where it starts for a line of one point.
+    pub(super) to: Plan,
+    /// Whether the line ends with it.
+    pub(super) is_last: bool,
+}
+
+/// Half the width in metres, and by how much it grows with the distance from the eye.
+fn half_width(line: &Line, pixel: &PixelSize) -> (f64, f64) {
+    match line.width {
+        Width::Metres(width) => (width / 2.0, 0.0),
+        Width::Pixels(width) if pixel.eye.is_some() => (0.0, width / 2.0 * pixel.pixel),
+        Width::Pixels(width) => (width / 2.0 * pixel.pixel, 0.0),
+    }
+}
+
+/// A box around all that [`primitives`] gives.
+pub(super) fn bounds(segment: &Segment, line: &Line, pixel: &PixelSize) -> PlanBox {
+    let bare = PlanBox::around([segment.from, segment.to]);
+    let (half, growth) = half_width(line, pixel);
+    let reach = match (line.join, line.width) {
+        (_, Width::Pixels(_)) if grows_with_distance(line, pixel) => {
+            // r <= distance of the segment + reach + height, and reach = growth * r.
+            let eye = pixel.eye.unwrap_or_default().plan();
+            let farthest = math::max((segment.from - eye).length(), (segment.to - eye).length());
+            let reach = growth * (farthest + pixel.height_span) / (1.0 - growth);
+            if growth < 1.0 { reach } else { f64::INFINITY }
+        }
+        (Join::Miter { limit }, Width::Metres(_)) => half * math::max(limit, std::f64::consts::SQRT_2),
+        _ => half * std::f64::consts::SQRT_2,
+    };
+    // The rounding of these few operations is far below this share.
+    bare.grown(reach * (1.0 + 1e-9) + 1e-9)
+}
+
+/// What a segment's stroke is made of.
+pub(super) fn primitives(segment: &Segment, line: &Line, pixel: &PixelSize, out: &mut Vec<Primitive>) {
+    let (half, growth) = half_width(line, pixel);
+    let (from, to) = (segment.from, segment.to);
+    if let Width::Pixels(_) = line.width {
+        // A dynamic line is all points near its centre line: caps and joins are round by definition.
+        out.push(Primitive::Near { from, to, reach: half, growth });
+        return;
+    }
+    let disc = |at: Plan| Primitive::Near { from: at, to: at, reach: half, growth: 0.0 };
+    if from == to {
+        out.extend(match line.cap {
+            Cap::Butt => None,
+            Cap::Square => Some(dot(from, half)),
+            Cap::Round => Some(disc(from)),
+        });
+        return;
+    }
+    let along = Direction::new(from, to);
+    out.push(rectangle(segment, &along, half, line.cap));
+    if line.cap == Cap::Round {
+        out.extend(segment.before.is_none().then(|| disc(from)));
+        out.extend(segment.is_last.then(|| disc(to)));
+    }
+    let Some(before) = segment.before else { return };
+    match line.join {
+        Join::Round => out.push(disc(from)),
+        Join::Miter { limit } => join(before, from, to, half, Some(limit), out),
+        Join::Bevel => join(before, from, to, half, None, out),
+    }
+}
+
+/// A square whose sides lie along the axes: the dot of a line that has no direction.
+fn dot(at: Plan, half: f64) -> Primitive {
+    let side = |x: f64, y: f64| HalfPlane {
+        at,
+        normal: [Ball::exact(x), Ball::exact(y)],
+        offset: Ball::exact(half),
+    };
+    Primitive::Convex(Convex::new(&[side(1.0, 0.0), side(-1.0, 0.0), side(0.0, 1.0), side(0.0, -1.0)]))
+}
+
+/// A unit direction in balls, and a point to measure from.
+struct Direction {
+    at: Plan,
+    unit: [Ball; 2],
+    length: Ball,
+}
+
+impl Direction {
+    fn new(from: Plan, to: Plan) -> Self {
+        let x = Ball::exact(to.x) - Ball::exact(from.x);
+        let y = Ball::exact(to.y) - Ball::exact(from.y);
+        let length = (x.squared() + y.squared()).sqrt();
+        let by = length.recip();
+        Self { at: from, unit: [x * by, y * by], length }
+    }
+
+    /// The normal on the left.
+    fn left(&self) -> [Ball; 2] {
+        [-self.unit[1], self.unit[0]]
+    }
+}
+
+fn negated(v: [Ball; 2]) -> [Ball; 2] {
+    v.map(|c| -c)
+}
+
+fn plus(a: [Ball; 2], b: [Ball; 2]) -> [Ball; 2] {
+    [a[0] + b[0], a[1] + b[1]]
+}
+
+fn dot_product(a: [Ball; 2], b: [Ball; 2]) -> Ball {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+/// The segment's rectangle, with its square caps.
+fn rectangle(segment: &Segment, along: &Direction, half: f64, cap: Cap) -> Primitive {
+    let cap_length = |ends: bool| Ball::exact(if ends && cap == Cap::Square { half } else { 0.0 });
+    let side = |normal: [Ball; 2], offset: Ball| HalfPlane { at: along.at, normal, offset };
+    Primitive::Convex(Convex::new(&[
+        side(along.left(), Ball::exact(half)),
+        side(negated(along.left()), Ball::exact(half)),
+        side(along.unit, cap_length(segment.before.is_none())),
+        side(negated(along.unit), along.length + cap_length(segment.is_last)),
+    ]))
+}
+
+/// The join at a vertex: the wedge between the ends of two rectangles on the outer side of the turn, cut where the outer sides
+/// meet (a miter within its limit) or by the chord between their corners (a bevel).
+fn join(before: Plan, at: Plan, after: Plan, half: f64, limit: Option<f64>, out: &mut Vec<Primitive>) {
+    let (into, leaving) = (Direction::new(before, at), Direction::new(at, after));
+    let turn = orient2d(before, at, after);
+    if turn == 0.0 {
+        // Straight on: nothing between. Straight back: the bevel has no area, and a miter is over any limit.
+        return;
+    }
+    let outer = |d: &Direction| if turn > 0.0 { negated(d.left()) } else { d.left() };
+    let (n1, n2) = (outer(&into), outer(&leaving));
+    let side = |normal: [Ball; 2], offset: Ball| HalfPlane { at, normal, offset };
+    let wedge = [side(into.unit, Ball::ZERO), side(negated(leaving.unit), Ball::ZERO)];
+    let cosine = dot_product(into.unit, leaving.unit);
+    let bevel = {
+        // The chord's normal is n1 + n2, or along d1 - d2, which does not vanish where the line turns back.
+        let (normal, offset) = if cosine.mid > 0.0 {
+            (negated(plus(n1, n2)), (Ball::exact(1.0) + cosine) * half)
+        } else {
+            let sine = into.unit[0] * leaving.unit[1] - into.unit[1] * leaving.unit[0];
+            let sine = if turn > 0.0 { sine } else { -sine };
+            (plus(leaving.unit, negated(into.unit)), sine * half)
+        };
+        Convex::new(&[wedge[0], wedge[1], side(normal, offset)])
+    };
+    let half = Ball::exact(half);
+    let miter = Convex::new(&[wedge[0], wedge[1], side(negated(n1), half), side(negated(n2), half)]);
+    // The ratio of miter length to width is 1 / cos(turn / 2), its square 2 / (1 + cos turn).
+    let excess = limit.map(|limit| Ball::exact(2.0) - (Ball::exact(1.0) + cosine) * Ball::exact(limit).squared());
+    match excess {
+        Some(excess) if excess.is_negative() => out.push(Primitive::Convex(miter)),
+        Some(excess) if !excess.is_positive() => {
+            out.extend([Primitive::Convex(bevel), Primitive::Perhaps(miter)]);
+        }
+        _ => out.push(Primitive::Convex(bevel)),
+    }
+}

@@ -1,0 +1,174 @@
+use super::*;
+use crate::scene::{Cap, Fill, Join, Outline, Style};
+use proptest::prelude::*;
+
+fn line_style(width: f64, join: Join, cap: Cap) -> Style {
+    let color = Color([1.0, 0.0, 0.0, 1.0]);
+    Style { line: Some(Line { color, width: Width::Metres(width), join, cap }), ..Style::default() }
+}
+
+fn footprints(style: Style, shape: Shape) -> Footprints {
+    let layer = Layer { name: "l".into(), style, features: vec![Feature { index: 0, shape }] };
+    Footprints::new(&[layer], PixelSize::default(), &|_| true)
+}
+
+/// Whether a point lies in a part's stroke, in plain doubles.
+fn holds(primitive: &Primitive, p: Plan) -> bool {
+    match primitive {
+        Primitive::Convex(shape) => shape.sides().iter().all(|s| {
+            let v = p - s.at;
+            s.normal[0].mid * v.x + s.normal[1].mid * v.y + s.offset.mid >= 0.0
+        }),
+        Primitive::Near { from, to, reach, .. } => distance(*from, *to, p) <= *reach,
+        Primitive::Edge { .. } | Primitive::Perhaps(_) => false,
+    }
+}
+
+/// The distance of a point from a segment, metres, in plain doubles.
+fn distance(from: Plan, to: Plan, p: Plan) -> f64 {
+    let (d, v): (glam::DVec2, glam::DVec2) = (to - from, p - from);
+    let length_squared = d.length_squared();
+    let t = if length_squared > 0.0 { crate::math::min(crate::math::max(v.dot(d) / length_squared, 0.0), 1.0) } else { 0.0 };
+    (v - d * t).length()
+}
+
+fn stroke_holds(all: &Footprints, p: Plan) -> bool {
+    let mut found = Vec::new();
+    all.parts.iter().for_each(|part| all.primitives(*part, &mut found));
+    found.iter().any(|primitive| holds(primitive, p))
+}
+
+fn polyline(points: &[(f64, f64)]) -> Shape {
+    Shape::Line(vec![points.iter().map(|&(x, y)| Plan::new(x, y)).collect()])
+}
+
+#[test]
+fn a_miter_reaches_its_tip_and_falls_to_a_bevel_over_its_limit() {
+    let corner = [(-10.0, 0.0), (0.0, 0.0), (0.0, 10.0)];
+    let with = |join| footprints(line_style(2.0, join, Cap::Butt), polyline(&corner));
+    let (tip, middle) = (Plan::new(0.99, -0.99), Plan::new(0.49, -0.49));
+    let sharp = with(Join::Miter { limit: 4.0 });
+    assert!(stroke_holds(&sharp, tip) && stroke_holds(&sharp, middle));
+    let blunt = with(Join::Miter { limit: 1.2 });
+    assert!(!stroke_holds(&blunt, tip) && stroke_holds(&blunt, middle));
+    assert!(!stroke_holds(&blunt, Plan::new(0.51, -0.51)));
+}
+
+#[test]
+fn a_line_that_turns_back_has_no_join_beyond_its_end() {
+    for join in [Join::Miter { limit: 100.0 }, Join::Bevel] {
+        let all = footprints(
+            line_style(2.0, join, Cap::Butt),
+            polyline(&[(0.0, 0.0), (10.0, 0.0), (2.0, 0.0)]),
+        );
+        assert!(!stroke_holds(&all, Plan::new(10.01, 0.0)) && stroke_holds(&all, Plan::new(9.99, 0.99)));
+    }
+}
+
+#[test]
+fn a_dot_has_the_shape_of_its_cap() {
+    let same = [(3.0, 4.0); 3];
+    let dot = |cap| footprints(line_style(2.0, Join::Round, cap), polyline(&same));
+    assert!(!stroke_holds(&dot(Cap::Butt), Plan::new(3.0, 4.0)));
+    assert!(stroke_holds(&dot(Cap::Square), Plan::new(3.9, 4.9)));
+    assert!(!stroke_holds(&dot(Cap::Round), Plan::new(3.9, 4.9)));
+    assert!(stroke_holds(&dot(Cap::Round), Plan::new(3.6, 4.6)));
+}
+
+#[test]
+fn repeated_vertices_change_nothing() {
+    let plain = [(0.0, 0.0), (5.0, 0.0), (5.0, 5.0)];
+    let doubled = [(0.0, 0.0), (0.0, 1e-12), (5.0, 0.0), (5.0 + 1e-12, 0.0), (5.0, 5.0), (5.0, 5.0)];
+    let style = line_style(2.0, Join::Miter { limit: 4.0 }, Cap::Square);
+    let (a, b) = (footprints(style, polyline(&plain)), footprints(style, polyline(&doubled)));
+    assert_eq!(a.points, b.points);
+    assert_eq!(a.parts, b.parts);
+}
+
+#[test]
+fn a_line_that_ends_where_it_begins_is_a_ring() {
+    let square = [(0.0, 0.0), (9.0, 0.0), (9.0, 9.0), (0.0, 9.0), (0.0, 0.0)];
+    let style = line_style(2.0, Join::Miter { limit: 4.0 }, Cap::Butt);
+    let all = footprints(style, polyline(&square));
+    assert_eq!(all.parts.len(), 4);
+    assert!(stroke_holds(&all, Plan::new(-0.9, -0.9)), "the corner where it closes is mitred");
+}
+
+#[test]
+fn a_pentagram_is_hollow_by_one_rule_and_full_by_the_other() {
+    let star: Vec<Plan> = (0..5)
+        .map(|k| f64::from(k) * 0.8 * std::f64::consts::PI)
+        .map(|a| Plan::new(100.0 * crate::math::cos(a), 100.0 * crate::math::sin(a)))
+        .collect();
+    let with = |rule| {
+        let fill = Some(Fill { color: Color([0.0, 0.0, 1.0, 1.0]), rule });
+        footprints(Style { fill, ..Style::default() }, Shape::Polygon(vec![star.clone()]))
+    };
+    let centre = Plan::new(1.0, 2.0);
+    assert!(!with(Rule::EvenOdd).polygon_holds(0, centre) && with(Rule::NonZero).polygon_holds(0, centre));
+    let tip = Plan::new(95.0, 0.5);
+    assert!(with(Rule::EvenOdd).polygon_holds(0, tip) && with(Rule::NonZero).polygon_holds(0, tip));
+}
+
+#[test]
+fn fill_and_outline_of_a_feature_follow_one_another() {
+    let color = Color([0.0, 0.0, 0.0, 1.0]);
+    let line = Line { color, width: Width::Metres(1.0), join: Join::Bevel, cap: Cap::Butt };
+    let style = Style {
+        fill: Some(Fill { color, rule: Rule::EvenOdd }),
+        outline: Some(Outline { line, mode: OutlineMode::Inset }),
+        line: None,
+    };
+    let ring = vec![Plan::new(0.0, 0.0), Plan::new(4.0, 0.0), Plan::new(0.0, 4.0)];
+    let all = footprints(style, Shape::Polygon(vec![ring]));
+    let roles: Vec<Role> = all.items().iter().map(|item| item.role).collect();
+    assert_eq!(roles, [Role::Fill, Role::Outline(OutlineSide::Inside)]);
+    assert!(all.polygon_holds(1, Plan::new(1.0, 1.0)) && !all.polygon_holds(1, Plan::new(3.0, 3.0)));
+}
+
+/// The winding number by the sum of the angles that edges are seen under.
+fn turns_by_angles(rings: &[Vec<Plan>], p: Plan) -> f64 {
+    let mut sum = 0.0;
+    for ring in rings {
+        for (k, a) in ring.iter().enumerate() {
+            let (u, v) = (*a - p, ring[(k + 1) % ring.len()] - p);
+            sum += crate::math::atan2(u.perp_dot(v), u.dot(v));
+        }
+    }
+    sum / std::f64::consts::TAU
+}
+
+proptest! {
+    #[test]
+    fn winding_numbers_are_the_turns_of_the_rings(
+        rings in prop::collection::vec(prop::collection::vec((-9..9i32, -9..9i32), 1..40), 1..4),
+        x in -10.0..10.0f64, y in -10.0..10.0f64,
+    ) {
+        let rings: Vec<Vec<Plan>> = rings
+            .iter()
+            .map(|ring| ring.iter().map(|&(x, y)| Plan::new(f64::from(x), f64::from(y))).collect())
+            .collect();
+        let fill = Some(Fill { color: Color([0.0, 0.0, 1.0, 1.0]), rule: Rule::NonZero });
+        let all = footprints(Style { fill, ..Style::default() }, Shape::Polygon(rings.clone()));
+        let at = Plan::new(x, y);
+        let turns = turns_by_angles(&rings, at);
+        prop_assume!((turns - turns.round()).abs() < 1e-6);
+        prop_assert_eq!(all.polygon_holds(0, at), turns.round() != 0.0);
+    }
+
+    #[test]
+    fn a_part_lies_in_its_box(
+        points in prop::collection::vec((-9.0..9.0f64, -9.0..9.0f64), 2..6),
+        width in 0.1..5.0f64, limit in 1.0..6.0f64,
+        probes in prop::collection::vec((-30.0..30.0f64, -30.0..30.0f64), 60),
+    ) {
+        let style = line_style(width, Join::Miter { limit }, Cap::Square);
+        let all = footprints(style, polyline(&points));
+        for p in probes {
+            let p = Plan::new(p.0, p.1);
+            let mut near = false;
+            all.parts_near(&PlanBox::around([p]), |_| { near = true; true });
+            prop_assert!(near || !stroke_holds(&all, p));
+        }
+    }
+}

@@ -1,0 +1,268 @@
+//! Outward-rounded arithmetic for the truth: numbers that are known up to a radius.
+//!
+//! Input: doubles, taken as exact. Output: [`Ball`]s that contain the exact results of the same operations on real numbers.
+//! Refuses: nothing; what cannot be bounded has an infinite radius. (Midpoint and radius rather than two ends: the widths here are
+//! a few roundings, and one rounding direction is enough.)
+
+use glam::DVec3;
+use std::ops::{Add, Mul, Neg, Sub};
+
+/// Unit roundoff of doubles: a rounded result is within this share of itself of the exact one.
+const U: f64 = f64::EPSILON / 2.0;
+
+/// What a radius that was itself computed with at most four roundings is widened by.
+const WIDEN: f64 = 1.0 + 8.0 * f64::EPSILON;
+
+/// What the rounding of a product or quotient can lose below the normal numbers.
+const UNDERFLOW: f64 = f64::MIN_POSITIVE;
+
+/// The real numbers within `radius` of `mid`.
+///
+/// # Guarantees
+/// `radius` is at least 0 and never NaN; where it is infinite `mid` is 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ball {
+    /// The middle.
+    pub mid: f64,
+    /// How far the exact number may be from the middle.
+    pub radius: f64,
+}
+
+impl Ball {
+    /// Zero.
+    pub const ZERO: Self = Self::exact(0.0);
+
+    /// Any number at all.
+    pub const ANY: Self = Self { mid: 0.0, radius: f64::INFINITY };
+
+    /// A double, taken as exact.
+    #[inline(always)]
+    pub const fn exact(mid: f64) -> Self {
+        Self { mid, radius: 0.0 }
+    }
+
+    /// A middle and a radius with at most four roundings in it.
+    #[inline(always)]
+    fn rounded(mid: f64, radius: f64) -> Self {
+        let radius = radius * WIDEN;
+        if radius < f64::INFINITY && mid.is_finite() { Self { mid, radius } } else { Self::ANY }
+    }
+
+    /// The smallest number in it, or a little less.
+    #[inline(always)]
+    pub fn low(self) -> f64 {
+        (self.mid - self.radius).next_down()
+    }
+
+    /// The largest number in it, or a little more.
+    #[inline(always)]
+    pub fn high(self) -> f64 {
+        (self.mid + self.radius).next_up()
+    }
+
+    /// Whether all of it is above 0.
+    #[inline(always)]
+    pub fn is_positive(self) -> bool {
+        self.mid > self.radius
+    }
+
+    /// Whether all of it is below 0.
+    #[inline(always)]
+    pub fn is_negative(self) -> bool {
+        -self.mid > self.radius
+    }
+
+    /// The largest magnitude in it, or a little more.
+    #[inline(always)]
+    pub fn magnitude(self) -> f64 {
+        (self.mid.abs() + self.radius).next_up()
+    }
+
+    /// One over it; anything where it holds 0.
+    #[inline]
+    pub fn recip(self) -> Self {
+        let least = (self.mid.abs() - self.radius).next_down();
+        if least.is_nan() || least <= 0.0 {
+            return Self::ANY;
+        }
+        let mid = 1.0 / self.mid;
+        // |1/x - 1/mid| = |x - mid| / (|x| |mid|), and one rounding.
+        Self::rounded(mid, self.radius / (least * self.mid.abs()) + U * mid.abs() + UNDERFLOW)
+    }
+
+    /// Its square root; numbers below 0 in it count as 0.
+    #[inline]
+    pub fn sqrt(self) -> Self {
+        let (low, high) = (self.low(), self.high());
+        if high <= 0.0 {
+            return Self::ZERO;
+        }
+        let (low, high) = (if low > 0.0 { low.sqrt().next_down() } else { 0.0 }, high.sqrt().next_up());
+        let mid = 0.5 * (low + high);
+        Self::rounded(mid, (high - mid) + (mid - low) + UNDERFLOW)
+    }
+
+    /// Its square.
+    #[inline(always)]
+    pub fn squared(self) -> Self {
+        self * self
+    }
+}
+
+impl Add for Ball {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        let mid = self.mid + other.mid;
+        Self::rounded(mid, self.radius + other.radius + U * mid.abs())
+    }
+}
+
+impl Sub for Ball {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        self + -other
+    }
+}
+
+impl Neg for Ball {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self { mid: -self.mid, radius: self.radius }
+    }
+}
+
+impl Mul for Ball {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        let mid = self.mid * other.mid;
+        let spread = self.mid.abs() * other.radius + self.radius * (other.mid.abs() + other.radius);
+        Self::rounded(mid, spread + U * mid.abs() + UNDERFLOW)
+    }
+}
+
+impl Mul<f64> for Ball {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, by: f64) -> Self {
+        let mid = self.mid * by;
+        Self::rounded(mid, self.radius * by.abs() + U * mid.abs() + UNDERFLOW)
+    }
+}
+
+/// A vector of balls.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BallVec {
+    /// First component.
+    pub x: Ball,
+    /// Second component.
+    pub y: Ball,
+    /// Third component.
+    pub z: Ball,
+}
+
+impl BallVec {
+    /// A vector, taken as exact.
+    #[inline(always)]
+    pub fn exact(v: DVec3) -> Self {
+        Self { x: Ball::exact(v.x), y: Ball::exact(v.y), z: Ball::exact(v.z) }
+    }
+
+    /// `a - b` of exact vectors.
+    #[inline(always)]
+    pub fn difference(a: DVec3, b: DVec3) -> Self {
+        Self::exact(a) - Self::exact(b)
+    }
+
+    /// The dot product.
+    #[inline(always)]
+    pub fn dot(self, other: Self) -> Ball {
+        self.x * other.x + self.y * other.y + self.z * other.z
+    }
+
+    /// The cross product.
+    #[inline(always)]
+    pub fn cross(self, other: Self) -> Self {
+        Self {
+            x: self.y * other.z - self.z * other.y,
+            y: self.z * other.x - self.x * other.z,
+            z: self.x * other.y - self.y * other.x,
+        }
+    }
+
+    /// So many times it.
+    #[inline(always)]
+    #[must_use]
+    pub fn times(self, by: Ball) -> Self {
+        Self { x: self.x * by, y: self.y * by, z: self.z * by }
+    }
+}
+
+impl Add for BallVec {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self { x: self.x + other.x, y: self.y + other.y, z: self.z + other.z }
+    }
+}
+
+impl Sub for BallVec {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Self { x: self.x - other.x, y: self.y - other.y, z: self.z - other.z }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use dashu::rational::RBig;
+    use proptest::prelude::*;
+
+    fn rational(v: f64) -> RBig {
+        RBig::try_from(v).unwrap()
+    }
+
+    fn holds(ball: Ball, exact: &RBig) -> bool {
+        let (mid, radius) = (rational(ball.mid), rational(ball.radius));
+        exact >= &(mid.clone() - radius.clone()) && exact <= &(mid + radius)
+    }
+
+    fn double() -> impl Strategy<Value = f64> {
+        (-1e6..1e6f64, -30..30i32).prop_map(|(m, e)| m * 2f64.powi(e))
+    }
+
+    proptest! {
+        #[test]
+        fn a_ball_holds_the_exact_result_of_every_operation(a in double(), b in double(), c in double()) {
+            let (x, y, z) = (Ball::exact(a), Ball::exact(b), Ball::exact(c));
+            let (p, q, r) = (rational(a), rational(b), rational(c));
+            prop_assert!(holds(x + y, &(p.clone() + q.clone())));
+            prop_assert!(holds(x * y - z, &(p.clone() * q.clone() - r.clone())));
+            let inner = (x - y) * z;
+            let exact = (p.clone() - q.clone()) * r.clone();
+            prop_assert!(holds(inner * inner + x * c, &(exact.clone() * exact.clone() + p * r)));
+            if inner.recip() != Ball::ANY {
+                prop_assert!(holds(inner.recip(), &(RBig::ONE / exact)));
+            }
+        }
+
+        #[test]
+        fn the_root_of_a_square_holds_the_number(a in 0.0..1e9f64) {
+            let root = Ball::exact(a).squared().sqrt();
+            prop_assert!(root.low() <= a && a <= root.high());
+            prop_assert!(root.radius <= 1e-15 * a + 1e-150);
+        }
+    }
+
+    #[test]
+    fn one_over_a_ball_that_holds_zero_is_anything() {
+        assert_eq!((Ball::exact(1e-30) - Ball { mid: 0.0, radius: 1e-29 }).recip(), Ball::ANY);
+        assert_eq!(Ball::ZERO.recip(), Ball::ANY);
+        assert_eq!(Ball::ANY * Ball::ZERO, Ball::ANY);
+    }
+}

@@ -1,0 +1,137 @@
+//! Colours that are known between bounds.
+
+use crate::resolve::{Compositor, Paint};
+use crate::scene::BlendMode;
+
+/// Premultiplied paint in the working space, between two bounds a channel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct PaintRange {
+    pub(super) low: [f64; 4],
+    pub(super) high: [f64; 4],
+}
+
+impl PaintRange {
+    /// Any paint.
+    pub(super) const ANY: Self = Self { low: [0.0; 4], high: [1.0; 4] };
+
+    pub(super) fn exact(paint: Paint) -> Self {
+        Self { low: paint.0, high: paint.0 }
+    }
+
+    /// The smallest range around two.
+    #[must_use]
+    pub(super) fn hull(&self, other: &Self) -> Self {
+        let mut all = *self;
+        for c in 0..4 {
+            all.low[c] = crate::math::min(self.low[c], other.low[c]);
+            all.high[c] = crate::math::max(self.high[c], other.high[c]);
+        }
+        all
+    }
+
+    /// With `source` drawn over it. Every channel grows with what is below, so that bounds go to bounds.
+    #[must_use]
+    pub(super) fn under(&self, source: Paint, mode: BlendMode) -> Self {
+        let over = |below: [f64; 4]| {
+            let mut out = [0.0; 4];
+            for (c, v) in out.iter_mut().enumerate() {
+                *v = match mode {
+                    BlendMode::Over => source.0[c] + below[c] * (1.0 - source.0[3]),
+                    BlendMode::Additive => crate::math::min(below[c] + source.0[c], 1.0),
+                };
+            }
+            out
+        };
+        Self { low: over(self.low), high: over(self.high) }
+    }
+
+    /// With `source` drawn over it any number of times, or not at all. `straight`: the source's colour at full alpha, which
+    /// many layers of it tend to.
+    #[must_use]
+    pub(super) fn under_any_number(&self, straight: Paint, mode: BlendMode) -> Self {
+        match mode {
+            BlendMode::Over => self.hull(&Self::exact(straight)),
+            BlendMode::Additive => Self { low: self.low, high: [1.0; 4] },
+        }
+    }
+
+    /// The widest channel.
+    pub(super) fn width(&self) -> f64 {
+        (0..4).fold(0.0, |widest, c| crate::math::max(self.high[c] - self.low[c], widest))
+    }
+}
+
+/// The sum of the paints of a pixel's pieces, each times its area.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Mean {
+    sum: PaintRange,
+    open: [f64; 4],
+}
+
+impl Mean {
+    pub(super) const NOTHING: Self = Self { sum: PaintRange { low: [0.0; 4], high: [0.0; 4] }, open: [0.0; 4] };
+
+    /// Adds a piece's paint.
+    pub(super) fn add(&mut self, paint: &PaintRange, area: f64) {
+        for c in 0..4 {
+            self.sum.low[c] += area * paint.low[c];
+            self.sum.high[c] += area * paint.high[c];
+            self.open[c] += area * (paint.high[c] - paint.low[c]);
+        }
+    }
+
+    /// Takes away a piece's paint that was added before: its bounds are sharpened. (What rounding leaves is within the slop
+    /// of its cut.)
+    pub(super) fn remove(&mut self, paint: &PaintRange, area: f64) {
+        self.add(paint, -area);
+    }
+
+    /// How much of the widest channel is open.
+    pub(super) fn open(&self) -> f64 {
+        self.open.iter().fold(0.0, |most, v| crate::math::max(*v, most))
+    }
+
+    /// The pixel's straight-alpha encoded colour: lower bound, upper bound, estimate. `slop` is the doubtful share of its area.
+    pub(super) fn colors(&self, compositor: &Compositor, slop: f64) -> [[f64; 4]; 3] {
+        let (mut low, mut high, mut middle) = (self.sum.low, self.sum.high, [0.0; 4]);
+        for c in 0..4 {
+            middle[c] = clamped(0.5 * (low[c] + high[c]));
+            low[c] = clamped(low[c] - slop);
+            high[c] = clamped(high[c] + slop);
+        }
+        let (mut lo, mut hi) = ([0.0; 4], [0.0; 4]);
+        for c in 0..4 {
+            // The encoded straight colour grows with the channel and falls as the alpha grows.
+            lo[c] = straight(compositor, low[c], if c == 3 { low[3] } else { high[3] }, c);
+            hi[c] = match c {
+                3 => straight(compositor, high[3], high[3], 3),
+                _ if low[3] > 0.0 => straight(compositor, high[c], low[3], c),
+                // No alpha at all has no colour (0); any alpha may have any.
+                _ if high[3] > 0.0 => 1.0,
+                _ => 0.0,
+            };
+        }
+        let estimate = compositor.encoded(Paint(middle));
+        let mut out = [lo, hi, estimate];
+        for c in 0..4 {
+            out[0][c] = clamped(lo[c] - ENCODING);
+            out[1][c] = clamped(hi[c] + ENCODING);
+            out[2][c] = crate::math::min(crate::math::max(estimate[c], out[0][c]), out[1][c]);
+        }
+        out
+    }
+}
+
+/// What the roundings of sums, of the transfer function and of the division to straight alpha can amount to.
+const ENCODING: f64 = 1e-14;
+
+fn clamped(v: f64) -> f64 {
+    crate::math::min(crate::math::max(v, 0.0), 1.0)
+}
+
+/// One channel of the straight encoded colour.
+fn straight(compositor: &Compositor, value: f64, alpha: f64, channel: usize) -> f64 {
+    let mut paint = [0.0, 0.0, 0.0, alpha];
+    paint[channel] = value;
+    compositor.encoded(Paint(paint))[channel]
+}

@@ -1,0 +1,210 @@
+//! A tile's rays, and triangles as they lie on it.
+
+use super::form::{BallForm, Form};
+use crate::footprint::HalfPlane;
+use crate::interval::{Ball, BallVec};
+use crate::math;
+use crate::predicate;
+use crate::space::{Lens, PlanBox, ViewFrame, World};
+
+/// Sides of a facet: three edges, the near and the far plane.
+pub(super) const MOST_BOUNDS: usize = 5;
+
+/// What vertex depths are trusted to, as a share.
+const DEPTH_SHARE: f64 = 1e-9;
+
+/// The rays of a tile of pixels: from `from + x * step` along `along + x * step`, the steps in the one or the other
+/// (orthographic or perspective), x and y from the tile's corner.
+#[derive(Debug)]
+pub(super) struct TileRays {
+    pub(super) is_central: bool,
+    /// The eye, or the start of the corner's ray.
+    pub(super) from: BallVec,
+    /// The direction of the corner's ray: view depth 1.
+    pub(super) along: BallVec,
+    /// What a pixel to the right adds, and one down.
+    pub(super) steps: [BallVec; 2],
+    /// The tile's side in pixels.
+    pub(super) span: f64,
+    near: f64,
+    far: f64,
+    frame: ViewFrame,
+}
+
+impl TileRays {
+    pub(super) fn new(frame: &ViewFrame, corner: [f64; 2], span: f64) -> Self {
+        let pixel = Ball::exact(frame.lens().pixel());
+        let x = (Ball::exact(corner[0]) - Ball::exact(frame.width() as f64 / 2.0)) * pixel;
+        let y = (Ball::exact(frame.height() as f64 / 2.0) - Ball::exact(corner[1])) * pixel;
+        let (right, up) = (BallVec::exact(frame.right()), BallVec::exact(frame.up()));
+        let offset = right.times(x) + up.times(y);
+        let eye = BallVec::exact(frame.eye().to_vec());
+        let forward = BallVec::exact(frame.forward());
+        let is_central = matches!(frame.lens(), Lens::Central { .. });
+        let (from, along) = if is_central { (eye, forward + offset) } else { (eye + offset, forward) };
+        let steps = [right.times(pixel), up.times(-pixel)];
+        Self { is_central, from, along, steps, span, near: frame.near(), far: frame.far(), frame: *frame }
+    }
+
+    /// A constant vector's product with the rays' directions.
+    fn dot_along(&self, v: BallVec) -> BallForm {
+        let c = v.dot(self.along);
+        match self.is_central {
+            true => BallForm { c, x: v.dot(self.steps[0]), y: v.dot(self.steps[1]) },
+            false => BallForm::constant(c),
+        }
+    }
+
+    /// A constant vector's product with the rays' starts, seen from a point.
+    fn dot_from(&self, v: BallVec, at: BallVec) -> BallForm {
+        let c = v.dot(self.from - at);
+        match self.is_central {
+            true => BallForm::constant(c),
+            false => BallForm { c, x: v.dot(self.steps[0]), y: v.dot(self.steps[1]) },
+        }
+    }
+
+    /// On which side of the edge from `a` to `b` a ray passes.
+    fn edge(&self, a: World, b: World) -> BallForm {
+        // The same edge of two triangles has the same bits: it is taken in one direction.
+        if (a.x, a.y, a.z) > (b.x, b.y, b.z) {
+            return self.edge(b, a).signed(-1.0);
+        }
+        let (u, v) = (BallVec::exact(a.to_vec()) - self.from, BallVec::exact(b.to_vec()) - self.from);
+        let normal = u.cross(v);
+        let mut side = BallForm::constant(normal.dot(self.along));
+        let turned = match self.is_central {
+            true => normal,
+            false => BallVec::difference(a.to_vec(), b.to_vec()).cross(self.along),
+        };
+        (side.x, side.y) = (turned.dot(self.steps[0]), turned.dot(self.steps[1]));
+        side
+    }
+}
+
+/// A triangle as it lies on a tile. A ray meets its plane at parameter (view depth) `depth / facing`.
+#[derive(Debug)]
+pub(super) struct Facet {
+    /// The triangle's number.
+    pub(super) id: u32,
+    /// Its corners.
+    pub(super) corners: [World; 3],
+    bounds: [Form; MOST_BOUNDS],
+    count: usize,
+    /// Larger is nearer: 1 / view depth (perspective) or minus the view depth (orthographic).
+    pub(super) nearness: Form,
+    /// No point of the triangle is nearer.
+    pub(super) nearest: f64,
+    /// The numerator of the parameter.
+    pub(super) depth: BallForm,
+    /// Its denominator.
+    pub(super) facing: BallForm,
+    /// The sign of the denominator where the triangle is seen.
+    sign: f64,
+}
+
+impl Facet {
+    /// `None`: it is seen edge-on, or lies beyond the planes of near and far.
+    pub(super) fn new(rays: &TileRays, id: u32, corners: [World; 3]) -> Option<Self> {
+        let [a, b, c] = corners;
+        let depths = corners.map(|p| rays.frame.depth(p));
+        let (low, high) = (math::min(depths[0], math::min(depths[1], depths[2])), {
+            math::max(depths[0], math::max(depths[1], depths[2]))
+        });
+        let margin = DEPTH_SHARE * (low.abs() + high.abs());
+        if high + margin < rays.near || low - margin > rays.far {
+            return None;
+        }
+        let normal = BallVec::difference(b.to_vec(), a.to_vec()).cross(BallVec::difference(c.to_vec(), a.to_vec()));
+        let facing = rays.dot_along(normal);
+        let depth = rays.dot_from(normal, BallVec::exact(a.to_vec())).signed(-1.0);
+        let decisive = if rays.is_central { depth.c } else { facing.c };
+        let sign = match (decisive.is_positive(), decisive.is_negative()) {
+            (true, _) => 1.0,
+            (_, true) => -1.0,
+            _ => predicate::facing(&rays.frame, &corners),
+        };
+        if sign == 0.0 {
+            return None;
+        }
+        let side = |a, b| rays.edge(a, b).signed(sign).plain(rays.span);
+        let mut bounds = [side(a, b); MOST_BOUNDS];
+        (bounds[1], bounds[2]) = (side(b, c), side(c, a));
+        let mut count = 3;
+        // depth / facing >= near, < far, the denominator's sign known.
+        let plane = |limit: f64, way: f64| {
+            depth.plus(&facing.times(Ball::exact(-limit))).signed(sign * way).plain(rays.span)
+        };
+        if low - margin < rays.near {
+            bounds[count] = plane(rays.near, 1.0);
+            count += 1;
+        }
+        if high + margin > rays.far {
+            bounds[count] = plane(rays.far, -1.0);
+            count += 1;
+        }
+        let nearness = match rays.is_central {
+            true => facing.times(depth.c.recip()),
+            false => depth.times(-facing.c.recip()),
+        };
+        let first = if low - margin > rays.near { low - margin } else { rays.near };
+        let nearest = if rays.is_central { (1.0 / first) * (1.0 + DEPTH_SHARE) } else { -first };
+        Some(Self {
+            id,
+            corners,
+            bounds,
+            count,
+            nearness: nearness.plain(rays.span),
+            nearest,
+            depth,
+            facing,
+            sign,
+        })
+    }
+
+    /// The sides: what is seen of it lies where all are at least 0.
+    #[inline(always)]
+    pub(super) fn bounds(&self) -> &[Form] {
+        &self.bounds[..self.count]
+    }
+
+    /// How near its plane comes over a square, at most and at least.
+    #[inline(always)]
+    pub(super) fn nearness_range(&self, corner: [f64; 2], side: f64) -> (f64, f64) {
+        let (low, high) = self.nearness.range(corner, side);
+        let (low, high) = (low - self.nearness.error, high + self.nearness.error);
+        (low, if high < self.nearest { high } else { self.nearest })
+    }
+
+    /// The function whose sign on the tile says on which side of a plan line the visible point lies.
+    pub(super) fn half_plane(&self, rays: &TileRays, of: &HalfPlane) -> BallForm {
+        let normal = BallVec { x: of.normal[0], y: of.normal[1], z: Ball::ZERO };
+        let at = BallVec { x: Ball::exact(of.at.x), y: Ball::exact(of.at.y), z: Ball::ZERO };
+        let mut start = rays.dot_from(normal, at);
+        start.c = start.c + of.offset;
+        let along = rays.dot_along(normal);
+        // n . (from + t along - at) + offset, times the denominator of t.
+        let product = match rays.is_central {
+            true => self.facing.times(start.c).plus(&along.times(self.depth.c)),
+            false => start.times(self.facing.c).plus(&self.depth.times(along.c)),
+        };
+        product.signed(self.sign)
+    }
+
+    /// Where the ray of a tile's point meets its plane, each coordinate with a bound.
+    pub(super) fn hit(&self, rays: &TileRays, [x, y]: [f64; 2]) -> BallVec {
+        let at = |form: &BallForm| form.c + form.x * x + form.y * y;
+        let parameter = at(&self.depth) * at(&self.facing).recip();
+        let offset = rays.steps[0].times(Ball::exact(x)) + rays.steps[1].times(Ball::exact(y));
+        let (from, along) = match rays.is_central {
+            true => (rays.from, rays.along + offset),
+            false => (rays.from + offset, rays.along),
+        };
+        from + along.times(parameter)
+    }
+
+    /// The box around the triangle.
+    pub(super) fn plan(&self) -> PlanBox {
+        PlanBox::around(self.corners.map(World::plan))
+    }
+}

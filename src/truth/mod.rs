@@ -1,0 +1,266 @@
+//! The truth: each pixel's right colour as a certified interval.
+//!
+//! Input: a scene, its terrain and the view. Output: [`Truth`], for each pixel and channel two bounds around the mean over the
+//! pixel's square of the composed colour (`docs/semantics.md`, Colour), and an estimate between them. Refuses: nothing; what
+//! cannot be told within the [`Budget`] is in the interval.
+//!
+//! ```text
+//!   tile.rs     a tile's triangles, by the terrain's hierarchy; squares down to pixels
+//!   facet.rs    a triangle on the tile: sides, nearness, its map to the plan, with bounds of their errors (form.rs)
+//!   visible.rs  the pixel cut into convex fragments that see one triangle (polygon.rs), and sky
+//!   refine.rs   fragments cut along footprints' borders (shape.rs) until little is unknown; colours between bounds (color.rs)
+//! ```
+//!
+//! How it is certified: a border that is straight in the plan is straight on the screen within one triangle. Its line is computed
+//! with a bound of its error; pieces are cut along the computed line, and the strip between it and where the exact line may be
+//! counts as doubtful: its area times all possible colours is added to the interval. Round borders are never approximated: a piece
+//! is in or out by bounds of the distance, or open. No decision is shared with a technique but the signs of
+//! [`crate::predicate`].
+
+mod color;
+mod facet;
+mod form;
+mod polygon;
+mod refine;
+mod setting;
+mod shape;
+mod tile;
+mod visible;
+
+use crate::buffer::{Buffer, Plane, Values};
+use crate::error::{Error, Result};
+use crate::footprint::{Footprints, Item, PixelSize};
+use crate::math;
+use crate::parallel;
+use crate::resolve::code_values;
+use crate::scene::Scene;
+use crate::space::{Lens, ViewFrame, World};
+use crate::terrain::Mesh;
+use setting::Setting;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use tile::{Frustum, TILE, TileTruth, certify_tile};
+
+/// How exact the truth has to be, and how much work may go into a pixel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Budget {
+    /// A pixel is refined until no channel's interval is wider than this (units of 1).
+    pub width: f64,
+    /// A pixel is cut into at most 2^depth pieces.
+    pub depth: u32,
+    /// Whether the coverage of each item is kept, to the same width.
+    pub coverage: bool,
+}
+
+impl Budget {
+    /// The deepest that [`Budget::new`] takes: a million pieces.
+    pub const MOST_DEPTH: u32 = 20;
+
+    /// A budget without coverage.
+    ///
+    /// # Errors
+    /// When the width is not in 0..=1 or the depth is over [`Budget::MOST_DEPTH`].
+    pub fn new(width: f64, depth: u32) -> Result<Self> {
+        if !(0.0..=1.0).contains(&width) {
+            return Err(Error::new(format!("a truth of width {width} cannot be asked for"))
+                .help("give a width from 0 (as narrow as the depth allows) to 1, such as 0.002"));
+        }
+        if depth > Self::MOST_DEPTH {
+            return Err(Error::new(format!("2^{depth} pieces a pixel are too many"))
+                .help(format!("give a depth of at most {}", Self::MOST_DEPTH)));
+        }
+        Ok(Self { width, depth, coverage: false })
+    }
+}
+
+impl Default for Budget {
+    /// Half a code value wide, 4,096 pieces.
+    fn default() -> Self {
+        Self { width: 1.0 / 510.0, depth: 12, coverage: false }
+    }
+}
+
+/// What an item covers of a pixel, as a share of the pixel's area.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ItemCoverage {
+    /// The item's number in [`Truth::items`].
+    pub item: u32,
+    /// At least.
+    pub low: f64,
+    /// At most.
+    pub high: f64,
+}
+
+/// What the items cover of a pixel.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PixelCoverage {
+    /// Those that were looked at, in draw order.
+    pub items: Vec<ItemCoverage>,
+    /// What any other item covers at most.
+    pub others: f64,
+}
+
+impl PixelCoverage {
+    /// The same with one entry an item.
+    fn joined(mut self) -> Self {
+        self.items.sort_by_key(|entry| entry.item);
+        let mut all: Vec<ItemCoverage> = Vec::new();
+        for entry in &self.items {
+            match all.last_mut().filter(|last| last.item == entry.item) {
+                Some(last) => (last.low, last.high) = (last.low + entry.low, last.high + entry.high),
+                None => all.push(*entry),
+            }
+        }
+        for entry in &mut all {
+            entry.low = math::max(entry.low - self.others, 0.0);
+            entry.high = math::min(entry.high + self.others, 1.0);
+        }
+        Self { items: all, others: math::min(self.others, 1.0) }
+    }
+}
+
+/// What was done.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Tally {
+    /// Triangles looked at, once for each tile.
+    pub triangles: u64,
+    /// Fragments of one triangle in one pixel.
+    pub fragments: u64,
+    /// Pieces that fragments were cut into.
+    pub pieces: u64,
+    /// Pixels wider than the budget.
+    pub wide_pixels: u64,
+}
+
+/// Each pixel's right colour between two bounds: RGBA, straight alpha, encoded values 0..=1.
+#[derive(Debug)]
+pub struct Truth {
+    /// Lower bounds.
+    pub low: Buffer<[f64; 4]>,
+    /// Upper bounds.
+    pub high: Buffer<[f64; 4]>,
+    /// An estimate between the two.
+    pub estimate: Buffer<[f64; 4]>,
+    /// What each item covers of each pixel, when the budget asks for it.
+    pub coverage: Option<Buffer<PixelCoverage>>,
+    /// What was done.
+    pub tally: Tally,
+    /// Bytes of the footprints and their index.
+    pub structure_bytes: usize,
+    items: Vec<Item>,
+}
+
+impl Truth {
+    /// The estimate as 8-bit code values.
+    pub fn image(&self) -> Buffer<[u8; 4]> {
+        let codes = self.estimate.values().iter().map(|c| code_values(*c)).collect();
+        Buffer::from_values(self.estimate.width(), self.estimate.height(), codes)
+    }
+
+    /// The widest interval of any channel.
+    pub fn widest(&self) -> f64 {
+        let widths = self.low.values().iter().zip(self.high.values());
+        widths.flat_map(|(l, h)| (0..4).map(|c| h[c] - l[c])).fold(0.0, |most, w| math::max(w, most))
+    }
+
+    /// The sets of plan points that were drawn, in draw order.
+    pub fn items(&self) -> &[Item] {
+        &self.items
+    }
+
+    /// The names of the buffers that [`Truth::plane`] gives.
+    pub const BUFFERS: [&'static str; 3] = ["lo", "hi", "color"];
+
+    /// A buffer by its name.
+    pub fn plane(&self, name: &str) -> Option<Plane> {
+        let (name, buffer) = match name {
+            "lo" => ("lo", &self.low),
+            "hi" => ("hi", &self.high),
+            "color" => ("color", &self.estimate),
+            _ => return None,
+        };
+        let values = Values::F64(buffer.values().as_flattened().to_vec());
+        Some(Plane { name, width: buffer.width(), height: buffer.height(), components: 4, values })
+    }
+}
+
+/// Computes the truth of a scene. `progress` is told the share that is done (0..=1), from any thread.
+pub fn certify(
+    scene: &Scene,
+    mesh: &Mesh,
+    view: &ViewFrame,
+    budget: &Budget,
+    progress: &(dyn Fn(f64) + Sync),
+) -> Truth {
+    let (size, heights) = (pixel_size(mesh, view), heights(mesh));
+    let (width, height) = (view.width(), view.height());
+    let whole = Frustum::new(view, [0.0, 0.0], [width as f64, height as f64]);
+    let bounds = mesh.plan_bounds();
+    let footprints =
+        Footprints::new(&scene.layers, size, &|plan| plan.meets(&bounds) && whole.meets_plan(plan, heights));
+    let setting = Setting::new(scene, mesh, (&footprints, size), *budget);
+    let (columns, rows) = (width.div_ceil(TILE), height.div_ceil(TILE));
+    let done = AtomicUsize::new(0);
+    let tiles = parallel::map_indices(columns * rows, |k| {
+        let corner = [k % columns * TILE, k / columns * TILE];
+        let size = [TILE.min(width - corner[0]), TILE.min(height - corner[1])];
+        let tile = certify_tile(&setting, mesh, view, (corner, size));
+        progress((done.fetch_add(1, Ordering::Relaxed) + 1) as f64 / (columns * rows) as f64);
+        (corner, size, tile)
+    });
+    assembled(tiles, (width, height), &footprints, budget)
+}
+
+/// The tiles as one picture.
+fn assembled(
+    tiles: Vec<([usize; 2], [usize; 2], TileTruth)>,
+    (width, height): (usize, usize),
+    footprints: &Footprints,
+    budget: &Budget,
+) -> Truth {
+    let count = width * height;
+    let mut bounds = [vec![[0.0; 4]; count], vec![[0.0; 4]; count], vec![[0.0; 4]; count]];
+    let mut coverage = if budget.coverage { vec![PixelCoverage::default(); count] } else { Vec::new() };
+    let mut tally = Tally::default();
+    for (corner, size, mut tile) in tiles {
+        for (k, colors) in tile.colors.iter().enumerate() {
+            let at = (corner[1] + k / size[0]) * width + corner[0] + k % size[0];
+            for (bound, color) in bounds.iter_mut().zip(colors) {
+                bound[at] = *color;
+            }
+            let is_wide = (0..4).any(|c| colors[1][c] - colors[0][c] > budget.width);
+            tally.wide_pixels += u64::from(is_wide);
+            if let Some(of_pixel) = tile.coverage.get_mut(k) {
+                coverage[at] = std::mem::take(of_pixel);
+            }
+        }
+        tally.triangles += tile.tally.triangles;
+        tally.fragments += tile.tally.fragments;
+        tally.pieces += tile.tally.pieces;
+    }
+    let [low, high, estimate] = bounds.map(|values| Buffer::from_values(width, height, values));
+    Truth {
+        low,
+        high,
+        estimate,
+        coverage: budget.coverage.then(|| Buffer::from_values(width, height, coverage)),
+        tally,
+        structure_bytes: footprints.bytes(),
+        items: footprints.items().to_vec(),
+    }
+}
+
+/// The lowest and the highest that the terrain comes.
+fn heights(mesh: &Mesh) -> (f64, f64) {
+    mesh.bounds(mesh.root()).map_or((0.0, 0.0), |b| (b.center.z - b.axes[2].z, b.center.z + b.axes[2].z))
+}
+
+/// How widths in pixels become metres in a view.
+fn pixel_size(mesh: &Mesh, view: &ViewFrame) -> PixelSize {
+    let (low, high) = heights(mesh);
+    let World { z, .. } = view.eye();
+    let height_span = math::max((high - z).abs(), (low - z).abs());
+    match view.lens() {
+        Lens::Central { pixel } => PixelSize { pixel, eye: Some(view.eye()), height_span },
+        Lens::Parallel { pixel } => PixelSize { pixel, eye: None, height_span },
+    }
+}

@@ -1,0 +1,104 @@
+//! Convex pieces of a pixel, and cutting them.
+
+use super::form::{Line, Side};
+
+/// What the rounding of a cut's two new points can do to the areas on its sides, in pixels' areas; the same bounds the
+/// rounding of an area's sum.
+pub(super) const ROUNDING: f64 = 4e-15;
+
+/// A convex polygon among the points of a [`Pieces`].
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Polygon {
+    start: u32,
+    count: u32,
+}
+
+/// The points of all pieces of a pixel.
+#[derive(Debug, Default)]
+pub(super) struct Pieces {
+    points: Vec<[f64; 2]>,
+    distances: Vec<f64>,
+}
+
+/// A piece cut by a line.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Halves {
+    pub(super) inner: Option<Polygon>,
+    pub(super) outer: Option<Polygon>,
+}
+
+impl Pieces {
+    pub(super) fn clear(&mut self) {
+        self.points.clear();
+    }
+
+    /// A square.
+    pub(super) fn square(&mut self, [x, y]: [f64; 2], side: f64) -> Polygon {
+        self.push(&[[x, y], [x + side, y], [x + side, y + side], [x, y + side]])
+    }
+
+    fn push(&mut self, points: &[[f64; 2]]) -> Polygon {
+        let start = self.points.len() as u32;
+        self.points.extend_from_slice(points);
+        Polygon { start, count: points.len() as u32 }
+    }
+
+    #[inline(always)]
+    pub(super) fn of(&self, polygon: Polygon) -> &[[f64; 2]] {
+        &self.points[polygon.start as usize..(polygon.start + polygon.count) as usize]
+    }
+
+    /// A piece's area in pixels' areas.
+    pub(super) fn area(&self, polygon: Polygon) -> f64 {
+        let points = self.of(polygon);
+        let [ox, oy] = points[0];
+        let mut twice = 0.0;
+        for pair in points[1..].windows(2) {
+            let ([ax, ay], [bx, by]) = (pair[0], pair[1]);
+            twice += (ax - ox) * (by - oy) - (bx - ox) * (ay - oy);
+        }
+        let area = 0.5 * twice;
+        if area > 0.0 { area } else { 0.0 }
+    }
+
+    /// Cuts a piece along a line; `slop` grows by what is doubtful. `None`: the line is not known well enough.
+    pub(super) fn cut(&mut self, polygon: Polygon, line: &Line, slop: &mut f64) -> Option<Halves> {
+        match line.side(self.of(polygon), slop) {
+            Side::In => Some(Halves { inner: Some(polygon), outer: None }),
+            Side::Out => Some(Halves { inner: None, outer: Some(polygon) }),
+            Side::Unknown => None,
+            Side::Both => Some(self.split(polygon, line, slop)),
+        }
+    }
+
+    /// Splits a piece that has corners on both sides of a line.
+    fn split(&mut self, polygon: Polygon, line: &Line, slop: &mut f64) -> Halves {
+        let (start, count) = (polygon.start as usize, polygon.count as usize);
+        let mut distances = std::mem::take(&mut self.distances);
+        distances.clear();
+        distances.extend(self.of(polygon).iter().map(|p| line.at(*p)));
+        let half = |points: &mut Vec<[f64; 2]>, sign: f64| {
+            let first = points.len() as u32;
+            for k in 0..count {
+                let next = if k + 1 < count { k + 1 } else { 0 };
+                let (a, b) = (points[start + k], points[start + next]);
+                let (s, t) = (distances[k], distances[next]);
+                if s * sign >= 0.0 {
+                    points.push(a);
+                }
+                if (s > 0.0 && t < 0.0) || (s < 0.0 && t > 0.0) {
+                    // From the inner corner to the outer one, so that both halves get the same point.
+                    let (from, to, s, t) = if s > 0.0 { (a, b, s, t) } else { (b, a, t, s) };
+                    let along = s / (s - t);
+                    points.push([from[0] + (to[0] - from[0]) * along, from[1] + (to[1] - from[1]) * along]);
+                }
+            }
+            Polygon { start: first, count: points.len() as u32 - first }
+        };
+        let inner = half(&mut self.points, 1.0);
+        let outer = half(&mut self.points, -1.0);
+        self.distances = distances;
+        *slop += ROUNDING;
+        Halves { inner: Some(inner), outer: Some(outer) }
+    }
+}

@@ -1,0 +1,448 @@
+//! A pixel cut into pieces until what is unknown of its colour is small.
+//!
+//! A piece sees one triangle and knows, of each item near it, whether it lies in or out of it, or which primitives could still
+//! tell. The piece with the most unknown in it is cut first: along a primitive's line, so that the two halves know more.
+
+use super::color::{Mean, PaintRange};
+use super::facet::{Facet, TileRays};
+use super::form::Line;
+use super::polygon::{Halves, Pieces, Polygon, ROUNDING};
+use super::setting::Setting;
+use super::shape::{Ground, Shape, Verdict, distance};
+use super::visible::{Fragment, SPECK, Sight};
+use super::{ItemCoverage, PixelCoverage};
+use crate::footprint::{Part, Primitive};
+use crate::resolve::Paint;
+use crate::space::PlanBox;
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
+/// A piece near more parts than this is cut before they are looked at one by one.
+const MOST_PARTS: usize = 48;
+
+/// Room for one pixel's work, used again for the next.
+#[derive(Debug, Default)]
+pub(super) struct Refinery {
+    shapes: Vec<Shape>,
+    /// Indices into `shapes`, a run for each state.
+    lists: Vec<u32>,
+    states: Vec<State>,
+    heap: BinaryHeap<Piece>,
+    parts: Vec<Part>,
+    primitives: Vec<Primitive>,
+    fresh: Vec<State>,
+    /// Pieces of which nothing is open, where coverage is asked for.
+    closed: Vec<Piece>,
+    /// The area of the pieces that may lie in or out of some item.
+    open_area: f64,
+    slop: f64,
+    /// Pieces made.
+    pub(super) pieces: u64,
+    /// Pieces of this pixel.
+    count: u64,
+}
+
+/// Three-valued.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Known {
+    In,
+    Out,
+    Open,
+}
+
+/// What a piece knows of an item.
+#[derive(Debug, Clone, Copy)]
+struct State {
+    item: u32,
+    polygon: Known,
+    stroke: Known,
+    /// The shapes that can still tell, in `lists`.
+    first: u32,
+    count: u32,
+}
+
+impl State {
+    fn known(&self) -> Known {
+        match (self.polygon, self.stroke) {
+            (Known::Out, _) | (_, Known::Out) => Known::Out,
+            (Known::In, Known::In) => Known::In,
+            _ => Known::Open,
+        }
+    }
+}
+
+/// A convex piece of a pixel that sees one triangle.
+#[derive(Debug, Clone, Copy)]
+struct Piece {
+    shape: Polygon,
+    facet: u32,
+    area: f64,
+    /// What is unknown of it: its area times the widest channel.
+    weight: f64,
+    paint: PaintRange,
+    /// Its items, in `states`; `None`: too many to have been looked at.
+    states: Option<(u32, u32)>,
+    /// Where to cut it; `None`: nothing helps.
+    cut: Option<Line>,
+    /// Whether it may lie in or out of some item; kept only where coverage is asked for.
+    is_open: bool,
+    /// Breaks ties, so that the order is always the same.
+    number: u64,
+}
+
+impl Piece {
+    fn new(fragment: &Fragment, area: f64) -> Self {
+        let (shape, facet) = (fragment.shape, fragment.facet);
+        let paint = PaintRange::ANY;
+        Self { shape, facet, area, weight: 0.0, paint, states: None, cut: None, is_open: false, number: 0 }
+    }
+}
+
+impl Ord for Piece {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.weight.total_cmp(&other.weight).then(other.number.cmp(&self.number))
+    }
+}
+impl PartialOrd for Piece {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+impl PartialEq for Piece {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+impl Eq for Piece {}
+
+/// What stays the same for a pixel.
+#[derive(Clone, Copy)]
+pub(super) struct Pixel<'a> {
+    pub(super) setting: &'a Setting<'a>,
+    pub(super) rays: &'a TileRays,
+    pub(super) facets: &'a [Facet],
+    /// Its corner in the tile.
+    pub(super) corner: [f64; 2],
+}
+
+impl<'a> Pixel<'a> {
+    fn ground(&self, facet: u32) -> Ground<'a> {
+        let size = self.setting.pixel_size;
+        Ground { rays: self.rays, facet: &self.facets[facet as usize], pixel: self.corner, size }
+    }
+}
+
+impl Refinery {
+    /// The colour of a pixel that sees this: lower bounds, upper bounds, estimate.
+    pub(super) fn refine(&mut self, pixel: &Pixel, pieces: &mut Pieces, sight: &Sight) -> [[f64; 4]; 3] {
+        self.clear(sight.slop);
+        let mut mean = Mean::NOTHING;
+        for sky in &sight.sky {
+            mean.add(&PaintRange::exact(pixel.setting.sky), pieces.area(*sky));
+            self.slop += ROUNDING;
+        }
+        for fragment in &sight.fragments {
+            self.look(pixel, pieces, Piece::new(fragment, pieces.area(fragment.shape)), &mut mean);
+        }
+        let most = 1u64 << pixel.setting.budget.depth;
+        while !self.is_enough(pixel.setting, &mean) && self.count < most {
+            let Some(piece) = self.heap.pop() else { break };
+            self.open_area -= if piece.is_open { piece.area } else { 0.0 };
+            self.halve(pixel, pieces, piece, &mut mean);
+        }
+        self.pieces += self.count;
+        mean.colors(&pixel.setting.compositor, self.slop)
+    }
+
+    /// Whether what is open of the pixel is within the budget.
+    fn is_enough(&self, setting: &Setting, mean: &Mean) -> bool {
+        let width = setting.budget.width;
+        let doubt = 2.0 * self.slop;
+        // Where the doubt alone is over the budget, the rest is still brought down to it.
+        let target = if doubt < width { width - doubt } else { width };
+        if mean.open() > target || self.open_area > target {
+            return false;
+        }
+        let [low, high, _] = mean.colors(&setting.compositor, self.slop);
+        doubt >= width || (0..4).all(|c| high[c] - low[c] <= width)
+    }
+
+    /// How much each item covers of the pixel refined last; asked for by the budget.
+    pub(super) fn coverage(&self) -> PixelCoverage {
+        let mut all = PixelCoverage { items: Vec::new(), others: self.slop };
+        for piece in self.closed.iter().chain(&self.heap) {
+            let Some((first, count)) = piece.states else {
+                all.others += piece.area;
+                continue;
+            };
+            for state in &self.states[first as usize..(first + count) as usize] {
+                let low = if state.known() == Known::In { piece.area } else { 0.0 };
+                all.items.push(ItemCoverage { item: state.item, low, high: piece.area });
+            }
+        }
+        all.joined()
+    }
+
+    fn clear(&mut self, slop: f64) {
+        self.shapes.clear();
+        self.lists.clear();
+        self.states.clear();
+        self.heap.clear();
+        self.closed.clear();
+        (self.slop, self.count, self.open_area) = (slop, 0, 0.0);
+    }
+
+    /// Cuts a piece in two.
+    fn halve(&mut self, pixel: &Pixel, pieces: &mut Pieces, piece: Piece, mean: &mut Mean) {
+        let Some(line) = piece.cut else { return self.closed.push(piece) };
+        mean.remove(&piece.paint, piece.area);
+        let halves = pieces.cut(piece.shape, &line, &mut self.slop);
+        let Some(Halves { inner: Some(inner), outer: Some(outer) }) = halves else {
+            // The cut missed: nothing more can be learnt of this piece.
+            return self.keep(pixel.setting, Piece { cut: None, ..piece }, mean);
+        };
+        for shape in [inner, outer] {
+            let half = Piece { shape, area: pieces.area(shape), ..piece };
+            match piece.states {
+                Some(states) => self.settle(pixel, pieces, half, states, mean),
+                None => self.look(pixel, pieces, half, mean),
+            }
+        }
+    }
+
+    /// Finds the items near a piece that has not been looked at.
+    fn look(&mut self, pixel: &Pixel, pieces: &Pieces, piece: Piece, mean: &mut Mean) {
+        if piece.area < SPECK {
+            return self.doubt(piece, mean);
+        }
+        let ground = pixel.ground(piece.facet);
+        let points = pieces.of(piece.shape);
+        let plan = ground.plan_box(points);
+        let mut parts = std::mem::take(&mut self.parts);
+        parts.clear();
+        let is_all = pixel.setting.footprints.parts_near(&plan, |part| {
+            parts.push(part);
+            parts.len() <= MOST_PARTS
+        });
+        if is_all {
+            parts.sort_unstable();
+            let states = self.first_states(pixel, (&ground, points), &plan, &parts);
+            self.settle(pixel, pieces, piece, states, mean);
+        } else {
+            let paint = pixel.setting.crowd_paint(&ground, points);
+            let cut = Some(ground.halving_line(points));
+            self.keep(pixel.setting, Piece { paint, cut, states: None, is_open: true, ..piece }, mean);
+        }
+        self.parts = parts;
+    }
+
+    /// A speck: it may have any colour.
+    fn doubt(&mut self, piece: Piece, mean: &mut Mean) {
+        mean.add(&PaintRange::exact(Paint::CLEAR), piece.area);
+        self.slop += piece.area + ROUNDING;
+    }
+
+    /// What a fragment knows of the items near it: those of the parts, and those whose polygon may hold it whole.
+    fn first_states(
+        &mut self,
+        pixel: &Pixel,
+        (ground, points): (&Ground, &[[f64; 2]]),
+        plan: &PlanBox,
+        parts: &[Part],
+    ) -> (u32, u32) {
+        let footprints = pixel.setting.footprints;
+        let mut fresh = std::mem::take(&mut self.fresh);
+        fresh.clear();
+        for run in parts.chunk_by(|a, b| a.item == b.item) {
+            let first = self.lists.len() as u32;
+            let mut has = (false, false);
+            for part in run {
+                self.primitives.clear();
+                footprints.primitives(*part, &mut self.primitives);
+                for primitive in &self.primitives {
+                    let is_edge = matches!(primitive, Primitive::Edge { .. });
+                    has = (has.0 | is_edge, has.1 | !is_edge);
+                    self.lists.push(self.shapes.len() as u32);
+                    self.shapes.push(ground.shape(primitive));
+                }
+            }
+            let count = self.lists.len() as u32 - first;
+            fresh.push(first_state(pixel, (ground, points), run[0].item, has, (first, count)));
+        }
+        let near = fresh.len();
+        footprints.areas_near(plan, |item| {
+            if fresh[..near].binary_search_by_key(&item, |s| s.item).is_err() {
+                fresh.push(first_state(pixel, (ground, points), item, (false, false), (0, 0)));
+            }
+        });
+        fresh.retain(|state| state.known() != Known::Out);
+        fresh.sort_unstable_by_key(|state| state.item);
+        let first = self.states.len() as u32;
+        self.states.extend_from_slice(&fresh);
+        self.fresh = fresh;
+        (first, self.states.len() as u32 - first)
+    }
+
+    /// Brings a piece's knowledge up to date with its shape, and decides its colour and where to cut it.
+    fn settle(
+        &mut self,
+        pixel: &Pixel,
+        pieces: &Pieces,
+        mut piece: Piece,
+        (first, count): (u32, u32),
+        mean: &mut Mean,
+    ) {
+        if piece.area < SPECK {
+            return self.doubt(piece, mean);
+        }
+        let ground = pixel.ground(piece.facet);
+        let points = pieces.of(piece.shape);
+        let start = self.states.len() as u32;
+        let mut cut = None;
+        let mut is_hidden = false;
+        // From the top down: below an opaque item nothing matters.
+        for k in (first..first + count).rev() {
+            let mut state = self.states[k as usize];
+            if state.known() == Known::Open {
+                let wish = self.update(pixel, &ground, points, &mut state);
+                cut = cut.or(wish);
+            }
+            if state.known() == Known::Out {
+                continue;
+            }
+            self.states.push(state);
+            if state.known() == Known::In && pixel.setting.hides(state.item) {
+                is_hidden = true;
+                break;
+            }
+        }
+        self.states[start as usize..].reverse();
+        piece.states = Some((start, self.states.len() as u32 - start));
+        let (base, ground_cut) = match is_hidden {
+            true => (PaintRange::exact(Paint::CLEAR), None),
+            false => pixel.setting.ground_paint(&ground, points, &mut self.slop),
+        };
+        let settled = &self.states[start as usize..];
+        piece.is_open = settled.iter().any(|state| state.known() == Known::Open);
+        piece.paint = composed(pixel.setting, base, settled);
+        piece.cut = cut.or(ground_cut);
+        self.keep(pixel.setting, piece, mean);
+    }
+
+    /// Brings what a piece knows of one item up to date; returns where to cut to learn more.
+    fn update(&mut self, pixel: &Pixel, ground: &Ground, points: &[[f64; 2]], state: &mut State) -> Option<Line> {
+        let first = self.lists.len() as u32;
+        let (mut edges, mut strokes) = (0u32, 0u32);
+        let (mut cut, mut is_in) = (None, false);
+        for k in state.first..state.first + state.count {
+            let index = self.lists[k as usize];
+            let shape = self.shapes[index as usize];
+            let is_edge = matches!(shape, Shape::Edge { .. });
+            if if is_edge { state.polygon != Known::Open } else { state.stroke != Known::Open } {
+                continue;
+            }
+            match shape.verdict(ground, points, &mut self.slop) {
+                Verdict::Out => continue,
+                Verdict::In => {
+                    is_in = true;
+                    continue;
+                }
+                Verdict::Cut(line) => cut = cut.or(Some(line)),
+                Verdict::Stuck => {}
+            }
+            *(if is_edge { &mut edges } else { &mut strokes }) += 1;
+            self.lists.push(index);
+        }
+        (state.first, state.count) = (first, self.lists.len() as u32 - first);
+        if state.stroke == Known::Open && (is_in || strokes == 0) {
+            state.stroke = known(is_in);
+        }
+        if state.polygon == Known::Open && edges == 0 {
+            state.polygon = polygon_at(pixel, ground, points, state.item);
+            if state.polygon == Known::Open {
+                return Some(ground.halving_line(points));
+            }
+        }
+        cut
+    }
+
+    /// Counts a piece as it is, and remembers it if more can be learnt.
+    fn keep(&mut self, setting: &Setting, mut piece: Piece, mean: &mut Mean) {
+        self.count += 1;
+        self.slop += ROUNDING;
+        mean.add(&piece.paint, piece.area);
+        piece.is_open &= setting.budget.coverage;
+        let width = if piece.is_open { 1.0 } else { piece.paint.width() };
+        (piece.weight, piece.number) = (piece.area * width, self.count);
+        if width > 0.0 {
+            self.open_area += if piece.is_open { piece.area } else { 0.0 };
+            self.heap.push(piece);
+        } else if setting.budget.coverage {
+            self.closed.push(piece);
+        }
+    }
+}
+
+/// The paint of a piece's items over a base.
+fn composed(setting: &Setting, base: PaintRange, states: &[State]) -> PaintRange {
+    states.iter().fold(base, |below, state| {
+        let over = below.under(setting.paints[state.item as usize], setting.mode);
+        if state.known() == Known::In { over } else { over.hull(&below) }
+    })
+}
+
+/// What a fragment knows of an item at first: `has` edges of its polygon near, and parts of its stroke.
+fn first_state(
+    pixel: &Pixel,
+    (ground, points): (&Ground, &[[f64; 2]]),
+    item: u32,
+    (has_edges, has_stroke): (bool, bool),
+    (first, count): (u32, u32),
+) -> State {
+    let what = &pixel.setting.footprints.items()[item as usize];
+    let polygon = match what.wants_polygon() {
+        None => Known::In,
+        Some(_) if has_edges => Known::Open,
+        // No edge is near: the polygon holds all of the fragment, or none.
+        Some(_) => polygon_at(pixel, ground, points, item),
+    };
+    let stroke = match (what.wants_stroke(), has_stroke) {
+        (false, _) => Known::In,
+        (true, false) => Known::Out,
+        (true, true) => Known::Open,
+    };
+    State { item, polygon, stroke, first, count }
+}
+
+fn known(is_in: bool) -> Known {
+    if is_in { Known::In } else { Known::Out }
+}
+
+/// Whether a piece that no edge of an item's polygon crosses lies where the item wants it, decided exactly at a point of it.
+fn polygon_at(pixel: &Pixel, ground: &Ground, points: &[[f64; 2]], item: u32) -> Known {
+    let footprints = pixel.setting.footprints;
+    let middle = points.iter().fold([0.0, 0.0], |[x, y], p| [x + p[0], y + p[1]]);
+    let hit = ground.hit(middle.map(|v| v / points.len() as f64));
+    let rounding = 64.0 * f64::EPSILON * hit.plan.to_vec().abs().max_element();
+    let reach = 2.0 * hit.error + rounding;
+    if !(reach < f64::INFINITY) {
+        return Known::Open;
+    }
+    // The point is known up to `reach`: no edge may be that near.
+    let mut primitives = Vec::new();
+    let is_clear = footprints.parts_near(&PlanBox::around([hit.plan]).grown(reach), |part| {
+        primitives.clear();
+        if part.item == item {
+            footprints.primitives(part, &mut primitives);
+        }
+        primitives.iter().all(|primitive| match primitive {
+            Primitive::Edge { from, to } => distance(*from, *to, hit.plan) > reach,
+            _ => true,
+        })
+    });
+    let wanted = footprints.items()[item as usize].wants_polygon();
+    match wanted.filter(|_| is_clear) {
+        Some(wanted) => known(footprints.polygon_holds(item, hit.plan) == wanted),
+        None => Known::Open,
+    }
+}

@@ -1,0 +1,185 @@
+//! What stays the same for all pixels of a picture: footprints, paints, the budget.
+
+use super::Budget;
+use super::color::PaintRange;
+use super::form::{Line, Side};
+use super::shape::Ground;
+use crate::footprint::{Footprints, HalfPlane, PixelSize};
+use crate::interval::Ball;
+use crate::resolve::{Compositor, GroundPaint, Paint};
+use crate::scene::{self, BlendMode, Color, Imagery, Layer, Scene};
+use crate::space::Plan;
+use crate::terrain::Mesh;
+use std::ops::RangeInclusive;
+
+/// Texels that a piece's bounds are taken over one by one.
+const MOST_TEXELS: usize = 64;
+
+pub(super) struct Setting<'a> {
+    pub(super) budget: Budget,
+    pub(super) footprints: &'a Footprints,
+    pub(super) pixel_size: PixelSize,
+    pub(super) compositor: Compositor,
+    pub(super) mode: BlendMode,
+    /// The paint of each item.
+    pub(super) paints: Vec<Paint>,
+    pub(super) sky: Paint,
+    /// For each layer, its colours at full alpha.
+    crowds: Vec<Paint>,
+    ground: GroundColors<'a>,
+}
+
+/// The terrain's own colour.
+enum GroundColors<'a> {
+    OfTriangles(GroundPaint<'a>),
+    OfTexels { imagery: &'a Imagery, all: PaintRange },
+}
+
+impl<'a> Setting<'a> {
+    pub(super) fn new(
+        scene: &'a Scene,
+        mesh: &'a Mesh,
+        (footprints, pixel_size): (&'a Footprints, PixelSize),
+        budget: Budget,
+    ) -> Self {
+        let compositor = Compositor::new(scene.compositing);
+        let ground = match &scene.ground {
+            scene::Ground::Imagery(imagery) => {
+                let texels = imagery.texels.values().iter().map(|c| PaintRange::exact(compositor.paint(*c)));
+                let all = texels.reduce(|a, b| a.hull(&b)).unwrap_or(PaintRange::ANY);
+                GroundColors::OfTexels { imagery, all }
+            }
+            _ => GroundColors::OfTriangles(GroundPaint::new(&scene.ground, mesh, compositor)),
+        };
+        let paints = footprints.items().iter().map(|item| compositor.paint(item.color)).collect();
+        let crowds = scene.layers.iter().flat_map(colors).map(|c| compositor.paint(opaque(c))).collect();
+        let sky = compositor.paint(scene.image.background);
+        let mode = scene.compositing.mode;
+        Self { budget, footprints, pixel_size, compositor, mode, paints, sky, crowds, ground }
+    }
+
+    /// Whether nothing below an item matters where it is.
+    pub(super) fn hides(&self, item: u32) -> bool {
+        let is_opaque = self.paints[item as usize].0[3] == 1.0;
+        is_opaque && self.mode == BlendMode::Over && !self.budget.coverage
+    }
+
+    /// The paint of a piece that may lie in any number of items of any layer.
+    pub(super) fn crowd_paint(&self, ground: &Ground, piece: &[[f64; 2]]) -> PaintRange {
+        let (base, _) = self.ground_paint(ground, piece, &mut 0.0);
+        self.crowds.iter().fold(base, |below, paint| below.under_any_number(*paint, self.mode))
+    }
+
+    /// The terrain's own paint on a piece, and where to cut it to know more. `slop` grows by what is doubtful.
+    pub(super) fn ground_paint(
+        &self,
+        ground: &Ground,
+        piece: &[[f64; 2]],
+        slop: &mut f64,
+    ) -> (PaintRange, Option<Line>) {
+        match &self.ground {
+            GroundColors::OfTriangles(paint) => {
+                (PaintRange::exact(paint.at(ground.facet.id, Plan::default())), None)
+            }
+            GroundColors::OfTexels { imagery, all } => {
+                let (columns, rows, cut) = texels_of(imagery, ground, piece, slop);
+                let count = (columns.end() - columns.start() + 1) * (rows.end() - rows.start() + 1);
+                if count > MOST_TEXELS {
+                    return (*all, cut);
+                }
+                let texels = rows.flat_map(|y| columns.clone().map(move |x| (x, y)));
+                let paints = texels.map(|(x, y)| self.compositor.paint(*imagery.texels.at(x, y)));
+                let range = paints.map(PaintRange::exact).reduce(|a, b| a.hull(&b));
+                (range.unwrap_or(*all), cut)
+            }
+        }
+    }
+}
+
+/// The colours that a layer's style names.
+fn colors(layer: &Layer) -> impl Iterator<Item = Color> {
+    let style = &layer.style;
+    let (fill, outline) = (style.fill.map(|f| f.color), style.outline.map(|o| o.line.color));
+    [fill, outline, style.line.map(|l| l.color)].into_iter().flatten()
+}
+
+fn opaque(color: Color) -> Color {
+    let [r, g, b, _] = color.0;
+    Color([r, g, b, 1.0])
+}
+
+/// The columns and rows of texels that a piece sees, and where to cut it to see fewer.
+fn texels_of(
+    imagery: &Imagery,
+    ground: &Ground,
+    piece: &[[f64; 2]],
+    slop: &mut f64,
+) -> (RangeInclusive<usize>, RangeInclusive<usize>, Option<Line>) {
+    let (plan, extent, texels) = (ground.plan_box(piece), &imagery.extent, &imagery.texels);
+    let east = Axis { origin: extent.min.x, size: extent.max.x - extent.min.x, count: texels.width() };
+    let south = Axis { origin: extent.max.y, size: extent.min.y - extent.max.y, count: texels.height() };
+    let mut cut = None;
+    let columns = east.narrowed(east.range(plan.min.x, plan.max.x), |k, slop| {
+        let line = ground.line(&border(east.border(k), [1.0, 0.0]));
+        let side = line.side(piece, slop);
+        cut = if side == Side::Both { cut.or(Some(line)) } else { cut };
+        side
+    }, slop);
+    let rows = south.narrowed(south.range(plan.max.y, plan.min.y), |k, slop| {
+        let line = ground.line(&border(south.border(k), [0.0, -1.0]));
+        let side = line.side(piece, slop);
+        cut = if side == Side::Both { cut.or(Some(line)) } else { cut };
+        side
+    }, slop);
+    (columns, rows, cut)
+}
+
+/// The half plane beyond a texel border.
+fn border(at: Ball, [x, y]: [f64; 2]) -> HalfPlane {
+    HalfPlane { at: Plan::default(), normal: [Ball::exact(x), Ball::exact(y)], offset: at * -(x + y) }
+}
+
+/// Texels along an axis of the plan.
+#[derive(Clone, Copy)]
+struct Axis {
+    origin: f64,
+    /// Negative where texels are counted against the axis.
+    size: f64,
+    count: usize,
+}
+
+impl Axis {
+    /// The texels from one coordinate to another; the rim's texels reach beyond the image.
+    fn range(&self, from: f64, to: f64) -> RangeInclusive<usize> {
+        let place = |v: f64| (v - self.origin) / self.size * self.count as f64;
+        // Casts saturate. A texel more on each side makes up for the rounding.
+        let (low, high) = ((place(from) - 1e-6) as usize, (place(to) + 1e-6) as usize);
+        low.min(self.count - 1)..=high.min(self.count - 1)
+    }
+
+    /// The coordinate where texel `k` begins.
+    fn border(&self, k: usize) -> Ball {
+        let share = Ball::exact(k as f64) * Ball::exact(self.count as f64).recip();
+        Ball::exact(self.origin) + share * self.size
+    }
+
+    /// Halves a range of texels while a border in its middle has all of the piece on one side.
+    fn narrowed(
+        &self,
+        range: RangeInclusive<usize>,
+        mut side_of: impl FnMut(usize, &mut f64) -> Side,
+        slop: &mut f64,
+    ) -> RangeInclusive<usize> {
+        let (mut low, mut high) = range.into_inner();
+        while low < high {
+            let middle = (low + high).div_ceil(2);
+            match side_of(middle, slop) {
+                Side::In => low = middle,
+                Side::Out => high = middle - 1,
+                Side::Both | Side::Unknown => break,
+            }
+        }
+        low..=high
+    }
+}
+

@@ -1,0 +1,297 @@
+//! Primitives of footprints as they lie on a pixel: straight ones as lines, round ones by bounds of their distance.
+
+use super::facet::{Facet, TileRays};
+use super::form::{Line, Side};
+use crate::footprint::{HalfPlane, MOST_SIDES, PixelSize, Primitive};
+use crate::interval::{Ball, BallVec};
+use crate::math;
+use crate::space::{Plan, PlanBox, World};
+use glam::{DVec2, DVec3};
+
+/// A primitive on a pixel.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Shape {
+    /// A polygon's edge: the line along it, and those across it at its ends (the edge lies on their inner sides).
+    Edge { along: Line, ends: [Line; 2] },
+    /// A convex part of a stroke; `is_sure` is false for one that may not be there.
+    Convex { sides: [Line; MOST_SIDES], count: usize, is_sure: bool },
+    /// All within a distance of a segment.
+    Near(Near),
+}
+
+/// The plan points within `reach + growth * r` of a segment, r their distance from the eye.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Near {
+    from: Plan,
+    to: Plan,
+    reach: f64,
+    growth: f64,
+}
+
+/// Where a piece lies of a primitive, and how it is best cut.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Verdict {
+    /// All of it in the stroke's part.
+    In,
+    /// None of it; or no edge crosses it.
+    Out,
+    /// Cut here.
+    Cut(Line),
+    /// It cannot be told.
+    Stuck,
+}
+
+/// What is needed to bring plan geometry to a pixel.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Ground<'a> {
+    pub(super) rays: &'a TileRays,
+    pub(super) facet: &'a Facet,
+    /// The pixel's corner in the tile.
+    pub(super) pixel: [f64; 2],
+    pub(super) size: PixelSize,
+}
+
+/// A plan point with a bound of its error, metres.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Hit {
+    pub(super) plan: Plan,
+    pub(super) world: World,
+    pub(super) error: f64,
+}
+
+impl Ground<'_> {
+    /// The line on the pixel where the visible points' plan points cross a half plane's border.
+    pub(super) fn line(&self, of: &HalfPlane) -> Line {
+        self.facet.half_plane(self.rays, of).plain(self.rays.span).seen_from(self.pixel).line()
+    }
+
+    /// Where a point of the pixel lies in the plan.
+    pub(super) fn hit(&self, [x, y]: [f64; 2]) -> Hit {
+        let BallVec { x, y, z } = self.facet.hit(self.rays, [self.pixel[0] + x, self.pixel[1] + y]);
+        let error = (x.radius + y.radius + z.radius) * (1.0 + 1e-15);
+        Hit { plan: Plan::new(x.mid, y.mid), world: World::new(x.mid, y.mid, z.mid), error }
+    }
+
+    /// A box of the plan around what a piece sees.
+    pub(super) fn plan_box(&self, piece: &[[f64; 2]]) -> PlanBox {
+        let mut plan = PlanBox::EMPTY;
+        for p in piece {
+            let hit = self.hit(*p);
+            if !(hit.error < MOST_ERROR) {
+                return self.facet.plan();
+            }
+            let margin = DVec2::splat(hit.error * 2.0);
+            plan.include(hit.plan + margin);
+            plan.include(hit.plan + -margin);
+        }
+        plan
+    }
+
+    /// A line through the middle of a piece, across the direction in which more of the plan is seen.
+    pub(super) fn halving_line(&self, piece: &[[f64; 2]]) -> Line {
+        let size = PlanBox::around(piece.iter().map(|p| Plan::new(p[0], p[1])));
+        let (middle, half) = ((size.min.to_vec() + size.max.to_vec()) / 2.0, (size.max - size.min) / 2.0);
+        let seen = |by: DVec2| (self.hit((middle + by).to_array()).plan - self.hit((middle - by).to_array()).plan).length();
+        let (across, down) = (seen(half * DVec2::X), seen(half * DVec2::Y));
+        if across > down { Line::upright(middle.x) } else { Line::level(middle.y) }
+    }
+
+    /// A primitive on the pixel.
+    pub(super) fn shape(&self, of: &Primitive) -> Shape {
+        match of {
+            Primitive::Edge { from, to } => self.edge(*from, *to),
+            Primitive::Convex(shape) => self.convex(shape.sides(), true),
+            Primitive::Perhaps(shape) => self.convex(shape.sides(), false),
+            Primitive::Near { from, to, reach, growth } => {
+                Shape::Near(Near { from: *from, to: *to, reach: *reach, growth: *growth })
+            }
+        }
+    }
+
+    fn convex(&self, of: &[HalfPlane], is_sure: bool) -> Shape {
+        let mut sides = [self.line(&of[0]); MOST_SIDES];
+        for (line, side) in sides[1..].iter_mut().zip(&of[1..]) {
+            *line = self.line(side);
+        }
+        Shape::Convex { sides, count: of.len(), is_sure }
+    }
+
+    fn edge(&self, from: Plan, to: Plan) -> Shape {
+        let x = Ball::exact(to.x) - Ball::exact(from.x);
+        let y = Ball::exact(to.y) - Ball::exact(from.y);
+        let side = |at, normal| self.line(&HalfPlane { at, normal, offset: Ball::ZERO });
+        Shape::Edge { along: side(from, [-y, x]), ends: [side(from, [x, y]), side(to, [-x, -y])] }
+    }
+}
+
+impl Shape {
+    /// Where a piece lies. `slop` grows by the area that the lines' uncertainty makes doubtful.
+    pub(super) fn verdict(&self, ground: &Ground, piece: &[[f64; 2]], slop: &mut f64) -> Verdict {
+        match self {
+            Self::Edge { along, ends } => {
+                for end in ends {
+                    if end.side(piece, slop) == Side::Out {
+                        return Verdict::Out;
+                    }
+                }
+                match along.side(piece, slop) {
+                    Side::Both => Verdict::Cut(*along),
+                    Side::Unknown => Verdict::Stuck,
+                    Side::In | Side::Out => Verdict::Out,
+                }
+            }
+            Self::Convex { sides, count, is_sure } => {
+                let verdict = convex_verdict(&sides[..*count], piece, slop);
+                if !is_sure && matches!(verdict, Verdict::In) { Verdict::Stuck } else { verdict }
+            }
+            Self::Near(near) => near.verdict(ground, piece),
+        }
+    }
+}
+
+fn convex_verdict(sides: &[Line], piece: &[[f64; 2]], slop: &mut f64) -> Verdict {
+    let mut verdict = Verdict::In;
+    for side in sides {
+        match side.side(piece, slop) {
+            Side::Out => return Verdict::Out,
+            Side::In => {}
+            Side::Both => verdict = Verdict::Cut(*side),
+            Side::Unknown => verdict = if matches!(verdict, Verdict::In) { Verdict::Stuck } else { verdict },
+        }
+    }
+    verdict
+}
+
+impl Near {
+    /// By bounds of `f = distance - reach - growth * r` over the piece, each exact to the second order: the distance and r are
+    /// convex functions of the plan point, so each is at least its tangent and at most what its corners say.
+    fn verdict(&self, ground: &Ground, piece: &[[f64; 2]]) -> Verdict {
+        let middle = piece.iter().fold([0.0, 0.0], |[x, y], p| [x + p[0], y + p[1]]);
+        let centre = ground.hit(middle.map(|v| v / piece.len() as f64));
+        if !(centre.error < MOST_ERROR) {
+            return Verdict::Stuck;
+        }
+        let tangent = self.tangent(ground, &centre);
+        let (mut is_in, mut is_out) = (true, true);
+        let (mut low, mut high, mut across) = (f64::INFINITY, f64::NEG_INFINITY, 0.0f64);
+        for p in piece {
+            let hit = ground.hit(*p);
+            if !(hit.error < MOST_ERROR) {
+                return Verdict::Stuck;
+            }
+            let error = self.error(&hit, &centre, ground);
+            let away = hit.plan - centre.plan;
+            let r = |at: &Hit| ground.size.eye.map_or(0.0, |eye| (at.world - eye).length());
+            let r_tangent = ground.size.eye.map_or(0.0, |eye| tangent.to_eye.dot(hit.world - eye));
+            let distance = distance(self.from, self.to, hit.plan);
+            is_in &= distance - self.reach - self.growth * r_tangent + error <= 0.0;
+            let least = tangent.distance + tangent.gradient.dot(away) - tangent.doubt * away.length();
+            is_out &= least - self.reach - self.growth * r(&hit) - error > 0.0;
+            let linear = tangent.value + tangent.slope.dot(away);
+            (low, high) = (math::min(linear, low), math::max(linear, high));
+            across = math::max(tangent.slope.perp_dot(away).abs(), across);
+        }
+        match (is_in, is_out) {
+            (true, _) => Verdict::In,
+            (_, true) => Verdict::Out,
+            _ => Verdict::Cut(ground.line(&self.cut(&tangent, centre.plan, (low, high), across))),
+        }
+    }
+
+    /// Where to cut an undecided piece: along the tangent where much lies beyond it, along the chord where much lies within, else
+    /// through the middle of the arc.
+    fn cut(&self, tangent: &Tangent, centre: Plan, (low, high): (f64, f64), across: f64) -> HalfPlane {
+        let slope = tangent.slope;
+        let steep = slope.length();
+        let along = |normal: DVec2, offset: f64| HalfPlane {
+            at: centre,
+            normal: [Ball::exact(normal.x), Ball::exact(normal.y)],
+            offset: Ball::exact(offset),
+        };
+        if steep < LEAST_STEEP {
+            // At the segment itself there is no tangent: any cut makes the piece smaller.
+            return along(DVec2::new(1.0, 0.618), 0.0);
+        }
+        let radius = self.reach + self.growth * tangent.r;
+        let half_chord = across / steep;
+        let sagitta = half_chord * half_chord / (2.0 * math::max(radius, half_chord));
+        let band = math::max(high - low, 0.0);
+        if high > 0.0 && low < 0.0 && high > WORTH * band {
+            return along(slope, tangent.value);
+        }
+        if low < -sagitta && -sagitta - low > WORTH * band {
+            return along(slope, tangent.value + sagitta);
+        }
+        along(slope.perp(), 0.0)
+    }
+
+    fn tangent(&self, ground: &Ground, centre: &Hit) -> Tangent {
+        let away = centre.plan - nearest(self.from, self.to, centre.plan);
+        let distance = away.length();
+        let gradient = if distance > 0.0 { away / distance } else { DVec2::ZERO };
+        let rounding = 16.0 * f64::EPSILON * self.size(centre);
+        let doubt = if distance > 0.0 { rounding / distance } else { 0.0 };
+        let eye = ground.size.eye.filter(|_| self.growth > 0.0);
+        let from_eye = eye.map_or(DVec3::ZERO, |eye| centre.world - eye);
+        let r = from_eye.length();
+        let to_eye = if r > 0.0 { from_eye / r } else { DVec3::ZERO };
+        // The surface climbs by -n.xy / n.z a metre.
+        let normal = crate::terrain::upward_normal(&ground.facet.corners);
+        let climb = to_eye.z / math::max(normal.z, 1e-9);
+        let r_slope = to_eye.truncate() - normal.truncate() * climb;
+        let slope = gradient - r_slope * self.growth;
+        Tangent { distance, gradient, doubt, r, to_eye, slope, value: distance - self.reach - self.growth * r }
+    }
+
+    /// What hits' errors and the roundings here can do to the bounds, metres.
+    fn error(&self, hit: &Hit, centre: &Hit, ground: &Ground) -> f64 {
+        let depth = ground.size.eye.map_or(0.0, |eye| (hit.world - eye).length());
+        (2.0 + 2.0 * self.growth) * (hit.error + centre.error)
+            + 64.0 * f64::EPSILON * (self.size(hit) + (1.0 + self.growth) * depth)
+    }
+
+    /// How large the coordinates are that a distance is computed from, metres.
+    fn size(&self, hit: &Hit) -> f64 {
+        hit.plan.to_vec().abs().max_element()
+            + self.from.to_vec().abs().max_element()
+            + self.to.to_vec().abs().max_element()
+            + self.reach
+    }
+}
+
+/// The point of a segment nearest to a plan point.
+fn nearest(from: Plan, to: Plan, p: Plan) -> Plan {
+    let (d, v) = (to - from, p - from);
+    let squared = d.length_squared();
+    let t = if squared > 0.0 { math::min(math::max(v.dot(d) / squared, 0.0), 1.0) } else { 0.0 };
+    from + d * t
+}
+
+/// A plan point's distance from a segment, metres, up to a few roundings of the coordinates.
+pub(super) fn distance(from: Plan, to: Plan, p: Plan) -> f64 {
+    (p - nearest(from, to, p)).length()
+}
+
+/// The first-order picture of a distance at a piece's middle.
+#[derive(Debug, Clone, Copy)]
+struct Tangent {
+    distance: f64,
+    gradient: DVec2,
+    /// By how much the gradient may be off: near the segment its direction is all rounding.
+    doubt: f64,
+    r: f64,
+    to_eye: DVec3,
+    /// The gradient of f over the plan.
+    slope: DVec2,
+    /// f itself.
+    value: f64,
+}
+
+/// A plan point known no better than this, in metres, decides nothing.
+const MOST_ERROR: f64 = 1e-3;
+
+/// Where f rises slower than this its tangent says nothing.
+const LEAST_STEEP: f64 = 1e-6;
+
+/// A cut is worth its two pieces when it takes off at least this share of the piece's extent.
+const WORTH: f64 = 0.2;
