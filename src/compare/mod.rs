@@ -1,7 +1,8 @@
 //! How far a picture is from what is expected, in numbers and as a picture.
 //!
 //! Input: what is [`Expected`], an interval for each value (a golden picture is the interval of no width), and an
-//! [`Image`]. Output: the [`Difference`] of the two, its [`Metrics`] and its heat map. Refuses, each by its own name
+//! [`Image`]; files of PNG, EXR and .npy become one by [`Image::read`]. Output: the [`Difference`] of the two, its
+//! [`Metrics`] and its heat map; a [`Verdict`] by stated [`Limits`], and its [`Report`]. Refuses, each by its own name
 //! ([`Mismatch`]): another size, other channels, a value that is not a number.
 //!
 //! ```
@@ -21,8 +22,14 @@ mod expected;
 mod heat_map;
 mod image;
 mod metrics;
+mod read;
+mod report;
+mod verdict;
 
 pub use difference::Difference;
 pub use expected::{Expected, Mismatch, Side};
 pub use image::{Image, Place};
 pub use metrics::{Metrics, WINDOW, Window};
+pub use read::same_file;
+pub use report::{COMPARE_SCHEMA, Report};
+pub use verdict::{Limits, Measured, Verdict};
