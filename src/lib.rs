@@ -7,7 +7,8 @@
 //! 3. [`terrain`] makes a mesh with bounding boxes of the heights;
 //! 4. [`raster`] and [`visibility`] find, exactly, which triangle each sample sees, and where;
 //! 5. [`technique`] draws, each beside its paper; [`resolve`] composes colours;
-//! 6. [`output`] writes pictures, buffers and numbers.
+//! 6. [`output`] writes pictures, buffers and numbers;
+//! 7. [`compare`] says how far a picture is from what is expected.
 //!
 //! ```
 //! use drapery::scene::file::SceneFile;
@@ -32,6 +33,7 @@
 #![cfg_attr(not(test), warn(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
 pub mod buffer;
+pub mod compare;
 pub mod crs;
 mod error;
 pub mod footprint;

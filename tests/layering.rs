@@ -24,6 +24,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
         &["visibility", "resolve", "raster", "terrain", "scene", "space", "predicate", "parallel", "buffer"],
     ),
     ("output", &["buffer"]),
+    ("compare", &["buffer"]),
 ];
 const ANYONE: &[&str] = &["error", "math", "Error", "Result", "Position"];
 

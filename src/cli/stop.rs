@@ -8,6 +8,7 @@ use std::panic::{self, PanicHookInfo, UnwindSafe};
 use std::process::ExitCode;
 use std::sync::Once;
 
+const FAILED: u8 = 1;
 const REFUSED: u8 = 2;
 const BUG: u8 = 3;
 const HOW_TO_REPORT: &str =
@@ -17,10 +18,12 @@ const HOW_TO_REPORT: &str =
 pub(super) type Outcome = Result<Status, Stop>;
 
 /// The judgement of a run that came to its end.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Status {
     /// Done and, where something was judged, it passed.
     Passed,
+    /// Judged and failed.
+    Failed,
 }
 
 /// Why a run did not come to its end.
@@ -56,6 +59,7 @@ impl Stop {
 pub(super) fn exit(outcome: Outcome, color: ColorChoice) -> ExitCode {
     match outcome {
         Ok(Status::Passed) | Err(Stop::PipeClosed) => ExitCode::SUCCESS,
+        Ok(Status::Failed) => ExitCode::from(FAILED),
         Err(Stop::Refused { error, text }) => {
             let internal = error.is_internal();
             let mut message = refusal::message(&error, text.as_deref());

@@ -90,7 +90,8 @@ pub trait Prepared: Sync {
     /// The parameters in use, by their names in the scene file.
     fn parameters(&self) -> Vec<(&'static str, String)>;
 
-    /// The buffers that can be asked for.
+    /// The buffers that can be asked for, in the order of the technique's stages: of two that differ from what they should
+    /// be, the first is nearer to the cause.
     fn buffer_names(&self) -> &'static [&'static str];
 }
 

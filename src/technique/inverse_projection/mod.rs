@@ -101,6 +101,6 @@ impl Prepared for Prepare<'_> {
     }
 
     fn buffer_names(&self) -> &'static [&'static str] {
-        &["depth", "triangle", "plan", "color", "class", "quad", "edges"]
+        &["depth", "triangle", "plan", "quad", "class", "edges", "color"]
     }
 }

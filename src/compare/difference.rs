@@ -1,0 +1,133 @@
+//! The distance of each value from its interval.
+
+use super::expected::{Expected, Mismatch};
+use super::image::Image;
+
+/// How far each value of a picture lies outside its expected interval.
+///
+/// # Guarantees
+/// Every distance is a number, 0 inside the interval and never negative; it may be infinite.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Difference(Image);
+
+impl Difference {
+    /// The distances of a picture. A colour without alpha has the alpha 1.
+    ///
+    /// # Errors
+    /// The reason why there are none.
+    pub fn of(expected: &Expected, actual: &Image) -> Result<Self, Mismatch> {
+        if let Some(mismatch) = Mismatch::between(expected, actual) {
+            return Err(mismatch);
+        }
+        let (lo, hi) = (expected.lo(), expected.hi());
+        let mut image = if actual.channels() >= lo.channels() { actual.clone() } else { lo.clone() };
+        let channels = image.channels();
+        for (index, distance) in image.values_mut().iter_mut().enumerate() {
+            let (pixel, channel) = (index / channels, index % channels);
+            let at = |image: &Image| image.at(pixel, channel);
+            *distance = outside(at(lo), at(hi), at(actual));
+        }
+        Ok(Self(image))
+    }
+
+    /// The distances as a picture.
+    pub fn distances(&self) -> &Image {
+        &self.0
+    }
+
+    /// The largest distance of each pixel's channels.
+    pub(super) fn of_pixels(&self) -> impl Iterator<Item = f64> {
+        let largest = |channels: &[f64]| channels.iter().copied().fold(0.0, crate::math::max);
+        self.0.values().chunks_exact(self.0.channels()).map(largest)
+    }
+}
+
+/// The distance of `v` from the interval. Comparing first keeps infinities that are expected at the distance 0.
+fn outside(lo: f64, hi: f64, v: f64) -> f64 {
+    if v < lo {
+        lo - v
+    } else if v > hi {
+        v - hi
+    } else {
+        0.0
+    }
+}
+
+/// Whether a distance is over a tolerance, and not by the rounding alone of the values that it is the difference of: one
+/// step of 8 bits is not over 1/255. Over the tolerance 0 is whatever is not 0.
+pub(super) fn is_over(distance: f64, tolerance: f64) -> bool {
+    // Values up to 1 and their difference are each rounded by at most 2^-53.
+    const ROUNDING: f64 = 1.0 / (1_u64 << 50) as f64;
+    distance > if tolerance > 0.0 { tolerance + ROUNDING } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compare::{Place, Side};
+
+    fn row(values: &[f64]) -> Image {
+        Image::new(values.len(), 1, 1, values.to_vec()).unwrap()
+    }
+
+    fn distances(lo: &[f64], hi: &[f64], actual: &[f64]) -> Vec<f64> {
+        let expected = Expected::between(row(lo), row(hi)).unwrap();
+        Difference::of(&expected, &row(actual)).unwrap().distances().values().to_vec()
+    }
+
+    #[test]
+    fn a_value_is_as_far_as_it_lies_outside_its_interval() {
+        let (lo, hi) = ([0.25, 0.25, 0.25, 0.25, 0.5], [0.5, 0.5, 0.5, 0.5, 0.5]);
+        assert_eq!(distances(&lo, &hi, &[0.0, 0.25, 0.375, 1.0, 0.5]), [0.25, 0.0, 0.0, 0.5, 0.0]);
+    }
+
+    #[test]
+    fn an_infinity_that_is_expected_is_no_distance_and_one_that_is_not_is_infinite() {
+        const INF: f64 = f64::INFINITY;
+        let found = distances(&[INF, -INF, INF, 1.0], &[INF, INF, INF, 1.0], &[INF, INF, 3.0, INF]);
+        assert_eq!(found, [0.0, 0.0, INF, INF]);
+    }
+
+    #[test]
+    fn a_colour_without_alpha_is_opaque_on_either_side() {
+        let rgb = || Image::new(1, 1, 3, vec![0.0, 0.5, 1.0]).unwrap();
+        let rgba = |alpha| Image::new(1, 1, 4, vec![0.0, 0.5, 1.0, alpha]).unwrap();
+        let of = |e: Image, a: Image| Difference::of(&Expected::exactly(e), &a).unwrap();
+        assert_eq!(of(rgb(), rgba(1.0)).distances().values(), [0.0; 4]);
+        assert_eq!(of(rgb(), rgba(0.25)).distances().values(), [0.0, 0.0, 0.0, 0.75]);
+        assert_eq!(of(rgba(0.25), rgb()).distances().values(), [0.0, 0.0, 0.0, 0.75]);
+    }
+
+    #[test]
+    fn what_cannot_be_measured_is_named() {
+        let of = |e: &Image, a: &Image| Difference::of(&Expected::exactly(e.clone()), a).unwrap_err();
+        let (two, three) = (row(&[0.0, 0.0]), row(&[0.0, 0.0, 0.0]));
+        assert_eq!(of(&two, &three), Mismatch::Size { expected: (2, 1), actual: (3, 1) });
+        let pair = Image::new(1, 1, 2, vec![0.0; 2]).unwrap();
+        assert_eq!(of(&row(&[0.0]), &pair), Mismatch::Channels { expected: 1, actual: 2 });
+        let wrong = row(&[0.0, f64::NAN]);
+        let place = Place { x: 1, y: 0, channel: 0 };
+        assert_eq!(of(&two, &wrong), Mismatch::NotANumber { side: Side::Actual, place });
+        assert_eq!(of(&wrong, &two), Mismatch::NotANumber { side: Side::Expected, place });
+        assert_eq!(of(&wrong, &wrong), Mismatch::NotANumber { side: Side::Expected, place });
+    }
+
+    #[test]
+    fn intervals_that_are_upside_down_or_of_two_sizes_are_refused() {
+        let error = Expected::between(row(&[0.0, 0.5]), row(&[0.0, 0.25])).unwrap_err();
+        assert!(error.what().contains("pixel 1,0, channel 0 is upside down: 0.5 to 0.25"), "{error}");
+        assert!(Expected::between(row(&[0.0]), row(&[0.0, 0.25])).is_err());
+    }
+
+    #[test]
+    fn one_step_of_a_code_is_not_over_one_step_and_two_are() {
+        for codes in [255_u32, 65535] {
+            let value = |code: u32| f64::from(code) / f64::from(codes);
+            for code in 2..=codes {
+                assert!(!is_over(value(code) - value(code - 1), value(1)), "{code} of {codes}");
+                assert!(is_over(value(code) - value(code - 2), value(1)), "{code} of {codes}");
+            }
+        }
+        assert!(is_over(5e-324, 0.0) && !is_over(0.0, 0.0));
+    }
+}

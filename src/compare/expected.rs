@@ -1,0 +1,142 @@
+//! What is expected of a picture, and what cannot be measured against it.
+
+use super::image::{Image, Place};
+use crate::error::{Error, Result};
+use std::fmt;
+
+/// What is expected: an interval for each value of a picture. One picture is the interval of no width.
+///
+/// # Guarantees
+/// Both ends are of one size, and no lower end lies above its upper end.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Expected {
+    lo: Image,
+    /// `None`: the same as `lo`.
+    hi: Option<Image>,
+}
+
+impl Expected {
+    /// This picture and no other.
+    pub fn exactly(image: Image) -> Self {
+        Self { lo: image, hi: None }
+    }
+
+    /// Every picture between these two, ends included.
+    ///
+    /// # Errors
+    /// When they differ in size, or a lower end lies above its upper end.
+    pub fn between(lo: Image, hi: Image) -> Result<Self> {
+        if shape(&lo) != shape(&hi) {
+            return Err(Error::new("the two ends of the expected intervals differ in size or channels"));
+        }
+        if let Some(index) = (0..lo.values().len()).find(|i| lo.values()[*i] > hi.values()[*i]) {
+            let Place { x, y, channel } = lo.place(index);
+            return Err(Error::new(format!(
+                "the expected interval of pixel {x},{y}, channel {channel} is upside down: {} to {}",
+                lo.values()[index],
+                hi.values()[index]
+            )));
+        }
+        Ok(Self { lo, hi: Some(hi) })
+    }
+
+    /// The lower ends.
+    pub fn lo(&self) -> &Image {
+        &self.lo
+    }
+
+    /// The upper ends.
+    pub fn hi(&self) -> &Image {
+        self.hi.as_ref().unwrap_or(&self.lo)
+    }
+}
+
+/// Width, height and channels.
+fn shape(image: &Image) -> [usize; 3] {
+    [image.width(), image.height(), image.channels()]
+}
+
+/// One of the two sides of a comparison.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    /// What is expected.
+    Expected,
+    /// What is judged.
+    Actual,
+}
+
+/// Why two pictures have no distance: each is a failure of its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Mismatch {
+    /// They differ in size: columns and rows of both.
+    Size {
+        /// What is expected.
+        expected: (usize, usize),
+        /// What is judged.
+        actual: (usize, usize),
+    },
+    /// They differ in the number of channels, and not by an alpha.
+    Channels {
+        /// What is expected.
+        expected: usize,
+        /// What is judged.
+        actual: usize,
+    },
+    /// A value is not a number.
+    NotANumber {
+        /// Whose.
+        side: Side,
+        /// The first such value.
+        place: Place,
+    },
+}
+
+impl Mismatch {
+    /// Its name in reports.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Size { .. } => "another-size",
+            Self::Channels { .. } => "other-channels",
+            Self::NotANumber { .. } => "not-a-number",
+        }
+    }
+
+    /// What there is between the two, if anything.
+    pub(super) fn between(expected: &Expected, actual: &Image) -> Option<Self> {
+        let size = |image: &Image| (image.width(), image.height());
+        if size(&expected.lo) != size(actual) {
+            return Some(Self::Size { expected: size(&expected.lo), actual: size(actual) });
+        }
+        let channels = (expected.lo.channels(), actual.channels());
+        if channels.0 != channels.1 && ![(3, 4), (4, 3)].contains(&channels) {
+            return Some(Self::Channels { expected: channels.0, actual: channels.1 });
+        }
+        let wrong = [(Side::Expected, &expected.lo), (Side::Expected, expected.hi()), (Side::Actual, actual)];
+        let found =
+            |(side, image): (Side, &Image)| Some(Self::NotANumber { side, place: image.first_nan()? });
+        wrong.into_iter().find_map(found)
+    }
+}
+
+impl fmt::Display for Mismatch {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Size { expected, actual } => write!(
+                f,
+                "another size: {} x {} pixels are expected, the picture has {} x {}",
+                expected.0, expected.1, actual.0, actual.1
+            ),
+            Self::Channels { expected, actual } => {
+                write!(f, "other channels: {expected} a pixel are expected, the picture has {actual}")
+            }
+            Self::NotANumber { side, place: Place { x, y, channel } } => {
+                let whose = match side {
+                    Side::Expected => "the expected picture",
+                    Side::Actual => "the picture",
+                };
+                write!(f, "not a number: {whose} has a NaN at pixel {x},{y}, channel {channel}")
+            }
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! Pictures as numbers.
+
+use crate::buffer::{Buffer, Plane, Values};
+use crate::error::{Error, Result};
+
+/// A picture of any number of channels, its values in units of 1: code values of 8 bits are 255ths, of 16 bits 65535ths.
+///
+/// # Guarantees
+/// There is at least one pixel and one channel, and the values fill it. They may be infinite, or not a number.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Image {
+    width: usize,
+    height: usize,
+    channels: usize,
+    values: Vec<f64>,
+}
+
+/// A value's place in a picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+pub struct Place {
+    /// The pixel's column, from 0.
+    pub x: usize,
+    /// The pixel's row, from 0 at the top.
+    pub y: usize,
+    /// The channel, from 0.
+    pub channel: usize,
+}
+
+impl Image {
+    /// A picture of these values: rows from the top, then columns, then channels.
+    ///
+    /// # Errors
+    /// When there is no pixel or no channel, or the values do not fill it.
+    pub fn new(width: usize, height: usize, channels: usize, values: Vec<f64>) -> Result<Self> {
+        let wanted = width.checked_mul(height).and_then(|pixels| pixels.checked_mul(channels));
+        if wanted == Some(0) {
+            return Err(Error::new("there is nothing to compare: the picture has no pixel or no channel"));
+        }
+        if wanted != Some(values.len()) {
+            return Err(Error::new(format!(
+                "a picture of {width} x {height} pixels of {channels} channels cannot have {} values",
+                values.len()
+            )));
+        }
+        Ok(Self { width, height, channels, values })
+    }
+
+    /// A picture of 8-bit code values.
+    ///
+    /// # Errors
+    /// When it has no pixel.
+    pub fn from_rgba8(picture: &Buffer<[u8; 4]>) -> Result<Self> {
+        let codes = picture.values().as_flattened();
+        let values = codes.iter().map(|code| f64::from(*code) / 255.0).collect();
+        Self::new(picture.width(), picture.height(), 4, values)
+    }
+
+    /// A buffer's numbers as they are.
+    ///
+    /// # Errors
+    /// When it has no pixel, or its values do not fill it.
+    pub fn from_plane(plane: &Plane) -> Result<Self> {
+        let values = match &plane.values {
+            Values::F64(values) => values.clone(),
+            Values::F32(values) => values.iter().map(|v| f64::from(*v)).collect(),
+            Values::U32(values) => values.iter().map(|v| f64::from(*v)).collect(),
+            Values::U16(values) => values.iter().map(|v| f64::from(*v)).collect(),
+            Values::U8(values) => values.iter().map(|v| f64::from(*v)).collect(),
+        };
+        Self::new(plane.width, plane.height, plane.components, values)
+    }
+
+    /// Pixels a row.
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Rows.
+    pub fn height(&self) -> usize {
+        self.height
+    }
+
+    /// Values a pixel.
+    pub fn channels(&self) -> usize {
+        self.channels
+    }
+
+    /// All values: rows from the top, then columns, then channels.
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    pub(super) fn values_mut(&mut self) -> &mut [f64] {
+        &mut self.values
+    }
+
+    /// Where the value of this index is.
+    pub(super) fn place(&self, index: usize) -> Place {
+        let pixel = index / self.channels;
+        Place { x: pixel % self.width, y: pixel / self.width, channel: index % self.channels }
+    }
+
+    /// The place of the first value that is not a number.
+    pub(super) fn first_nan(&self) -> Option<Place> {
+        self.values.iter().position(|v| v.is_nan()).map(|index| self.place(index))
+    }
+
+    /// The value of each pixel's channel; a channel 3 that a colour does not have is its alpha, 1.
+    pub(super) fn at(&self, pixel: usize, channel: usize) -> f64 {
+        if channel < self.channels { self.values[pixel * self.channels + channel] } else { 1.0 }
+    }
+}

@@ -1,0 +1,185 @@
+//! The numbers of a comparison.
+
+use super::difference::{Difference, is_over};
+use super::image::Place;
+use crate::math;
+
+/// The side of the window in which failing pixels are counted.
+pub const WINDOW: usize = 16;
+
+/// One step of an 8-bit code.
+const ONE_CODE_VALUE: f64 = 1.0 / 255.0;
+
+/// How far a picture is from what is expected. Distances are in units of 1; values are those of all channels, alpha too.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Metrics {
+    /// The largest distance.
+    pub max: f64,
+    /// The first value that has it, where it is not 0.
+    pub worst: Option<Place>,
+    /// The mean over all values.
+    pub mean: f64,
+    /// The root of the mean square over all values.
+    pub rmse: f64,
+    /// What 99 of 100 values do not exceed.
+    pub p99: f64,
+    /// The largest distance of each channel.
+    pub channel_max: Vec<f64>,
+    /// The share (0..=1) of pixels with a value off by more than 1/255.
+    pub over_one_code_value: f64,
+    /// The number of pixels with a value over the tolerance.
+    pub failing: usize,
+    /// Where most of them are.
+    pub densest: Option<Window>,
+}
+
+/// A window of [`WINDOW`] x [`WINDOW`] pixels, or of the whole picture's width or height where that is less.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+pub struct Window {
+    /// Its first column.
+    pub x: usize,
+    /// Its first row.
+    pub y: usize,
+    /// Columns.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    /// The failing pixels in it.
+    pub failing: usize,
+}
+
+impl Difference {
+    /// The numbers of the comparison. A pixel fails when one of its values is over the tolerance.
+    pub fn metrics(&self, tolerance: f64) -> Metrics {
+        let distances = self.distances();
+        let values = distances.values();
+        let channel_max = channel_max(values, distances.channels());
+        let max = channel_max.iter().copied().fold(0.0, math::max);
+        let worst = values.iter().position(|d| *d == max).map(|index| distances.place(index));
+        let n = values.len() as f64;
+        let pixels = distances.width() * distances.height();
+        let over_one = self.of_pixels().filter(|d| is_over(*d, ONE_CODE_VALUE)).count();
+        let failing: Vec<bool> = self.of_pixels().map(|d| is_over(d, tolerance)).collect();
+        Metrics {
+            max,
+            worst: worst.filter(|_| max > 0.0),
+            mean: values.iter().sum::<f64>() / n,
+            rmse: (values.iter().map(|d| d * d).sum::<f64>() / n).sqrt(),
+            p99: p99(values),
+            channel_max,
+            over_one_code_value: over_one as f64 / pixels as f64,
+            failing: failing.iter().filter(|f| **f).count(),
+            densest: densest(&failing, distances.width(), distances.height()),
+        }
+    }
+}
+
+fn channel_max(values: &[f64], channels: usize) -> Vec<f64> {
+    let mut most = vec![0.0; channels];
+    for pixel in values.chunks_exact(channels) {
+        most.iter_mut().zip(pixel).for_each(|(most, d)| *most = math::max(*most, *d));
+    }
+    most
+}
+
+/// The smallest value that at least 99 of 100 values do not exceed.
+fn p99(values: &[f64]) -> f64 {
+    let rank = (values.len() * 99).div_ceil(100);
+    let mut values = values.to_vec();
+    *values.select_nth_unstable_by(rank - 1, f64::total_cmp).1
+}
+
+/// The window with most failing pixels, the uppermost and then leftmost of several.
+fn densest(failing: &[bool], width: usize, height: usize) -> Option<Window> {
+    let (columns, rows) = (WINDOW.min(width), WINDOW.min(height));
+    // Failing pixels of each column in the window's rows: a row enters below, another leaves above.
+    let mut in_column = vec![0; width];
+    let mut best: Option<Window> = None;
+    for bottom in 0..height {
+        for (x, count) in in_column.iter_mut().enumerate() {
+            *count += usize::from(failing[bottom * width + x]);
+            if bottom >= rows {
+                *count -= usize::from(failing[(bottom - rows) * width + x]);
+            }
+        }
+        let Some(y) = (bottom + 1).checked_sub(rows) else { continue };
+        let mut count: usize = in_column[..columns].iter().sum();
+        for x in 0..=width - columns {
+            if x > 0 {
+                count = count + in_column[x + columns - 1] - in_column[x - 1];
+            }
+            if count > best.map_or(0, |best| best.failing) {
+                best = Some(Window { x, y, width: columns, height: rows, failing: count });
+            }
+        }
+    }
+    best
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compare::{Expected, Image};
+
+    /// The metrics of a picture of these values against black.
+    fn of(width: usize, height: usize, channels: usize, values: Vec<f64>, tolerance: f64) -> Metrics {
+        let black = Image::new(width, height, channels, vec![0.0; values.len()]).unwrap();
+        let actual = Image::new(width, height, channels, values).unwrap();
+        Difference::of(&Expected::exactly(black), &actual).unwrap().metrics(tolerance)
+    }
+
+    #[test]
+    fn an_equal_picture_has_no_distance_and_no_worst_pixel() {
+        let metrics = of(3, 2, 4, vec![0.0; 24], 0.0);
+        assert_eq!((metrics.max, metrics.mean, metrics.rmse, metrics.p99), (0.0, 0.0, 0.0, 0.0));
+        assert_eq!((metrics.worst, metrics.failing, metrics.densest), (None, 0, None));
+    }
+
+    #[test]
+    fn the_worst_value_is_told_with_its_pixel_and_channel() {
+        let mut values = vec![0.0; 2 * 3 * 4];
+        values[(2 * 2 + 1) * 4 + 3] = 0.5;
+        values[4] = 0.25;
+        let metrics = of(2, 3, 4, values, 0.25);
+        assert_eq!(metrics.worst, Some(Place { x: 1, y: 2, channel: 3 }));
+        assert_eq!((metrics.max, metrics.mean), (0.5, 0.75 / 24.0));
+        assert_eq!(metrics.rmse, (0.3125_f64 / 24.0).sqrt());
+        assert_eq!(metrics.channel_max, [0.25, 0.0, 0.0, 0.5]);
+        assert_eq!((metrics.failing, metrics.over_one_code_value), (1, 2.0 / 6.0));
+    }
+
+    #[test]
+    fn the_99th_percentile_is_what_one_value_of_a_hundred_exceeds() {
+        let values = |n: usize| (1..=n).map(|v| v as f64).collect::<Vec<_>>();
+        assert_eq!(p99(&values(100)), 99.0);
+        assert_eq!(p99(&values(1000)), 990.0);
+        assert_eq!(p99(&values(101)), 100.0);
+        assert_eq!(p99(&values(1)), 1.0);
+    }
+
+    #[test]
+    fn the_densest_window_is_that_of_every_place() {
+        let (width, height) = (41, 29);
+        let mut state = 1_u32;
+        let mut failing = vec![false; width * height];
+        for pixel in &mut failing {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            *pixel = state >> 30 == 0;
+        }
+        let mut slow: Option<Window> = None;
+        for (y, x) in (0..=height - WINDOW).flat_map(|y| (0..=width - WINDOW).map(move |x| (y, x))) {
+            let inside = (0..WINDOW * WINDOW).map(|i| (y + i / WINDOW) * width + x + i % WINDOW);
+            let count = inside.filter(|pixel| failing[*pixel]).count();
+            if count > slow.map_or(0, |best| best.failing) {
+                slow = Some(Window { x, y, width: WINDOW, height: WINDOW, failing: count });
+            }
+        }
+        assert_eq!(densest(&failing, width, height), slow);
+    }
+
+    #[test]
+    fn the_window_of_a_small_picture_is_the_picture() {
+        let metrics = of(3, 2, 1, vec![0.0, 0.5, 0.0, 0.0, 0.0, 1.0], 0.0);
+        assert_eq!(metrics.densest, Some(Window { x: 0, y: 0, width: 3, height: 2, failing: 2 }));
+    }
+}

@@ -1,0 +1,131 @@
+//! OpenEXR: one part of flat data, scan lines or tiles, of half, single or 32-bit integer values; RGB, RGBA or a
+//! single channel.
+
+use super::check_size;
+use crate::compare::image::Image;
+use crate::error::{Error, Result};
+use ::exr::image::{AnyChannel, FlatSamples};
+use ::exr::meta::MetaData;
+use ::exr::meta::header::Header;
+use ::exr::prelude::{ReadChannels, ReadLayers};
+use std::io::Cursor;
+
+pub(super) const MAGIC: &[u8] = b"\x76\x2f\x31\x01";
+
+pub(super) fn decode(bytes: &[u8]) -> Result<Image> {
+    let refuse = |error: ::exr::error::Error| Error::new(format!("this EXR file cannot be read: {error}"));
+    let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(refuse)?;
+    let (width, height, names) = check(&meta)?;
+    let read = ::exr::image::read::read().no_deep_data().largest_resolution_level().all_channels();
+    let read = read.first_valid_layer().all_attributes().non_parallel();
+    let picture = read.from_buffered(Cursor::new(bytes)).map_err(refuse)?;
+    let channels = &picture.layer_data.channel_data.list;
+    let find = |name: &&str| channels.iter().find(|channel| channel.name.eq(*name));
+    let channels: Vec<&AnyChannel<FlatSamples>> = names.iter().filter_map(|name| find(&&**name)).collect();
+    let mut values = Vec::with_capacity(width * height * channels.len());
+    for pixel in 0..width * height {
+        for channel in &channels {
+            values.extend(value(&channel.sample_data, pixel));
+        }
+    }
+    Image::new(width, height, channels.len(), values)
+}
+
+/// The size, and the channels in their order; refuses what cannot be compared.
+fn check(meta: &MetaData) -> Result<(usize, usize, Vec<String>)> {
+    let [header] = &meta.headers[..] else {
+        return Err(Error::new(format!("this EXR file has {} parts", meta.headers.len()))
+            .help("one part can be compared: write the picture to a file of its own"));
+    };
+    let (width, height) = (header.layer_size.x(), header.layer_size.y());
+    check_size(width, height, header.channels.list.len())?;
+    let window = header.shared_attributes.display_window;
+    if header.own_attributes.layer_position != window.position || header.layer_size != window.size {
+        return Err(Error::new("this EXR file's data window is not its display window")
+            .help("write the whole picture, so that both are the same"));
+    }
+    Ok((width, height, names(header)?))
+}
+
+/// The channels of a colour in their order, or the only one.
+fn names(header: &Header) -> Result<Vec<String>> {
+    let has: Vec<String> = header.channels.list.iter().map(|channel| channel.name.to_string()).collect();
+    let mut sorted: Vec<&str> = has.iter().map(String::as_str).collect();
+    sorted.sort_unstable();
+    match sorted[..] {
+        ["B", "G", "R"] => Ok(["R", "G", "B"].map(String::from).to_vec()),
+        ["A", "B", "G", "R"] => Ok(["R", "G", "B", "A"].map(String::from).to_vec()),
+        [_] => Ok(has),
+        _ => Err(Error::new(format!("this EXR file has the channels {}", has.join(", ")))
+            .help("R, G, B with or without A can be compared, or a single channel")),
+    }
+}
+
+/// A pixel's value; `None` past the end.
+fn value(samples: &FlatSamples, pixel: usize) -> Option<f64> {
+    match samples {
+        FlatSamples::F16(values) => values.get(pixel).map(|v| v.to_f64()),
+        FlatSamples::F32(values) => values.get(pixel).map(|v| f64::from(*v)),
+        FlatSamples::U32(values) => values.get(pixel).map(|v| f64::from(*v)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ::exr::image::{AnyChannels, Encoding, Image as ExrImage, Layer};
+    use ::exr::prelude::*;
+
+    fn file(channels: Vec<AnyChannel<FlatSamples>>, size: (usize, usize), encoding: Encoding) -> Vec<u8> {
+        let channels = AnyChannels::sort(channels.into_iter().collect());
+        let layer = Layer::new(size, LayerAttributes::default(), encoding, channels);
+        let mut file = Cursor::new(Vec::new());
+        ExrImage::from_layer(layer).write().to_buffered(&mut file).unwrap();
+        file.into_inner()
+    }
+
+    fn channel(name: &str, samples: FlatSamples) -> AnyChannel<FlatSamples> {
+        AnyChannel::new(name, samples)
+    }
+
+    #[test]
+    fn colours_come_in_their_order_from_lines_and_tiles_and_every_kind_of_number() {
+        let half = |v: &[f32]| FlatSamples::F16(v.iter().map(|v| f16::from_f32(*v)).collect());
+        for encoding in [Encoding::UNCOMPRESSED, Encoding::FAST_LOSSLESS, Encoding::SMALL_FAST_LOSSLESS] {
+            let channels = vec![
+                channel("R", FlatSamples::F32(vec![0.1, f32::INFINITY])),
+                channel("G", half(&[0.5, -2.0])),
+                channel("B", FlatSamples::U32(vec![7, u32::MAX])),
+                channel("A", half(&[1.0, 0.25])),
+            ];
+            let image = decode(&file(channels, (2, 1), encoding)).unwrap();
+            assert_eq!((image.width(), image.height(), image.channels()), (2, 1, 4));
+            let wanted = [f64::from(0.1_f32), 0.5, 7.0, 1.0, f64::INFINITY, -2.0, 4_294_967_295.0, 0.25];
+            assert_eq!(image.values(), wanted, "{encoding:?}");
+        }
+    }
+
+    #[test]
+    fn a_nan_is_kept_for_the_comparison_to_find() {
+        let image = decode(&file(
+            vec![channel("Z", FlatSamples::F32(vec![0.0, f32::NAN]))],
+            (1, 2),
+            Encoding::UNCOMPRESSED,
+        ));
+        let place = image.unwrap().first_nan().unwrap();
+        assert_eq!((place.x, place.y, place.channel), (0, 1, 0));
+    }
+
+    #[test]
+    fn other_channels_and_damaged_files_are_refused() {
+        let one = || FlatSamples::F32(vec![0.0]);
+        let odd = file(vec![channel("R", one()), channel("Z", one())], (1, 1), Encoding::UNCOMPRESSED);
+        let error = decode(&odd).unwrap_err();
+        assert_eq!(error.what(), "this EXR file has the channels R, Z");
+        let whole = file(vec![channel("Y", one())], (1, 1), Encoding::UNCOMPRESSED);
+        for length in [4, 40, whole.len() - 2] {
+            let error = decode(&whole[..length]).unwrap_err();
+            assert!(error.what().starts_with("this EXR file cannot be read"), "{error}");
+        }
+    }
+}

@@ -1,0 +1,129 @@
+//! Picture files -> values in units of 1. What a file is shows in its first bytes, whatever its name.
+//!
+//! Values are compared as they are stored: no colour management, and no division by alpha where a format asks for
+//! colours multiplied by it (EXR).
+
+mod exr;
+mod npy;
+mod png;
+
+use super::image::Image;
+use crate::error::{Error, Result};
+use std::io;
+use std::path::Path;
+
+/// The largest picture that is read, in pixels.
+const MOST_PIXELS: usize = 1 << 26;
+/// The most values a pixel may have.
+const MOST_CHANNELS: usize = 64;
+
+impl Image {
+    /// Reads a PNG, EXR or .npy file.
+    ///
+    /// # Errors
+    /// When it is missing or cannot be read, or is none of these.
+    pub fn read(path: &Path) -> Result<Self> {
+        let bytes = std::fs::read(path).map_err(|error| {
+            let what = match error.kind() {
+                io::ErrorKind::NotFound => "this picture is missing".into(),
+                _ => format!("this picture cannot be read: {error}"),
+            };
+            Error::new(what).in_file(path)
+        })?;
+        Self::decode(&bytes).map_err(|error| error.in_file(path))
+    }
+
+    /// The picture in a PNG, EXR or .npy file's bytes.
+    ///
+    /// # Errors
+    /// When they are none of these.
+    pub fn decode(bytes: &[u8]) -> Result<Self> {
+        if bytes.starts_with(png::MAGIC) {
+            png::decode(bytes)
+        } else if bytes.starts_with(exr::MAGIC) {
+            exr::decode(bytes)
+        } else if bytes.starts_with(npy::MAGIC) {
+            npy::decode(bytes)
+        } else {
+            Err(Error::new("this is no picture that can be compared").help("PNG, EXR and .npy files can be"))
+        }
+    }
+}
+
+/// Refuses a picture that is too large to compare, before memory is taken for it.
+fn check_size(width: usize, height: usize, channels: usize) -> Result<()> {
+    let pixels = width.checked_mul(height);
+    if channels > MOST_CHANNELS || pixels.is_none_or(|pixels| pixels > MOST_PIXELS) {
+        return Err(Error::new(format!(
+            "a picture of {width} x {height} pixels of {channels} channels is too large to compare"
+        ))
+        .help(format!("at most {MOST_PIXELS} pixels of {MOST_CHANNELS} channels can be")));
+    }
+    Ok(())
+}
+
+/// Whether two paths lead to one file: by whatever names and links, not by equal bytes.
+///
+/// # Errors
+/// When one of them is missing or cannot be looked at.
+pub fn same_file(a: &Path, b: &Path) -> Result<bool> {
+    let identity = |path: &Path| {
+        identity(path).map_err(|error| {
+            let what = match error.kind() {
+                io::ErrorKind::NotFound => "this picture is missing".into(),
+                _ => format!("this picture cannot be read: {error}"),
+            };
+            Error::new(what).in_file(path)
+        })
+    };
+    Ok(identity(a)? == identity(b)?)
+}
+
+/// What no other file has: its device and its number there.
+#[cfg(unix)]
+fn identity(path: &Path) -> io::Result<impl PartialEq + use<>> {
+    use std::os::unix::fs::MetadataExt;
+    let found = std::fs::metadata(path)?;
+    Ok((found.dev(), found.ino()))
+}
+
+/// The path without links; hard links are not seen through here.
+#[cfg(not(unix))]
+fn identity(path: &Path) -> io::Result<impl PartialEq + use<>> {
+    std::fs::canonicalize(path)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_no_picture_is_refused_and_a_missing_one_is_called_missing() {
+        let error = Image::decode(b"GIF89a").unwrap_err();
+        assert!(error.what().contains("no picture that can be compared"), "{error}");
+        let error = Image::read(Path::new("no/such.png")).unwrap_err();
+        assert_eq!(error.to_string(), "no/such.png: this picture is missing");
+    }
+
+    #[test]
+    fn a_file_is_the_same_by_every_name_and_link_and_not_by_its_bytes() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        std::fs::write(at("a"), "x").unwrap();
+        std::fs::write(at("twin"), "x").unwrap();
+        std::fs::hard_link(at("a"), at("hard")).unwrap();
+        assert!(same_file(&at("a"), &at("./a")).unwrap());
+        assert!(!same_file(&at("a"), &at("twin")).unwrap());
+        #[cfg(unix)]
+        {
+            std::os::unix::fs::symlink(at("a"), at("soft")).unwrap();
+            assert!(same_file(&at("hard"), &at("soft")).unwrap());
+        }
+        assert!(
+            same_file(&at("a"), &at("none"))
+                .unwrap_err()
+                .to_string()
+                .contains("none: this picture is missing")
+        );
+    }
+}

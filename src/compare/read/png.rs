@@ -1,0 +1,76 @@
+//! PNG of 8 or 16 bits (fewer bits, palettes and grey become colours).
+
+use super::{MOST_PIXELS, check_size};
+use crate::compare::image::Image;
+use crate::error::{Error, Result};
+use image::{ImageDecoder, ImageFormat, ImageReader, Limits};
+use std::io::Cursor;
+
+pub(super) const MAGIC: &[u8] = b"\x89PNG\r\n\x1a\n";
+
+/// Room for the largest picture: four 16-bit values a pixel.
+const MOST_BYTES: u64 = 8 * MOST_PIXELS as u64;
+
+pub(super) fn decode(bytes: &[u8]) -> Result<Image> {
+    let refuse = |error: image::ImageError| Error::new(format!("this PNG cannot be read: {error}"));
+    let mut reader = ImageReader::with_format(Cursor::new(bytes), ImageFormat::Png);
+    let mut limits = Limits::default();
+    limits.max_alloc = Some(MOST_BYTES);
+    reader.limits(limits);
+    let decoder = reader.into_decoder().map_err(refuse)?;
+    let (width, height) = decoder.dimensions();
+    let (width, height) = (width as usize, height as usize);
+    check_size(width, height, 4)?;
+    let picture = image::DynamicImage::from_decoder(decoder).map_err(refuse)?;
+    // v * 257 / 65535 is v / 255, in doubles too: both are the nearest to the same quotient.
+    let (channels, codes) = if picture.color().has_alpha() {
+        (4, picture.into_rgba16().into_raw())
+    } else {
+        (3, picture.into_rgb16().into_raw())
+    };
+    let values = codes.into_iter().map(|code| f64::from(code) / 65535.0).collect();
+    Image::new(width, height, channels, values)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use image::{ExtendedColorType, ImageEncoder, codecs::png::PngEncoder};
+
+    fn decoded(codes: &[u8], width: u32, color: ExtendedColorType) -> Image {
+        let mut file = Vec::new();
+        PngEncoder::new(&mut file).write_image(codes, width, 1, color).unwrap();
+        decode(&file).unwrap()
+    }
+
+    #[test]
+    fn codes_of_8_bits_are_255ths_exactly() {
+        let codes: Vec<u8> = (0..=255).flat_map(|v| [v, 255 - v, v, 255]).collect();
+        let image = decoded(&codes, 256, ExtendedColorType::Rgba8);
+        let wanted: Vec<f64> = codes.iter().map(|v| f64::from(*v) / 255.0).collect();
+        assert_eq!((image.width(), image.channels(), image.values()), (256, 4, &wanted[..]));
+    }
+
+    #[test]
+    fn codes_of_16_bits_are_65535ths() {
+        let codes: Vec<u8> = [1_u16, 258, 65535].iter().flat_map(|v| v.to_ne_bytes()).collect();
+        let image = decoded(&codes, 1, ExtendedColorType::Rgb16);
+        assert_eq!((image.channels(), image.values()), (3, &[1.0 / 65535.0, 258.0 / 65535.0, 1.0][..]));
+    }
+
+    #[test]
+    fn grey_is_a_colour() {
+        assert_eq!(decoded(&[51], 1, ExtendedColorType::L8).values(), [0.2, 0.2, 0.2]);
+        assert_eq!(decoded(&[51, 102], 1, ExtendedColorType::La8).values(), [0.2, 0.2, 0.2, 0.4]);
+    }
+
+    #[test]
+    fn a_damaged_file_is_refused() {
+        let mut file = Vec::new();
+        PngEncoder::new(&mut file).write_image(&[0; 400], 10, 10, ExtendedColorType::Rgba8).unwrap();
+        for length in [8, 20, file.len() / 2] {
+            let error = decode(&file[..length]).unwrap_err();
+            assert!(error.what().starts_with("this PNG cannot be read"), "{error}");
+        }
+    }
+}
