@@ -43,6 +43,7 @@ pub mod output;
 pub mod parallel;
 pub mod predicate;
 pub mod raster;
+pub mod report;
 pub mod resolve;
 pub mod scene;
 pub mod source;

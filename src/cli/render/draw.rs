@@ -2,19 +2,24 @@
 
 use super::techniques::Buffers;
 use crate::cli::bar::Bar;
-use drapery::buffer::Plane;
+use drapery::buffer::{Buffer, Plane};
+use drapery::compare::{Difference, Expected, Image};
 use drapery::output::{Batch, BufferResult, ByName, ErrorResult, ImageResult, Npy, RunResult};
 use drapery::output::{absolute, look, write_png};
 use drapery::scene::Device;
 use drapery::scene::file::Named;
 use drapery::technique::{self, Frame, FrameOptions, Kind, Prepared, Stage};
+use drapery::truth::{self, Budget, Truth};
 use drapery::visibility::TILE;
-use drapery::{Error, Result};
+use drapery::{Error, Result, report};
 use serde_json::Value;
 use std::time::Instant;
 
 /// The buffers that hold plan coordinates: scene-local in memory, absolute in files.
 const IN_PLAN: [&str; 2] = ["plan", "quad"];
+
+/// The truth's name among the techniques'.
+const TRUTH: &str = "truth";
 
 /// What is wanted of each technique.
 pub(super) struct Wish {
@@ -26,11 +31,86 @@ pub(super) struct Wish {
 /// Draws a stage into a batch of files.
 pub(super) struct Drawing<'a> {
     pub(super) stage: &'a Stage,
+    pub(super) certified: &'a Certified,
     pub(super) batch: &'a mut Batch,
     pub(super) bar: &'a Bar,
 }
 
+/// The truth of a stage, and what it took.
+pub(super) struct Certified {
+    truth: Truth,
+    expected: Expected,
+    budget: Budget,
+    frame_ms: f64,
+}
+
+impl Certified {
+    /// Computes the truth so many times.
+    pub(super) fn of(stage: &Stage, budget: &Budget, repeat: u32, bar: &Bar) -> Result<Self> {
+        bar.start(TRUTH);
+        let once = || truth::certify(&stage.scene, &stage.mesh, &stage.view, budget, &|share| bar.done(share));
+        let (mut truth, first) = timed(|| Ok(once()))?;
+        let mut times = vec![first];
+        for _ in 1..repeat {
+            let (again, ms) = timed(|| Ok(once()))?;
+            if again.low != truth.low || again.high != truth.high {
+                return Err(Error::internal("two truths of the same scene differ"));
+            }
+            (truth, _) = (again, times.push(ms));
+        }
+        let expected = report::expected(&truth)?;
+        Ok(Self { truth, expected, budget: *budget, frame_ms: median(times) })
+    }
+
+    /// How far a picture is from the truth.
+    fn error(&self, image: &Buffer<[u8; 4]>) -> Result<ErrorResult> {
+        let difference = Difference::of(&self.expected, &Image::from_rgba8(image)?);
+        let difference = difference.map_err(|what| Error::internal(format!("against the truth: {what}")))?;
+        let metrics = difference.metrics(0.0);
+        Ok(ErrorResult {
+            max: Some(metrics.max),
+            mean: Some(metrics.mean),
+            rmse: Some(metrics.rmse),
+            p99: Some(metrics.p99),
+            over_one_code_value: Some(metrics.over_one_code_value),
+            reference_width_max: Some(self.truth.widest()),
+        })
+    }
+}
+
 impl Drawing<'_> {
+    /// Stages the truth's files.
+    pub(super) fn truth(&mut self, wish: &Wish) -> Result<RunResult> {
+        let Certified { truth, budget, frame_ms, .. } = self.certified;
+        let image = truth.image();
+        let path = format!("{TRUTH}.png");
+        self.batch.stage(&path, |to| write_png(&image, to))?;
+        let names = Truth::BUFFERS.iter().filter(|name| wish.buffers.wants(name));
+        let planes: Vec<Plane> = names.filter_map(|name| truth.plane(name)).collect();
+        let buffers: Result<_> = planes.iter().map(|plane| self.stage_plane(TRUTH, plane)).collect();
+        let counts = [
+            ("triangles", truth.tally.triangles),
+            ("fragments", truth.tally.fragments),
+            ("pieces", truth.tally.pieces),
+            ("wide_pixels", truth.tally.wide_pixels),
+        ];
+        Ok(RunResult {
+            technique: TRUTH.into(),
+            parameters: ByName::from_pairs([
+                ("width", Value::from(budget.width)),
+                ("depth", Value::from(budget.depth)),
+            ]),
+            device: device_words(&Device::default()),
+            image: ImageResult { path, width: image.width(), height: image.height(), hash: image.hash() },
+            prepare_ms: 0.0,
+            frame_ms: *frame_ms,
+            structure_bytes: truth.structure_bytes,
+            counts: ByName::from_pairs(counts),
+            error: self.certified.error(&image)?,
+            buffers: buffers?,
+        })
+    }
+
     /// Runs a technique and stages its files.
     pub(super) fn run(&mut self, kind: Kind, wish: &Wish) -> Result<RunResult> {
         let drawn = self.draw(kind, wish)?;
@@ -49,7 +129,7 @@ impl Drawing<'_> {
             frame_ms: drawn.frame_ms,
             structure_bytes: drawn.structure_bytes,
             counts: ByName::from_pairs(drawn.frame.counts.iter().copied()),
-            error: ErrorResult::default(),
+            error: self.certified.error(image)?,
             buffers: buffers?,
         })
     }
@@ -121,11 +201,7 @@ struct Drawn {
 
 /// The names to ask a technique for.
 fn buffers_of(prepared: &dyn Prepared, wanted: &Buffers) -> Vec<String> {
-    let is_wanted = |name: &&&str| match wanted {
-        Buffers::All => true,
-        Buffers::Named(names) => names.iter().any(|wanted| wanted == **name),
-    };
-    let names = prepared.buffer_names().iter().filter(is_wanted);
+    let names = prepared.buffer_names().iter().filter(|name| wanted.wants(name));
     names.map(|name| (*name).to_owned()).collect()
 }
 

@@ -9,10 +9,12 @@ use super::scene_input::SceneInput;
 use super::stop::{Outcome, Status};
 use drapery::output::{Batch, RESULT_SCHEMA, RenderResult, RunResult, SceneResult};
 use drapery::scene::file::{SceneFile, TerrainSource};
-use drapery::technique::{Kind, Stage};
+use drapery::technique::Stage;
+use drapery::truth::Budget;
 use drapery::{Error, Result, parallel, source};
-use draw::{Drawing, Wish};
+use draw::{Certified, Drawing, Wish};
 use std::path::PathBuf;
+use techniques::Asked;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -49,15 +51,31 @@ pub(super) struct Arguments {
     /// Time so many runs and tell the median.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
     repeat: u32,
+    #[command(flatten)]
+    truth: TruthArguments,
+}
+
+/// How exact the truth is; every run's error is its distance from it.
+#[derive(Debug, Clone, Copy, clap::Args)]
+pub(super) struct TruthArguments {
+    /// Refine each pixel of the truth until no channel's interval is wider than this (units of 1, not of 255).
+    #[arg(long = "truth-width", value_name = "W", default_value_t = Budget::default().width)]
+    width: f64,
+    /// Cut a pixel of the truth into at most 2^D pieces; what is open then stays in the interval.
+    #[arg(long = "truth-depth", value_name = "D", default_value_t = Budget::default().depth)]
+    depth: u32,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Outcome {
     let asked = techniques::asked(&arguments.techniques)?;
+    let budget = Budget::new(arguments.truth.width, arguments.truth.depth)?;
     let scene = SceneInput::read(arguments.scene.as_deref(), &arguments.overrides)?;
     let batch = Batch::into(&arguments.output)?;
     let bar = Bar::new();
     let runs =
-        parallel::with_threads(arguments.threads, || render(arguments, &asked, &scene.file, batch, &bar))?;
+        parallel::with_threads(arguments.threads, || {
+            render(arguments, (&asked, &budget), &scene.file, batch, &bar)
+        })?;
     for run in runs.map_err(|error| scene.blame(error))? {
         bar.say(&told(arguments, &run));
     }
@@ -67,7 +85,7 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
 /// Renders a scene; the files are in their places when it returns.
 fn render(
     arguments: &Arguments,
-    asked: &[Kind],
+    (asked, budget): (&Asked, &Budget),
     file: &SceneFile,
     mut batch: Batch,
     bar: &Bar,
@@ -78,11 +96,16 @@ fn render(
     }
     let stage = Stage::new(scene, surface).map_err(|error| of_terrain(error, file))?;
     let kinds = techniques::applying(asked, &stage, bar)?;
-    let wish =
-        Wish { buffers: techniques::buffers(&arguments.buffers, &kinds, &stage)?, repeat: arguments.repeat };
+    let wish = Wish {
+        buffers: techniques::buffers(&arguments.buffers, asked.truth, &kinds, &stage)?,
+        repeat: arguments.repeat,
+    };
+    let certified = Certified::of(&stage, budget, if asked.truth { wish.repeat } else { 1 }, bar)?;
 
-    let mut drawing = Drawing { stage: &stage, batch: &mut batch, bar };
-    let runs: Result<Vec<RunResult>> = kinds.iter().map(|kind| drawing.run(*kind, &wish)).collect();
+    let mut drawing = Drawing { stage: &stage, certified: &certified, batch: &mut batch, bar };
+    let truth = if asked.truth { Some(drawing.truth(&wish)) } else { None };
+    let techniques = kinds.iter().map(|kind| drawing.run(*kind, &wish));
+    let runs: Result<Vec<RunResult>> = truth.into_iter().chain(techniques).collect();
 
     let result = RenderResult {
         schema: RESULT_SCHEMA,
@@ -121,10 +144,12 @@ fn of_terrain(error: Error, scene: &SceneFile) -> Error {
 /// A run in a line, for people.
 fn told(arguments: &Arguments, run: &RunResult) -> String {
     format!(
-        "{}  {}  prepare {:.0} ms  frame {:.0} ms",
+        "{}  {}  prepare {:.0} ms  frame {:.0} ms  error max {:.4} mean {:.6}",
         run.technique,
         arguments.output.join(&run.image.path).display(),
         run.prepare_ms,
         run.frame_ms,
+        run.error.max.unwrap_or_default(),
+        run.error.mean.unwrap_or_default(),
     )
 }

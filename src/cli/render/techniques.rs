@@ -3,6 +3,7 @@
 use crate::cli::bar::Bar;
 use clap::ValueEnum;
 use drapery::technique::{self, Kind, Stage};
+use drapery::truth::Truth;
 use drapery::{Error, Result};
 
 /// Every buffer that a technique has.
@@ -29,19 +30,31 @@ pub(super) enum Name {
     Analytic,
 }
 
-/// The techniques that are asked for by name, each once.
+/// What a call asks for by name.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Asked {
+    /// Whether the truth's own picture is written. (It is computed in any case: errors are distances from it.)
+    pub(super) truth: bool,
+    /// The techniques, each once; `None`: all that apply.
+    pub(super) kinds: Option<Vec<Kind>>,
+}
+
+/// What is asked for by name; without names, the truth and all techniques that apply.
 ///
 /// # Errors
 /// When this version does not have one.
-pub(super) fn asked(names: &[Name]) -> Result<Vec<Kind>> {
+pub(super) fn asked(names: &[Name]) -> Result<Asked> {
+    if names.is_empty() {
+        return Ok(Asked { truth: true, kinds: None });
+    }
     let mut kinds = Vec::new();
-    for name in names {
+    for name in names.iter().filter(|name| **name != Name::Truth) {
         let kind = built(*name)?;
         if !kinds.contains(&kind) {
             kinds.push(kind);
         }
     }
-    Ok(kinds)
+    Ok(Asked { truth: names.contains(&Name::Truth), kinds: Some(kinds) })
 }
 
 fn built(name: Name) -> Result<Kind> {
@@ -50,7 +63,7 @@ fn built(name: Name) -> Result<Kind> {
     let has: Vec<&str> = Kind::ALL.iter().map(|kind| kind.name()).collect();
     let refuse = || {
         Error::new(format!("this version of drapery does not have the technique `{name}` yet"))
-            .help(format!("it has {}", has.join(", ")))
+            .help(format!("it has truth, {}", has.join(", ")))
     };
     Kind::ALL.into_iter().find(|kind| kind.name() == name).ok_or_else(refuse)
 }
@@ -58,11 +71,11 @@ fn built(name: Name) -> Result<Kind> {
 /// The techniques to run: those that are asked for, or all that apply.
 ///
 /// # Errors
-/// When one that is asked for does not apply, or none does.
-pub(super) fn applying(asked: &[Kind], stage: &Stage, bar: &Bar) -> Result<Vec<Kind>> {
-    if !asked.is_empty() {
-        asked.iter().try_for_each(|kind| technique::applies(*kind, stage))?;
-        return Ok(asked.to_vec());
+/// When one that is asked for does not apply.
+pub(super) fn applying(asked: &Asked, stage: &Stage, bar: &Bar) -> Result<Vec<Kind>> {
+    if let Some(kinds) = &asked.kinds {
+        kinds.iter().try_for_each(|kind| technique::applies(*kind, stage))?;
+        return Ok(kinds.clone());
     }
     let mut kinds = Vec::new();
     for kind in Kind::ALL {
@@ -71,9 +84,6 @@ pub(super) fn applying(asked: &[Kind], stage: &Stage, bar: &Bar) -> Result<Vec<K
             Err(error) if error.is_internal() => return Err(error),
             Err(error) => bar.say(&format!("note: {} is left out: {}", kind.name(), error.what())),
         }
-    }
-    if kinds.is_empty() {
-        return Err(Error::new("no technique applies to this scene").help("the notes say why"));
     }
     Ok(kinds)
 }
@@ -87,13 +97,24 @@ pub(super) enum Buffers {
     Named(Vec<String>),
 }
 
+impl Buffers {
+    /// Whether one of this name is asked for.
+    pub(super) fn wants(&self, name: &str) -> bool {
+        match self {
+            Self::All => true,
+            Self::Named(names) => names.iter().any(|wanted| wanted == name),
+        }
+    }
+}
+
 /// The buffers that are asked for.
 ///
 /// # Errors
-/// When none of the techniques has one of them: known before anything is drawn.
-pub(super) fn buffers(asked: &[String], kinds: &[Kind], stage: &Stage) -> Result<Buffers> {
+/// When neither the truth (if its picture is asked for) nor a technique has one of them: known before anything is drawn.
+pub(super) fn buffers(asked: &[String], truth: bool, kinds: &[Kind], stage: &Stage) -> Result<Buffers> {
     let mut unknown: Vec<&str> = asked.iter().map(String::as_str).filter(|name| *name != ALL).collect();
-    let mut offered: Vec<&str> = Vec::new();
+    let mut offered: Vec<&str> = if truth { Truth::BUFFERS.to_vec() } else { Vec::new() };
+    unknown.retain(|name| !offered.contains(name));
     for kind in kinds {
         if unknown.is_empty() {
             break;
