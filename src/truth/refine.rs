@@ -183,6 +183,21 @@ impl Refinery {
         all.joined()
     }
 
+    /// The pieces of the pixel refined last, each with its facet and with what is known of its items (`None`: nothing).
+    #[cfg(test)]
+    pub(super) fn claims(&self) -> Vec<(Polygon, u32, Vec<(u32, Option<bool>)>)> {
+        let told = |state: &State| match state.known() {
+            Known::Open => (state.item, None),
+            known => (state.item, Some(known == Known::In)),
+        };
+        let known = self.closed.iter().chain(&self.heap).filter_map(|piece| {
+            let (first, count) = piece.states?;
+            let states = &self.states[first as usize..(first + count) as usize];
+            Some((piece.shape, piece.facet, states.iter().map(told).collect()))
+        });
+        known.collect()
+    }
+
     fn clear(&mut self, slop: f64) {
         self.shapes.clear();
         self.lists.clear();

@@ -108,20 +108,8 @@ pub(super) fn certify_tile(
     frame: &ViewFrame,
     (corner, size): ([usize; 2], [usize; 2]),
 ) -> TileTruth {
-    let start = corner.map(|v| v as f64);
-    let rays = TileRays::new(frame, start, TILE as f64);
-    let frustum = Frustum::new(frame, start, [start[0] + size[0] as f64, start[1] + size[1] as f64]);
-    let mut facets = Vec::new();
-    gather(mesh, &frustum, &rays, mesh.root(), &mut facets);
-    let count = size[0] * size[1];
-    let out = TileTruth {
-        colors: vec![[[0.0; 4]; 3]; count],
-        coverage: if setting.budget.coverage { vec![PixelCoverage::default(); count] } else { Vec::new() },
-        tally: Tally { triangles: facets.len() as u64, ..Tally::default() },
-    };
-    let all: Vec<u32> = (0..facets.len() as u32).collect();
-    let (pieces, sight, refinery) = (Pieces::default(), Sight::default(), Refinery::default());
-    let mut work = Work { setting, rays, facets, size, pieces, sight, refinery, out };
+    let mut work = Work::new(setting, mesh, frame, (corner, size));
+    let all = work.all();
     work.block([0, 0], TILE, &all);
     work.out.tally.pieces = work.refinery.pieces;
     work.out
@@ -178,7 +166,33 @@ fn narrowed(facets: &[Facet], from: &[u32], corner: [f64; 2], side: f64) -> Vec<
     near
 }
 
-impl Work<'_> {
+impl<'a> Work<'a> {
+    fn new(
+        setting: &'a Setting<'a>,
+        mesh: &Mesh,
+        frame: &ViewFrame,
+        (corner, size): ([usize; 2], [usize; 2]),
+    ) -> Self {
+        let start = corner.map(|v| v as f64);
+        let rays = TileRays::new(frame, start, TILE as f64);
+        let frustum = Frustum::new(frame, start, [start[0] + size[0] as f64, start[1] + size[1] as f64]);
+        let mut facets = Vec::new();
+        gather(mesh, &frustum, &rays, mesh.root(), &mut facets);
+        let count = size[0] * size[1];
+        let kept = if setting.budget.coverage { count } else { 0 };
+        let out = TileTruth {
+            colors: vec![[[0.0; 4]; 3]; count],
+            coverage: vec![PixelCoverage::default(); kept],
+            tally: Tally { triangles: facets.len() as u64, ..Tally::default() },
+        };
+        let (pieces, sight, refinery) = (Pieces::default(), Sight::default(), Refinery::default());
+        Self { setting, rays, facets, size, pieces, sight, refinery, out }
+    }
+
+    fn all(&self) -> Vec<u32> {
+        (0..self.facets.len() as u32).collect()
+    }
+
     /// Does the pixels of a block, which sees some of these facets.
     fn block(&mut self, [x, y]: [usize; 2], side: usize, from: &[u32]) {
         if x >= self.size[0] || y >= self.size[1] {
@@ -222,3 +236,6 @@ impl Work<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;
