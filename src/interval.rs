@@ -177,6 +177,11 @@ impl BallVec {
         Self::exact(a) - Self::exact(b)
     }
 
+    /// The middles.
+    pub fn middle(self) -> DVec3 {
+        DVec3::new(self.x.mid, self.y.mid, self.z.mid)
+    }
+
     /// The dot product.
     #[inline(always)]
     pub fn dot(self, other: Self) -> Ball {

@@ -6,6 +6,7 @@ use crate::interval::{Ball, BallVec};
 use crate::math;
 use crate::predicate;
 use crate::space::{Lens, PlanBox, ViewFrame, World};
+use glam::DVec3;
 
 /// Sides of a facet: three edges, the near and the far plane.
 pub(super) const MOST_BOUNDS: usize = 5;
@@ -26,9 +27,30 @@ pub(super) struct TileRays {
     pub(super) steps: [BallVec; 2],
     /// The tile's side in pixels.
     pub(super) span: f64,
+    plain: PlainRays,
     near: f64,
     far: f64,
     frame: ViewFrame,
+}
+
+/// The same rays in plain doubles.
+#[derive(Debug)]
+struct PlainRays {
+    from: DVec3,
+    along: DVec3,
+    steps: [DVec3; 2],
+    /// The largest coordinate of where rays start.
+    size: f64,
+    /// The longest direction.
+    reach: f64,
+}
+
+impl PlainRays {
+    fn new(from: BallVec, along: BallVec, steps: &[BallVec; 2], span: f64) -> Self {
+        let (from, along, steps) = (from.middle(), along.middle(), steps.map(BallVec::middle));
+        let widest = span * (steps[0].length() + steps[1].length());
+        Self { from, along, steps, size: from.length() + widest, reach: along.length() + widest }
+    }
 }
 
 impl TileRays {
@@ -43,7 +65,9 @@ impl TileRays {
         let is_central = matches!(frame.lens(), Lens::Central { .. });
         let (from, along) = if is_central { (eye, forward + offset) } else { (eye + offset, forward) };
         let steps = [right.times(pixel), up.times(-pixel)];
-        Self { is_central, from, along, steps, span, near: frame.near(), far: frame.far(), frame: *frame }
+        let plain = PlainRays::new(from, along, &steps, span);
+        let (near, far) = (frame.near(), frame.far());
+        Self { is_central, from, along, steps, span, plain, near, far, frame: *frame }
     }
 
     /// A constant vector's product with the rays' directions.
@@ -70,12 +94,13 @@ impl TileRays {
         if (a.x, a.y, a.z) > (b.x, b.y, b.z) {
             return self.edge(b, a).signed(-1.0);
         }
-        let (u, v) = (BallVec::exact(a.to_vec()) - self.from, BallVec::exact(b.to_vec()) - self.from);
-        let normal = u.cross(v);
+        // (a - from) x (b - from), but without the square of the distance in its error.
+        let edge = BallVec::difference(b.to_vec(), a.to_vec());
+        let normal = (BallVec::exact(a.to_vec()) - self.from).cross(edge);
         let mut side = BallForm::constant(normal.dot(self.along));
         let turned = match self.is_central {
             true => normal,
-            false => BallVec::difference(a.to_vec(), b.to_vec()).cross(self.along),
+            false => self.along.cross(edge),
         };
         (side.x, side.y) = (turned.dot(self.steps[0]), turned.dot(self.steps[1]));
         side
@@ -99,6 +124,8 @@ pub(super) struct Facet {
     pub(super) depth: BallForm,
     /// Its denominator.
     pub(super) facing: BallForm,
+    depth_plain: Form,
+    facing_plain: Form,
     /// The sign of the denominator where the triangle is seen.
     sign: f64,
 }
@@ -158,6 +185,8 @@ impl Facet {
             nearest,
             depth,
             facing,
+            depth_plain: depth.plain(rays.span),
+            facing_plain: facing.plain(rays.span),
             sign,
         })
     }
@@ -191,16 +220,24 @@ impl Facet {
         product.signed(self.sign)
     }
 
-    /// Where the ray of a tile's point meets its plane, each coordinate with a bound.
-    pub(super) fn hit(&self, rays: &TileRays, [x, y]: [f64; 2]) -> BallVec {
-        let at = |form: &BallForm| form.c + form.x * x + form.y * y;
-        let parameter = at(&self.depth) * at(&self.facing).recip();
-        let offset = rays.steps[0].times(Ball::exact(x)) + rays.steps[1].times(Ball::exact(y));
+    /// Where the ray of a tile's point meets its plane, and a bound of each coordinate's error, metres.
+    #[inline]
+    pub(super) fn hit(&self, rays: &TileRays, at: [f64; 2]) -> (World, f64) {
+        let (depth, facing) = (self.depth_plain.at(at), self.facing_plain.at(at));
+        let parameter = depth / facing;
+        let sure = facing.abs() - self.facing_plain.error;
+        // Exact: (depth +- e) / (facing +- f).
+        let doubt = (self.depth_plain.error + parameter.abs() * self.facing_plain.error) / sure;
+        let offset = rays.plain.steps[0] * at[0] + rays.plain.steps[1] * at[1];
         let (from, along) = match rays.is_central {
-            true => (rays.from, rays.along + offset),
-            false => (rays.from + offset, rays.along),
+            true => (rays.plain.from, rays.plain.along + offset),
+            false => (rays.plain.from + offset, rays.plain.along),
         };
-        from + along.times(parameter)
+        // A unit direction (or little longer), coordinates of this size, a dozen roundings.
+        let size = rays.plain.size + parameter.abs() * rays.plain.reach;
+        let error = doubt * rays.plain.reach + 32.0 * f64::EPSILON * size;
+        let error = if sure > 0.0 && error.is_finite() { error } else { f64::INFINITY };
+        (World::from(from + along * parameter), error)
     }
 
     /// The box around the triangle.

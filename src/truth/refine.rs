@@ -183,6 +183,15 @@ impl Refinery {
         all.joined()
     }
 
+    #[cfg(test)]
+    pub(super) fn dump(&self, pieces: &Pieces) {
+        println!("slop {} count {} open {}", self.slop, self.count, self.heap.len());
+        for p in self.heap.iter().chain(&self.closed).take(40) {
+            println!("{p:?} {:?}", pieces.of(p.shape));
+            if let Some((f,c)) = p.states { for s in &self.states[f as usize..(f+c) as usize] { println!("    {s:?} {:?}", self.lists[s.first as usize..(s.first+s.count) as usize].iter().map(|k| self.shapes[*k as usize]).collect::<Vec<_>>()); } }
+        }
+    }
+
     /// The pieces of the pixel refined last, each with its facet and with what is known of its items (`None`: nothing).
     #[cfg(test)]
     pub(super) fn claims(&self) -> Vec<(Polygon, u32, Vec<(u32, Option<bool>)>)> {
@@ -211,9 +220,13 @@ impl Refinery {
     fn halve(&mut self, pixel: &Pixel, pieces: &mut Pieces, piece: Piece, mean: &mut Mean) {
         let Some(line) = piece.cut else { return self.closed.push(piece) };
         mean.remove(&piece.paint, piece.area);
-        let halves = pieces.cut(piece.shape, &line, &mut self.slop);
+        let mut halves = pieces.cut(piece.shape, &line, &mut self.slop);
+        if !matches!(halves, Some(Halves { inner: Some(_), outer: Some(_) })) {
+            let line = pixel.ground(piece.facet).halving_line(pieces.of(piece.shape));
+            halves = pieces.cut(piece.shape, &line, &mut self.slop);
+        }
         let Some(Halves { inner: Some(inner), outer: Some(outer) }) = halves else {
-            // The cut missed: nothing more can be learnt of this piece.
+            // No cut helps: nothing more can be learnt of this piece.
             return self.keep(pixel.setting, Piece { cut: None, ..piece }, mean);
         };
         for shape in [inner, outer] {

@@ -3,7 +3,7 @@
 use super::facet::{Facet, TileRays};
 use super::form::{Line, Side};
 use crate::footprint::{HalfPlane, MOST_SIDES, PixelSize, Primitive};
-use crate::interval::{Ball, BallVec};
+use crate::interval::Ball;
 use crate::math;
 use crate::space::{Plan, PlanBox, World};
 use glam::{DVec2, DVec3};
@@ -51,7 +51,7 @@ pub(super) struct Ground<'a> {
     pub(super) size: PixelSize,
 }
 
-/// A plan point with a bound of its error, metres.
+/// A visible point, with a bound of each coordinate's error in metres.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Hit {
     pub(super) plan: Plan,
@@ -67,9 +67,8 @@ impl Ground<'_> {
 
     /// Where a point of the pixel lies in the plan.
     pub(super) fn hit(&self, [x, y]: [f64; 2]) -> Hit {
-        let BallVec { x, y, z } = self.facet.hit(self.rays, [self.pixel[0] + x, self.pixel[1] + y]);
-        let error = (x.radius + y.radius + z.radius) * (1.0 + 1e-15);
-        Hit { plan: Plan::new(x.mid, y.mid), world: World::new(x.mid, y.mid, z.mid), error }
+        let (world, error) = self.facet.hit(self.rays, [self.pixel[0] + x, self.pixel[1] + y]);
+        Hit { plan: world.plan(), world, error }
     }
 
     /// A box of the plan around what a piece sees.
@@ -219,7 +218,7 @@ impl Near {
         if high > 0.0 && low < 0.0 && high > WORTH * band {
             return along(slope, tangent.value);
         }
-        if low < -sagitta && -sagitta - low > WORTH * band {
+        if -sagitta - low > WORTH * band && high > -sagitta {
             return along(slope, tangent.value + sagitta);
         }
         along(slope.perp(), 0.0)
