@@ -17,11 +17,11 @@ Examples:
   drapery golden bless --only device/f32     make what is drawn now the golden
   drapery golden list
 
-A golden is a small scene DIR/TOPIC/CASE.toml with its pictures CASE.TECHNIQUE.png beside it and the hashes of all its
-buffers in DIR/manifest.toml. A check replays it by every technique that applies, twice, with other tiles and threads; the
-first buffer that differs, in the order of the technique's stages, is named.
+A golden is a small scene DIR/TOPIC/CASE.toml with its pictures CASE.TECHNIQUE.png beside it and the hashes of all its \
+buffers in DIR/manifest.toml. A check replays it by every technique that applies, twice, with other tiles and threads; \
+the first buffer that differs, in the order of the technique's stages, is named.
 
-Exit status of check: 0 all are as they were, 1 one is not, 2 the call or the folder is wrong. Of bless: 0 nothing had to
+Exit status of check: 0 all are as they were, 1 one is not, 2 the call or the folder is wrong. Of bless: 0 nothing had to \
 change, 1 something was changed (so that no script blesses unseen), 2 nothing was written.";
 
 #[derive(Debug, clap::Args)]

@@ -20,7 +20,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Image> {
     let read = read.first_valid_layer().all_attributes().non_parallel();
     let picture = read.from_buffered(Cursor::new(bytes)).map_err(refuse)?;
     let channels = &picture.layer_data.channel_data.list;
-    let find = |name: &&str| channels.iter().find(|channel| channel.name.eq(*name));
+    let find = |name: &&str| channels.iter().find(|channel| channel.name.eq(name));
     let channels: Vec<&AnyChannel<FlatSamples>> = names.iter().filter_map(|name| find(&&**name)).collect();
     let mut values = Vec::with_capacity(width * height * channels.len());
     for pixel in 0..width * height {
