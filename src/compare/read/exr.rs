@@ -71,7 +71,7 @@ fn value(samples: &FlatSamples, pixel: usize) -> Option<f64> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use ::exr::image::{AnyChannels, Encoding, Image as ExrImage, Layer};
     use ::exr::prelude::*;
@@ -86,6 +86,12 @@ mod tests {
 
     fn channel(name: &str, samples: FlatSamples) -> AnyChannel<FlatSamples> {
         AnyChannel::new(name, samples)
+    }
+
+    /// A file in tiles, packed.
+    pub(in crate::compare::read) fn example() -> Vec<u8> {
+        let channels = ["R", "G", "B"].map(|name| channel(name, FlatSamples::F32(vec![0.5; 6]))).to_vec();
+        file(channels, (3, 2), Encoding::SMALL_FAST_LOSSLESS)
     }
 
     #[test]
