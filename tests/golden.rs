@@ -188,6 +188,9 @@ fn an_entry_of_a_technique_that_does_not_draw_the_case_is_told() {
         );
     });
     assert_eq!(names(&folder), ["a/one no-case"]);
+    let only = Selection::new(Some("a/one"), (1, 1)).unwrap();
+    assert_eq!(bless(folder.path(), &only, &|_| {}).unwrap().removed, ["a/one by aaa"]);
+    assert_eq!(names(&folder), [""; 0]);
 }
 
 #[test]

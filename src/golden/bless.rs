@@ -1,6 +1,6 @@
 //! What is drawn now, made what is expected.
 
-use super::case::{pictures, selected};
+use super::case::{Case, pictures, selected};
 use super::check::{parts_of, picture_of, variants};
 use super::failure::Failure;
 use super::manifest::{Entry, MANIFEST, Manifest};
@@ -37,68 +37,74 @@ impl Blessed {
 /// # Errors
 /// When a scene cannot be drawn or a variant of it differs: nothing is written then.
 pub fn bless(folder: &Path, selection: &Selection, progress: &dyn Fn(&str)) -> Result<Blessed> {
-    let mut manifest = Manifest::read(folder)?;
-    let before = manifest.clone();
-    let mut batch = Batch::into(folder)?;
-    let mut blessed = Blessed::default();
-    let mut made: Vec<Entry> = Vec::new();
+    let before = Manifest::read(folder)?;
+    let after = if selection.is_all() { Manifest::default() } else { before.clone() };
+    let batch = Batch::into(folder)?;
+    let mut blessing = Blessing { folder, before, after, batch, blessed: Blessed::default() };
     for case in selected(folder, selection)? {
         progress(&case.name);
-        let replays = replay(&case, &[], Cut::Usual)?;
-        if let Some((technique, fault)) = variants(&case, &replays)?.into_iter().next() {
+        blessing.case(&case)?;
+    }
+    blessing.finish(selection)
+}
+
+/// A blessing at work.
+struct Blessing<'f> {
+    folder: &'f Path,
+    before: Manifest,
+    after: Manifest,
+    batch: Batch,
+    blessed: Blessed,
+}
+
+impl Blessing<'_> {
+    /// Draws a case and stages what changes.
+    fn case(&mut self, case: &Case) -> Result<()> {
+        let replays = replay(case, &[], Cut::Usual)?;
+        if let Some((technique, fault)) = variants(case, &replays)?.into_iter().next() {
             let technique = technique.map(str::to_owned);
-            let failure = Failure { case: case.name, technique, fault };
+            let failure = Failure { case: case.name.clone(), technique, fault };
             return Err(Error::new(failure.to_string()).help("what depends on that cannot be a golden"));
         }
-        manifest.retain(|entry| entry.case != case.name);
-        for replay in &replays {
-            made.push(replay.entry(&case.name));
-            stage(folder, &case.name, replay, &before, &mut batch, &mut blessed)?;
+        self.after.retain(|entry| entry.case != case.name);
+        replays.iter().try_for_each(|replay| self.picture(&case.name, replay))
+    }
+
+    /// Stages a picture where the stored one is another, and notes what changes.
+    fn picture(&mut self, case: &str, replay: &Replay) -> Result<()> {
+        let picture = picture_of(case, replay.technique);
+        let is_stored = is_stored(&self.folder.join(&picture), replay)?;
+        if !is_stored {
+            self.batch.stage(&picture, |to| write_png(&replay.image, to))?;
         }
+        let entry = replay.entry(case);
+        match self.before.find(case, replay.technique) {
+            None => self.blessed.added.push(label(&entry)),
+            Some(known) if is_stored && *known == entry => self.blessed.unchanged += 1,
+            Some(_) => self.blessed.changed.push(label(&entry)),
+        }
+        self.after.set(entry);
+        Ok(())
     }
-    if selection.is_all() {
-        manifest = Manifest::default();
-    }
-    made.into_iter().for_each(|entry| manifest.set(entry));
 
-    let gone = gone(folder, &before, &manifest, selection)?;
-    if manifest != before {
-        batch.stage(MANIFEST, |to| to.write_all(manifest.text().as_bytes()))?;
+    /// Puts everything in its place and removes what belongs to nothing any more.
+    fn finish(self, selection: &Selection) -> Result<Blessed> {
+        let Self { folder, before, after, mut batch, mut blessed } = self;
+        let gone = gone(folder, &before, &after, selection)?;
+        if after != before {
+            batch.stage(MANIFEST, |to| to.write_all(after.text().as_bytes()))?;
+        }
+        batch.commit()?;
+        gone.iter().try_for_each(|picture| remove(&folder.join(picture)))?;
+        let is_gone = |entry: &&Entry| after.find(&entry.case, &entry.technique).is_none();
+        blessed.removed = before.entries().iter().filter(is_gone).map(label).collect();
+        blessed.removed.extend(gone);
+        Ok(blessed)
     }
-    batch.commit()?;
-    for picture in &gone {
-        remove(&folder.join(picture))?;
-    }
-    let is_gone = |entry: &&Entry| manifest.find(&entry.case, &entry.technique).is_none();
-    blessed.removed = before.entries().iter().filter(is_gone).map(|e| label(&e.case, &e.technique)).collect();
-    blessed.removed.extend(gone);
-    Ok(blessed)
 }
 
-fn label(case: &str, technique: &str) -> String {
-    format!("{case} by {technique}")
-}
-
-/// Stages a replay's picture where the stored one is another, and notes what changes.
-fn stage(
-    folder: &Path,
-    case: &str,
-    replay: &Replay,
-    before: &Manifest,
-    batch: &mut Batch,
-    blessed: &mut Blessed,
-) -> Result<()> {
-    let picture = picture_of(case, replay.technique);
-    let is_stored = is_stored(&folder.join(&picture), replay)?;
-    if !is_stored {
-        batch.stage(&picture, |to| write_png(&replay.image, to))?;
-    }
-    match before.find(case, replay.technique) {
-        None => blessed.added.push(label(case, replay.technique)),
-        Some(entry) if is_stored && *entry == replay.entry(case) => blessed.unchanged += 1,
-        Some(_) => blessed.changed.push(label(case, replay.technique)),
-    }
-    Ok(())
+fn label(entry: &Entry) -> String {
+    format!("{} by {}", entry.case, entry.technique)
 }
 
 /// Whether the stored picture has these pixels; one that is missing or cannot be read has not.
