@@ -8,7 +8,7 @@
 //! 4. [`raster`] and [`visibility`] find, exactly, which triangle each sample sees, and where;
 //! 5. [`technique`] draws, each beside its paper; [`resolve`] composes colours;
 //! 6. [`output`] writes pictures, buffers and numbers;
-//! 7. [`compare`] says how far a picture is from what is expected.
+//! 7. [`compare`] says how far a picture is from what is expected; [`golden`] replays what is known.
 //!
 //! ```
 //! use drapery::scene::file::SceneFile;
@@ -38,6 +38,7 @@ pub mod crs;
 mod error;
 pub mod footprint;
 pub mod interval;
+pub mod golden;
 pub mod math;
 pub mod output;
 pub mod parallel;

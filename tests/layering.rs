@@ -25,6 +25,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ),
     ("output", &["buffer"]),
     ("compare", &["buffer"]),
+    ("golden", &["technique", "visibility", "source", "scene", "compare", "output", "parallel", "buffer"]),
 ];
 const ANYONE: &[&str] = &["error", "math", "Error", "Result", "Position"];
 

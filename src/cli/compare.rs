@@ -14,13 +14,13 @@ Examples:
   drapery compare out/inverse-projection.depth.npy depth.exr --tolerance 0.001 --json -
   my-renderer | drapery compare expected.png - --tolerance 2/255
 
-Pictures are PNG (8 or 16 bits), EXR (RGB, RGBA or one channel; f16, f32 or u32) or .npy (rows, columns and channels of
-f64, f32, u32, u16 or u8); which, their first bytes say. Values are compared in units of 1: 8-bit codes are 255ths, 16-bit
-codes 65535ths, f16, f32, f64 and u32 are as they are. Alpha is compared; a picture without alpha has the alpha 1.
+Pictures are PNG (8 or 16 bits), EXR (RGB, RGBA or one channel; f16, f32 or u32) or .npy (rows, columns and channels of \
+f64, f32, u32, u16 or u8); which, their first bytes say. Values are compared in units of 1: 8-bit codes are 255ths, \
+16-bit codes 65535ths; f16, f32, f64 and u32 are as they are. Alpha is compared; a picture without alpha has the alpha 1.
 
-Exit status 0: passed. 1: failed, by pixels over the tolerance, another size, other channels, or a NaN in either. 2: nothing
-was judged, because a picture is missing or is no picture, or both are the same file (a picture passes against itself whatever
-it shows; two files of equal content are compared).";
+Exit status 0: passed. 1: failed, by pixels over the tolerance, another size, other channels, or a NaN in either. \
+2: nothing was judged, because a picture is missing or is no picture, or both are the same file (which would pass \
+whatever it shows; two files of equal content are compared).";
 
 #[derive(Debug, clap::Args)]
 #[command(after_long_help = EXAMPLES)]

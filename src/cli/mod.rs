@@ -6,6 +6,7 @@
 mod bar;
 mod compare;
 mod completions;
+mod golden;
 mod info;
 mod new;
 mod refusal;
@@ -26,6 +27,7 @@ Examples:
   drapery render scene.toml -o pictures            every technique that applies, and the truth
   drapery render scene.toml -t truth -t clipmap --set image.width=600
   drapery compare expected.png actual.png --tolerance 1/255
+  drapery golden check
   drapery schema > scene.schema.json               for completion in an editor
 
 Exit status: 0 done and passed, 1 judged and failed, 2 the call or an input is wrong, 3 a bug in drapery.
@@ -53,6 +55,8 @@ enum Command {
     New(new::Arguments),
     /// Judge a picture by another.
     Compare(compare::Arguments),
+    /// Replay goldens: small scenes whose every buffer is known.
+    Golden(golden::Arguments),
     /// Tell what a data file holds.
     Info(info::Arguments),
     /// Print the JSON Schema of the scene file.
@@ -81,6 +85,7 @@ fn run(command: Command) -> Outcome {
         Command::Render(arguments) => render::run(&arguments),
         Command::New(arguments) => new::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
+        Command::Golden(arguments) => golden::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Schema => schema::run(),
         Command::Completions(arguments) => completions::run(&arguments),

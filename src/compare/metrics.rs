@@ -85,8 +85,11 @@ fn channel_max(values: &[f64], channels: usize) -> Vec<f64> {
 /// The smallest value that at least 99 of 100 values do not exceed.
 fn p99(values: &[f64]) -> f64 {
     let rank = (values.len() * 99).div_ceil(100);
-    let mut values = values.to_vec();
-    *values.select_nth_unstable_by(rank - 1, f64::total_cmp).1
+    let mut off: Vec<f64> = values.iter().copied().filter(|d| *d > 0.0).collect();
+    match rank.checked_sub(values.len() - off.len() + 1) {
+        Some(among_off) => *off.select_nth_unstable_by(among_off, f64::total_cmp).1,
+        None => 0.0,
+    }
 }
 
 /// The window with most failing pixels, the uppermost and then leftmost of several.
@@ -155,6 +158,8 @@ mod tests {
         assert_eq!(p99(&values(1000)), 990.0);
         assert_eq!(p99(&values(101)), 100.0);
         assert_eq!(p99(&values(1)), 1.0);
+        let off = |n: usize| [vec![0.0; 100 - n], vec![0.5; n]].concat();
+        assert_eq!((p99(&off(1)), p99(&off(2))), (0.0, 0.5));
     }
 
     #[test]

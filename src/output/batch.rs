@@ -46,7 +46,7 @@ impl Batch {
         Ok(Self { folder: folder.into(), staging: staging.map_err(refuse)?, names: Vec::new() })
     }
 
-    /// Writes a file of this name, to appear with the others.
+    /// Writes a file of this name, to appear with the others; the name may begin with folders.
     ///
     /// # Errors
     /// When it cannot be written, or a folder has its name; says which file.
@@ -60,7 +60,12 @@ impl Batch {
         if self.names.iter().any(|known| known == name) {
             return Err(Error::internal("one run writes this file twice").in_file(&path));
         }
-        File::create_new(self.staging.join(name)).and_then(|file| fill(file, write)).map_err(refuse)?;
+        let staged = self.staging.join(name);
+        parent(&staged)
+            .map_or(Ok(()), fs::create_dir_all)
+            .and_then(|()| File::create_new(staged))
+            .and_then(|file| fill(file, write))
+            .map_err(refuse)?;
         self.names.push(name.into());
         Ok(())
     }
@@ -77,7 +82,10 @@ impl Batch {
         if self.folder.is_dir() {
             for name in &self.names {
                 let place = self.folder.join(name);
-                fs::rename(self.staging.join(name), &place).map_err(|error| refuse(&place, error))?;
+                parent(&place)
+                    .map_or(Ok(()), fs::create_dir_all)
+                    .and_then(|()| fs::rename(self.staging.join(name), &place))
+                    .map_err(|error| refuse(&place, error))?;
             }
             return Ok(());
         }
@@ -191,6 +199,23 @@ mod tests {
         batch.commit().unwrap();
         assert_eq!(names_in(&out), ["a"]);
         assert_eq!(names_in(place.path()), ["deep"]);
+    }
+
+    #[test]
+    fn a_name_may_begin_with_folders() {
+        for is_there in [true, false] {
+            let place = tempfile::tempdir().unwrap();
+            let out = place.path().join("out");
+            if is_there {
+                fs::create_dir(&out).unwrap();
+            }
+            let mut batch = Batch::into(&out).unwrap();
+            stage(&mut batch, "topic/a");
+            stage(&mut batch, "b");
+            batch.commit().unwrap();
+            assert_eq!(fs::read_to_string(out.join("topic/a")).unwrap(), "topic/a");
+            assert_eq!(names_in(&out), ["b", "topic"]);
+        }
     }
 
     #[test]

@@ -20,7 +20,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Image> {
     let read = read.first_valid_layer().all_attributes().non_parallel();
     let picture = read.from_buffered(Cursor::new(bytes)).map_err(refuse)?;
     let channels = &picture.layer_data.channel_data.list;
-    let find = |name: &&str| channels.iter().find(|channel| channel.name.eq(*name));
+    let find = |name: &&str| channels.iter().find(|channel| channel.name.eq(name));
     let channels: Vec<&AnyChannel<FlatSamples>> = names.iter().filter_map(|name| find(&&**name)).collect();
     let mut values = Vec::with_capacity(width * height * channels.len());
     for pixel in 0..width * height {
@@ -71,7 +71,7 @@ fn value(samples: &FlatSamples, pixel: usize) -> Option<f64> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use ::exr::image::{AnyChannels, Encoding, Image as ExrImage, Layer};
     use ::exr::prelude::*;
@@ -86,6 +86,12 @@ mod tests {
 
     fn channel(name: &str, samples: FlatSamples) -> AnyChannel<FlatSamples> {
         AnyChannel::new(name, samples)
+    }
+
+    /// A file in tiles, packed.
+    pub(in crate::compare::read) fn example() -> Vec<u8> {
+        let channels = ["R", "G", "B"].map(|name| channel(name, FlatSamples::F32(vec![0.5; 6]))).to_vec();
+        file(channels, (3, 2), Encoding::SMALL_FAST_LOSSLESS)
     }
 
     #[test]

@@ -105,6 +105,49 @@ mod tests {
         assert_eq!(error.to_string(), "no/such.png: this picture is missing");
     }
 
+    /// Small valid files of every format.
+    fn valid_files() -> Vec<Vec<u8>> {
+        let mut png = Vec::new();
+        let picture = crate::buffer::Buffer::from_values(5, 3, vec![[9, 8, 7, 200]; 15]);
+        crate::output::write_png(&picture, &mut png).unwrap();
+        let head = "{'descr': '<f4', 'fortran_order': False, 'shape': (1, 2), }";
+        let mut npy = b"\x93NUMPY\x01\x00".to_vec();
+        npy.extend((head.len() as u16).to_le_bytes());
+        npy.extend(head.bytes());
+        npy.extend([0; 8]);
+        vec![png, npy, exr::tests::example()]
+    }
+
+    proptest::proptest! {
+        #![proptest_config(proptest::prelude::ProptestConfig::with_cases(512))]
+
+        #[test]
+        fn damaged_files_are_refused_or_read_and_nothing_worse(
+            which in 0..3_usize,
+            changes in proptest::collection::vec((proptest::prelude::any::<u32>(), proptest::prelude::any::<u8>()), 0..6),
+            cut in proptest::option::of(proptest::prelude::any::<u32>()),
+        ) {
+            let mut file = valid_files().swap_remove(which);
+            for (at, byte) in changes {
+                let at = at as usize % file.len();
+                file[at] = byte;
+            }
+            if let Some(cut) = cut {
+                file.truncate(cut as usize % file.len());
+            }
+            if let Err(error) = Image::decode(&file) {
+                assert!(!error.is_internal(), "{error}");
+            }
+        }
+    }
+
+    #[test]
+    fn valid_files_are_read() {
+        for file in valid_files() {
+            Image::decode(&file).unwrap();
+        }
+    }
+
     #[test]
     fn a_file_is_the_same_by_every_name_and_link_and_not_by_its_bytes() {
         let folder = tempfile::tempdir().unwrap();

@@ -1,0 +1,115 @@
+//! A case drawn anew.
+
+use super::case::Case;
+use super::manifest::{BufferHash, Entry};
+use crate::buffer::{Buffer, Plane};
+use crate::error::Result;
+use crate::scene::file::{Override, SceneFile};
+use crate::source::load;
+use crate::technique::{self, FrameOptions, Kind, Stage};
+use crate::visibility::TILE;
+
+/// The picture's name among the buffers.
+pub const IMAGE: &str = "image";
+
+/// What a technique draws of a case.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Replay {
+    /// The technique's name.
+    pub technique: &'static str,
+    /// The picture.
+    pub image: Buffer<[u8; 4]>,
+    /// The hashes of the buffers, from the first stage to the last, the picture.
+    pub hashes: Vec<BufferHash>,
+}
+
+impl Replay {
+    /// What the manifest says when this is right.
+    pub fn entry(&self, case: &str) -> Entry {
+        Entry {
+            case: case.to_owned(),
+            technique: self.technique.to_owned(),
+            size: (self.image.width(), self.image.height()),
+            hashes: self.hashes.clone(),
+        }
+    }
+}
+
+/// How a frame is cut; no pixel depends on it.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Cut {
+    /// As `render` does.
+    Usual,
+    /// Into tiles that do not fit.
+    Small,
+}
+
+/// Draws a case, changed by `more`, by every technique that applies.
+pub(super) fn replay(case: &Case, more: &[Override], cut: Cut) -> Result<Vec<Replay>> {
+    let overrides = [&case.set[..], more].concat();
+    let file = SceneFile::read(&case.scene, &overrides)?;
+    let (scene, surface) = load::load(&file, &|_| {})?;
+    let stage = Stage::new(scene, surface).map_err(|error| error.in_file(&case.scene))?;
+    let mut replays = Vec::new();
+    for kind in Kind::ALL {
+        match technique::applies(kind, &stage) {
+            Ok(()) => replays.push(draw(kind, &stage, cut)?),
+            Err(error) if error.is_internal() => return Err(error),
+            Err(_) => {}
+        }
+    }
+    Ok(replays)
+}
+
+fn draw(kind: Kind, stage: &Stage, cut: Cut) -> Result<Replay> {
+    let prepared = technique::prepare(kind, stage)?;
+    let names: Vec<String> = prepared.buffer_names().iter().map(|name| (*name).to_owned()).collect();
+    let tile = match cut {
+        Cut::Usual => TILE,
+        Cut::Small => 24,
+    };
+    let frame = prepared.frame(&FrameOptions { tile, buffers: &names, progress: &|_| {} })?;
+    let plane = |name: &String| frame.planes.iter().find(|plane| plane.name == name);
+    let hash = |plane: &Plane| BufferHash { buffer: plane.name.to_owned(), blake3: plane.hash() };
+    let mut hashes: Vec<BufferHash> = names.iter().filter_map(plane).map(hash).collect();
+    hashes.push(BufferHash { buffer: IMAGE.to_owned(), blake3: frame.image.hash() });
+    Ok(Replay { technique: kind.name(), image: frame.image, hashes })
+}
+
+/// The first buffer in which two replays or entries differ, of those that are `wanted`: one that only one of them has
+/// differs too.
+pub(super) fn first_difference(
+    expected: &[BufferHash],
+    actual: &[BufferHash],
+    wanted: impl Fn(&str) -> bool,
+) -> Option<String> {
+    let differs = |one: &&BufferHash, others: &[BufferHash]| wanted(&one.buffer) && !others.contains(one);
+    let new = actual.iter().find(|hash| differs(hash, expected));
+    let lost = expected.iter().find(|hash| differs(hash, actual));
+    new.or(lost).map(|hash| hash.buffer.clone())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn hashes(of: &[(&str, &str)]) -> Vec<BufferHash> {
+        of.iter()
+            .map(|(buffer, blake3)| BufferHash { buffer: (*buffer).into(), blake3: (*blake3).into() })
+            .collect()
+    }
+
+    #[test]
+    fn the_first_stage_that_differs_is_told() {
+        let known = hashes(&[("depth", "0"), ("class", "1"), ("image", "2")]);
+        let first = |actual: &[(&str, &str)]| first_difference(&known, &hashes(actual), |_| true);
+        assert_eq!(first(&[("depth", "0"), ("class", "1"), ("image", "2")]), None);
+        assert_eq!(first(&[("depth", "0"), ("class", "x"), ("image", "y")]), Some("class".into()));
+        assert_eq!(first(&[("depth", "0"), ("class", "1"), ("image", "y")]), Some("image".into()));
+        assert_eq!(first(&[("depth", "0"), ("image", "2")]), Some("class".into()), "a buffer that is gone");
+        let more = [("depth", "0"), ("class", "1"), ("edges", "3"), ("image", "2")];
+        assert_eq!(first(&more), Some("edges".into()), "a buffer that is new");
+        let other = hashes(&[("depth", "x"), ("class", "1"), ("image", "2")]);
+        assert_eq!(first_difference(&known, &other, |name| name == "image"), None);
+    }
+}
