@@ -102,3 +102,9 @@ impl Pieces {
         Halves { inner: Some(inner), outer: Some(outer) }
     }
 }
+
+/// A point in a convex piece: the mean of its corners.
+pub(super) fn middle(piece: &[[f64; 2]]) -> [f64; 2] {
+    let [x, y] = piece.iter().fold([0.0, 0.0], |[x, y], p| [x + p[0], y + p[1]]);
+    [x / piece.len() as f64, y / piece.len() as f64]
+}

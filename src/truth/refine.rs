@@ -6,7 +6,7 @@
 use super::color::{Mean, PaintRange};
 use super::facet::{Facet, TileRays};
 use super::form::Line;
-use super::polygon::{Halves, Pieces, Polygon, ROUNDING};
+use super::polygon::{Halves, Pieces, Polygon, ROUNDING, middle};
 use super::setting::Setting;
 use super::shape::{Ground, Shape, Verdict, distance};
 use super::visible::{Fragment, SPECK, Sight};
@@ -17,8 +17,10 @@ use crate::space::PlanBox;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-/// A piece near more parts than this is cut before they are looked at one by one.
+/// A piece near more parts than this is cut before they are looked at one by one; as many more for each time that it has been cut
+/// for this reason, up to [`MOST_LEVEL`] times: where all parts lie on one another cutting does not help.
 const MOST_PARTS: usize = 48;
+const MOST_LEVEL: u32 = 8;
 
 /// Room for one pixel's work, used again for the next.
 #[derive(Debug, Default)]
@@ -84,6 +86,8 @@ struct Piece {
     states: Option<(u32, u32)>,
     /// Where to cut it; `None`: nothing helps.
     cut: Option<Line>,
+    /// How often it has been cut because it was near too many parts.
+    level: u32,
     /// Whether it may lie in or out of some item; kept only where coverage is asked for.
     is_open: bool,
     /// Breaks ties, so that the order is always the same.
@@ -94,7 +98,8 @@ impl Piece {
     fn new(fragment: &Fragment, area: f64) -> Self {
         let (shape, facet) = (fragment.shape, fragment.facet);
         let paint = PaintRange::ANY;
-        Self { shape, facet, area, weight: 0.0, paint, states: None, cut: None, is_open: false, number: 0 }
+        let (weight, level, number) = (0.0, 0, 0);
+        Self { shape, facet, area, weight, paint, states: None, cut: None, level, is_open: false, number }
     }
 }
 
@@ -183,15 +188,6 @@ impl Refinery {
         all.joined()
     }
 
-    #[cfg(test)]
-    pub(super) fn dump(&self, pieces: &Pieces) {
-        println!("slop {} count {} open {}", self.slop, self.count, self.heap.len());
-        for p in self.heap.iter().chain(&self.closed).take(40) {
-            println!("{p:?} {:?}", pieces.of(p.shape));
-            if let Some((f,c)) = p.states { for s in &self.states[f as usize..(f+c) as usize] { println!("    {s:?} {:?}", self.lists[s.first as usize..(s.first+s.count) as usize].iter().map(|k| self.shapes[*k as usize]).collect::<Vec<_>>()); } }
-        }
-    }
-
     /// The pieces of the pixel refined last, each with its facet and with what is known of its items (`None`: nothing).
     #[cfg(test)]
     pub(super) fn claims(&self) -> Vec<(Polygon, u32, Vec<(u32, Option<bool>)>)> {
@@ -248,9 +244,10 @@ impl Refinery {
         let plan = ground.plan_box(points);
         let mut parts = std::mem::take(&mut self.parts);
         parts.clear();
+        let most = MOST_PARTS << piece.level.min(MOST_LEVEL);
         let is_all = pixel.setting.footprints.parts_near(&plan, |part| {
             parts.push(part);
-            parts.len() <= MOST_PARTS
+            parts.len() <= most
         });
         if is_all {
             parts.sort_unstable();
@@ -259,7 +256,8 @@ impl Refinery {
         } else {
             let paint = pixel.setting.crowd_paint(&ground, points);
             let cut = Some(ground.halving_line(points));
-            self.keep(pixel.setting, Piece { paint, cut, states: None, is_open: true, ..piece }, mean);
+            let level = piece.level + 1;
+            self.keep(pixel.setting, Piece { paint, cut, states: None, is_open: true, level, ..piece }, mean);
         }
         self.parts = parts;
     }
@@ -282,25 +280,15 @@ impl Refinery {
         let mut fresh = std::mem::take(&mut self.fresh);
         fresh.clear();
         for run in parts.chunk_by(|a, b| a.item == b.item) {
-            let first = self.lists.len() as u32;
-            let mut has = (false, false);
-            for part in run {
-                self.primitives.clear();
-                footprints.primitives(*part, &mut self.primitives);
-                for primitive in &self.primitives {
-                    let is_edge = matches!(primitive, Primitive::Edge { .. });
-                    has = (has.0 | is_edge, has.1 | !is_edge);
-                    self.lists.push(self.shapes.len() as u32);
-                    self.shapes.push(ground.shape(primitive));
-                }
-            }
-            let count = self.lists.len() as u32 - first;
-            fresh.push(first_state(pixel, (ground, points), run[0].item, has, (first, count)));
+            let state = self.shapes_near(pixel, (ground, points), run, parts.len() > MOST_PARTS);
+            fresh.push(state);
         }
         let near = fresh.len();
         footprints.areas_near(plan, |item| {
             if fresh[..near].binary_search_by_key(&item, |s| s.item).is_err() {
-                fresh.push(first_state(pixel, (ground, points), item, (false, false), (0, 0)));
+                let mut state = first_state(pixel, (ground, points), item, false, (0, 0));
+                state.stroke = if state.stroke == Known::Open { Known::Out } else { state.stroke };
+                fresh.push(state);
             }
         });
         fresh.retain(|state| state.known() != Known::Out);
@@ -309,6 +297,45 @@ impl Refinery {
         self.states.extend_from_slice(&fresh);
         self.fresh = fresh;
         (first, self.states.len() as u32 - first)
+    }
+
+    /// What a fragment knows of an item that has these parts near it. `is_crowd`: of many parts those that the fragment is wholly
+    /// in or out of are not kept.
+    fn shapes_near(
+        &mut self,
+        pixel: &Pixel,
+        (ground, points): (&Ground, &[[f64; 2]]),
+        parts: &[Part],
+        is_crowd: bool,
+    ) -> State {
+        let first = self.lists.len() as u32;
+        let (mut has_edges, mut stroke) = (false, Known::Out);
+        for part in parts {
+            self.primitives.clear();
+            pixel.setting.footprints.primitives(*part, &mut self.primitives);
+            for primitive in &self.primitives {
+                let is_edge = matches!(primitive, Primitive::Edge { .. });
+                if stroke == Known::In && !is_edge {
+                    continue;
+                }
+                let shape = ground.shape(primitive);
+                let verdict = is_crowd.then(|| shape.verdict(ground, points, &mut self.slop));
+                match verdict {
+                    Some(Verdict::In) => stroke = Known::In,
+                    Some(Verdict::Out) => continue,
+                    _ if is_edge => has_edges = true,
+                    _ => stroke = Known::Open,
+                }
+                self.lists.push(self.shapes.len() as u32);
+                self.shapes.push(shape);
+            }
+        }
+        let count = self.lists.len() as u32 - first;
+        let mut state = first_state(pixel, (ground, points), parts[0].item, has_edges, (first, count));
+        if state.stroke == Known::Open {
+            state.stroke = stroke;
+        }
+        state
     }
 
     /// Brings a piece's knowledge up to date with its shape, and decides its colour and where to cut it.
@@ -419,12 +446,12 @@ fn composed(setting: &Setting, base: PaintRange, states: &[State]) -> PaintRange
     })
 }
 
-/// What a fragment knows of an item at first: `has` edges of its polygon near, and parts of its stroke.
+/// What a fragment knows of an item at first; its stroke is open if the item has one.
 fn first_state(
     pixel: &Pixel,
     (ground, points): (&Ground, &[[f64; 2]]),
     item: u32,
-    (has_edges, has_stroke): (bool, bool),
+    has_edges: bool,
     (first, count): (u32, u32),
 ) -> State {
     let what = &pixel.setting.footprints.items()[item as usize];
@@ -432,13 +459,14 @@ fn first_state(
         None => Known::In,
         Some(_) if has_edges => Known::Open,
         // No edge is near: the polygon holds all of the fragment, or none.
-        Some(_) => polygon_at(pixel, ground, points, item),
+        Some(wanted) => match ground.hit(middle(points)) {
+            hit if hit.error < f64::INFINITY => {
+                known(pixel.setting.footprints.polygon_holds(item, hit.plan) == wanted)
+            }
+            _ => Known::Open,
+        },
     };
-    let stroke = match (what.wants_stroke(), has_stroke) {
-        (false, _) => Known::In,
-        (true, false) => Known::Out,
-        (true, true) => Known::Open,
-    };
+    let stroke = if what.wants_stroke() { Known::Open } else { Known::In };
     State { item, polygon, stroke, first, count }
 }
 
@@ -449,8 +477,7 @@ fn known(is_in: bool) -> Known {
 /// Whether a piece that no edge of an item's polygon crosses lies where the item wants it, decided exactly at a point of it.
 fn polygon_at(pixel: &Pixel, ground: &Ground, points: &[[f64; 2]], item: u32) -> Known {
     let footprints = pixel.setting.footprints;
-    let middle = points.iter().fold([0.0, 0.0], |[x, y], p| [x + p[0], y + p[1]]);
-    let hit = ground.hit(middle.map(|v| v / points.len() as f64));
+    let hit = ground.hit(middle(points));
     let rounding = 64.0 * f64::EPSILON * hit.plan.to_vec().abs().max_element();
     let reach = 2.0 * hit.error + rounding;
     if !(reach < f64::INFINITY) {

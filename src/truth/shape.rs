@@ -2,6 +2,7 @@
 
 use super::facet::{Facet, TileRays};
 use super::form::{Line, Side};
+use super::polygon::middle;
 use crate::footprint::{HalfPlane, MOST_SIDES, PixelSize, Primitive};
 use crate::interval::Ball;
 use crate::math;
@@ -165,8 +166,7 @@ impl Near {
     /// By bounds of `f = distance - reach - growth * r` over the piece, each exact to the second order: the distance and r are
     /// convex functions of the plan point, so each is at least its tangent and at most what its corners say.
     fn verdict(&self, ground: &Ground, piece: &[[f64; 2]]) -> Verdict {
-        let middle = piece.iter().fold([0.0, 0.0], |[x, y], p| [x + p[0], y + p[1]]);
-        let centre = ground.hit(middle.map(|v| v / piece.len() as f64));
+        let centre = ground.hit(middle(piece));
         if !(centre.error < MOST_ERROR) {
             return Verdict::Stuck;
         }

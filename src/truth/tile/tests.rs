@@ -475,24 +475,3 @@ fn a_million_pieces_are_what_exact_arithmetic_says() {
     let wrong = violations_on_all_threads(1_000_000);
     assert!(wrong.is_empty(), "{} of 1,000,000:\n{}", wrong.len(), wrong[..wrong.len().min(5)].join("\n"));
 }
-
-#[test]
-#[ignore]
-fn dump() {
-    let path = std::env::var("SCENE").unwrap();
-    let file = SceneFile::parse(&std::fs::read_to_string(&path).unwrap(), Some(std::path::Path::new(&path)), &[]).unwrap();
-    let (scene, surface) = crate::source::load::load(&file, &|_| {}).unwrap();
-    let mesh = Mesh::new(surface, scene.diagonal).unwrap();
-    let frame = scene.camera.view(&scene.image).unwrap();
-    let size = pixel_size(&mesh, &frame);
-    let footprints = Footprints::new(&scene.layers, size, &|_| true);
-    let budget = Budget { width: 1.0 / 510.0, depth: 12, coverage: false };
-    let setting = Setting::new(&scene, &mesh, (&footprints, size), budget);
-    let at: Vec<usize> = std::env::var("PIXEL").unwrap().split(',').map(|v| v.parse().unwrap()).collect();
-    let mut work = Work::new(&setting, &mesh, &frame, ([at[0], at[1]], [1, 1]));
-    let all = work.all();
-    work.block([0, 0], 1, &all);
-    println!("{:?} sight slop {}", work.out.colors[0], work.sight.slop);
-    println!("fragments {} sky {}", work.sight.fragments.len(), work.sight.sky.len());
-    work.refinery.dump(&work.pieces);
-}
