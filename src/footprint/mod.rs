@@ -219,8 +219,15 @@ impl Default for PixelSize {
 impl Building {
     fn add_feature(&mut self, (layer, feature): (u32, u32), of: &Layer, what: &Feature) {
         let none = Color([0.0; 4]);
-        let mut item =
-            Item { layer, feature, role: Role::Line, color: none, area: None, rule: Rule::EvenOdd, stroke: None };
+        let mut item = Item {
+            layer,
+            feature,
+            role: Role::Line,
+            color: none,
+            area: None,
+            rule: Rule::EvenOdd,
+            stroke: None,
+        };
         match &what.shape {
             Shape::Line(parts) => {
                 let Some(line) = of.style.line else { return };
@@ -333,6 +340,9 @@ impl Building {
         let vertices = chain.first..chain.first + (chain.count - 1).max(u32::from(chain.is_stroke));
         for vertex in vertices {
             let at = vertex as usize;
+            if line.is_none() && self.points[at] == self.points[at + 1] {
+                continue;
+            }
             let plan = match line {
                 Some(line) => stroke::bounds(&segment_of(&self.points, chain, at), &line, &self.pixel),
                 None => PlanBox::around([self.points[at], self.points[at + 1]]),

@@ -165,7 +165,8 @@ fn join(before: Plan, at: Plan, after: Plan, half: f64, limit: Option<f64>, out:
     let half = Ball::exact(half);
     let miter = Convex::new(&[wedge[0], wedge[1], side(negated(n1), half), side(negated(n2), half)]);
     // The ratio of miter length to width is 1 / cos(turn / 2), its square 2 / (1 + cos turn).
-    let excess = limit.map(|limit| Ball::exact(2.0) - (Ball::exact(1.0) + cosine) * Ball::exact(limit).squared());
+    let excess =
+        limit.map(|limit| Ball::exact(2.0) - (Ball::exact(1.0) + cosine) * Ball::exact(limit).squared());
     match excess {
         Some(excess) if excess.is_negative() => out.push(Primitive::Convex(miter)),
         Some(excess) if !excess.is_positive() => {

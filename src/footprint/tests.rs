@@ -28,7 +28,11 @@ fn holds(primitive: &Primitive, p: Plan) -> bool {
 fn distance(from: Plan, to: Plan, p: Plan) -> f64 {
     let (d, v): (glam::DVec2, glam::DVec2) = (to - from, p - from);
     let length_squared = d.length_squared();
-    let t = if length_squared > 0.0 { crate::math::min(crate::math::max(v.dot(d) / length_squared, 0.0), 1.0) } else { 0.0 };
+    let t = if length_squared > 0.0 {
+        crate::math::min(crate::math::max(v.dot(d) / length_squared, 0.0), 1.0)
+    } else {
+        0.0
+    };
     (v - d * t).length()
 }
 
@@ -57,10 +61,8 @@ fn a_miter_reaches_its_tip_and_falls_to_a_bevel_over_its_limit() {
 #[test]
 fn a_line_that_turns_back_has_no_join_beyond_its_end() {
     for join in [Join::Miter { limit: 100.0 }, Join::Bevel] {
-        let all = footprints(
-            line_style(2.0, join, Cap::Butt),
-            polyline(&[(0.0, 0.0), (10.0, 0.0), (2.0, 0.0)]),
-        );
+        let all =
+            footprints(line_style(2.0, join, Cap::Butt), polyline(&[(0.0, 0.0), (10.0, 0.0), (2.0, 0.0)]));
         assert!(!stroke_holds(&all, Plan::new(10.01, 0.0)) && stroke_holds(&all, Plan::new(9.99, 0.99)));
     }
 }

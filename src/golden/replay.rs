@@ -7,6 +7,7 @@ use crate::error::Result;
 use crate::scene::file::{Override, SceneFile};
 use crate::source::load;
 use crate::technique::{self, FrameOptions, Kind, Stage};
+use crate::truth::{self, Budget, Truth};
 use crate::visibility::TILE;
 
 /// The picture's name among the buffers.
@@ -44,13 +45,13 @@ pub(super) enum Cut {
     Small,
 }
 
-/// Draws a case, changed by `more`, by every technique that applies.
+/// Draws a case, changed by `more`: the truth, and every technique that applies.
 pub(super) fn replay(case: &Case, more: &[Override], cut: Cut) -> Result<Vec<Replay>> {
     let overrides = [&case.set[..], more].concat();
     let file = SceneFile::read(&case.scene, &overrides)?;
     let (scene, surface) = load::load(&file, &|_| {})?;
     let stage = Stage::new(scene, surface).map_err(|error| error.in_file(&case.scene))?;
-    let mut replays = Vec::new();
+    let mut replays = vec![certified(&stage)];
     for kind in Kind::ALL {
         match technique::applies(kind, &stage) {
             Ok(()) => replays.push(draw(kind, &stage, cut)?),
@@ -59,6 +60,17 @@ pub(super) fn replay(case: &Case, more: &[Override], cut: Cut) -> Result<Vec<Rep
         }
     }
     Ok(replays)
+}
+
+/// The truth of a stage; it is always cut alike, and only threads can differ.
+fn certified(stage: &Stage) -> Replay {
+    let truth = truth::certify(&stage.scene, &stage.mesh, &stage.view, &Budget::default(), &|_| {});
+    let planes = Truth::BUFFERS.iter().filter_map(|name| truth.plane(name));
+    let mut hashes: Vec<BufferHash> =
+        planes.map(|plane| BufferHash { buffer: plane.name.to_owned(), blake3: plane.hash() }).collect();
+    let image = truth.image();
+    hashes.push(BufferHash { buffer: IMAGE.to_owned(), blake3: image.hash() });
+    Replay { technique: truth::NAME, image, hashes }
 }
 
 fn draw(kind: Kind, stage: &Stage, cut: Cut) -> Result<Replay> {

@@ -69,7 +69,8 @@ pub(super) struct Mean {
 }
 
 impl Mean {
-    pub(super) const NOTHING: Self = Self { sum: PaintRange { low: [0.0; 4], high: [0.0; 4] }, open: [0.0; 4] };
+    pub(super) const NOTHING: Self =
+        Self { sum: PaintRange { low: [0.0; 4], high: [0.0; 4] }, open: [0.0; 4] };
 
     /// Adds a piece's paint.
     pub(super) fn add(&mut self, paint: &PaintRange, area: f64) {

@@ -142,7 +142,8 @@ impl Facet {
         if high + margin < rays.near || low - margin > rays.far {
             return None;
         }
-        let normal = BallVec::difference(b.to_vec(), a.to_vec()).cross(BallVec::difference(c.to_vec(), a.to_vec()));
+        let normal =
+            BallVec::difference(b.to_vec(), a.to_vec()).cross(BallVec::difference(c.to_vec(), a.to_vec()));
         let facing = rays.dot_along(normal);
         let depth = rays.dot_from(normal, BallVec::exact(a.to_vec())).signed(-1.0);
         let decisive = if rays.is_central { depth.c } else { facing.c };

@@ -40,6 +40,9 @@ use setting::Setting;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use tile::{Frustum, TILE, TileTruth, certify_tile};
 
+/// The truth's name among the techniques', on the command line and in files.
+pub const NAME: &str = "truth";
+
 /// How exact the truth has to be, and how much work may go into a pixel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Budget {

@@ -190,7 +190,7 @@ impl Refinery {
 
     /// The pieces of the pixel refined last, each with its facet and with what is known of its items (`None`: nothing).
     #[cfg(test)]
-    pub(super) fn claims(&self) -> Vec<(Polygon, u32, Vec<(u32, Option<bool>)>)> {
+    pub(super) fn claims(&self) -> Vec<Claim> {
         let told = |state: &State| match state.known() {
             Known::Open => (state.item, None),
             known => (state.item, Some(known == Known::In)),
@@ -385,7 +385,13 @@ impl Refinery {
     }
 
     /// Brings what a piece knows of one item up to date; returns where to cut to learn more.
-    fn update(&mut self, pixel: &Pixel, ground: &Ground, points: &[[f64; 2]], state: &mut State) -> Option<Line> {
+    fn update(
+        &mut self,
+        pixel: &Pixel,
+        ground: &Ground,
+        points: &[[f64; 2]],
+        state: &mut State,
+    ) -> Option<Line> {
         let first = self.lists.len() as u32;
         let (mut edges, mut strokes) = (0u32, 0u32);
         let (mut cut, mut is_in) = (None, false);
@@ -438,6 +444,10 @@ impl Refinery {
     }
 }
 
+/// A piece's shape, its facet, and what it says of its items.
+#[cfg(test)]
+pub(super) type Claim = (Polygon, u32, Vec<(u32, Option<bool>)>);
+
 /// The paint of a piece's items over a base.
 fn composed(setting: &Setting, base: PaintRange, states: &[State]) -> PaintRange {
     states.iter().fold(base, |below, state| {
@@ -480,7 +490,7 @@ fn polygon_at(pixel: &Pixel, ground: &Ground, points: &[[f64; 2]], item: u32) ->
     let hit = ground.hit(middle(points));
     let rounding = 64.0 * f64::EPSILON * hit.plan.to_vec().abs().max_element();
     let reach = 2.0 * hit.error + rounding;
-    if !(reach < f64::INFINITY) {
+    if reach == f64::INFINITY {
         return Known::Open;
     }
     // The point is known up to `reach`: no edge may be that near.

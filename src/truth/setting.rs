@@ -119,18 +119,26 @@ fn texels_of(
     let east = Axis { origin: extent.min.x, size: extent.max.x - extent.min.x, count: texels.width() };
     let south = Axis { origin: extent.max.y, size: extent.min.y - extent.max.y, count: texels.height() };
     let mut cut = None;
-    let columns = east.narrowed(east.range(plan.min.x, plan.max.x), |k, slop| {
-        let line = ground.line(&border(east.border(k), [1.0, 0.0]));
-        let side = line.side(piece, slop);
-        cut = if side == Side::Both { cut.or(Some(line)) } else { cut };
-        side
-    }, slop);
-    let rows = south.narrowed(south.range(plan.max.y, plan.min.y), |k, slop| {
-        let line = ground.line(&border(south.border(k), [0.0, -1.0]));
-        let side = line.side(piece, slop);
-        cut = if side == Side::Both { cut.or(Some(line)) } else { cut };
-        side
-    }, slop);
+    let columns = east.narrowed(
+        east.range(plan.min.x, plan.max.x),
+        |k, slop| {
+            let line = ground.line(&border(east.border(k), [1.0, 0.0]));
+            let side = line.side(piece, slop);
+            cut = if side == Side::Both { cut.or(Some(line)) } else { cut };
+            side
+        },
+        slop,
+    );
+    let rows = south.narrowed(
+        south.range(plan.max.y, plan.min.y),
+        |k, slop| {
+            let line = ground.line(&border(south.border(k), [0.0, -1.0]));
+            let side = line.side(piece, slop);
+            cut = if side == Side::Both { cut.or(Some(line)) } else { cut };
+            side
+        },
+        slop,
+    );
     (columns, rows, cut)
 }
 
@@ -182,4 +190,3 @@ impl Axis {
         low..=high
     }
 }
-

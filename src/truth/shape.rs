@@ -77,7 +77,7 @@ impl Ground<'_> {
         let mut plan = PlanBox::EMPTY;
         for p in piece {
             let hit = self.hit(*p);
-            if !(hit.error < MOST_ERROR) {
+            if hit.error >= MOST_ERROR {
                 return self.facet.plan();
             }
             let margin = DVec2::splat(hit.error * 2.0);
@@ -91,7 +91,9 @@ impl Ground<'_> {
     pub(super) fn halving_line(&self, piece: &[[f64; 2]]) -> Line {
         let size = PlanBox::around(piece.iter().map(|p| Plan::new(p[0], p[1])));
         let (middle, half) = ((size.min.to_vec() + size.max.to_vec()) / 2.0, (size.max - size.min) / 2.0);
-        let seen = |by: DVec2| (self.hit((middle + by).to_array()).plan - self.hit((middle - by).to_array()).plan).length();
+        let seen = |by: DVec2| {
+            (self.hit((middle + by).to_array()).plan - self.hit((middle - by).to_array()).plan).length()
+        };
         let (across, down) = (seen(half * DVec2::X), seen(half * DVec2::Y));
         if across > down { Line::upright(middle.x) } else { Line::level(middle.y) }
     }
@@ -167,65 +169,39 @@ impl Near {
     /// convex functions of the plan point, so each is at least its tangent and at most what its corners say.
     fn verdict(&self, ground: &Ground, piece: &[[f64; 2]]) -> Verdict {
         let centre = ground.hit(middle(piece));
-        if !(centre.error < MOST_ERROR) {
+        if centre.error >= MOST_ERROR {
             return Verdict::Stuck;
         }
         let tangent = self.tangent(ground, &centre);
-        let (mut is_in, mut is_out) = (true, true);
-        let (mut low, mut high, mut across) = (f64::INFINITY, f64::NEG_INFINITY, 0.0f64);
+        let mut spread = Spread::default();
         for p in piece {
             let hit = ground.hit(*p);
-            if !(hit.error < MOST_ERROR) {
+            if hit.error >= MOST_ERROR {
                 return Verdict::Stuck;
             }
             let error = self.error(&hit, &centre, ground);
             let away = hit.plan - centre.plan;
-            let r = |at: &Hit| ground.size.eye.map_or(0.0, |eye| (at.world - eye).length());
-            let r_tangent = ground.size.eye.map_or(0.0, |eye| tangent.to_eye.dot(hit.world - eye));
-            let distance = distance(self.from, self.to, hit.plan);
-            is_in &= distance - self.reach - self.growth * r_tangent + error <= 0.0;
-            let least = tangent.distance + tangent.gradient.dot(away) - tangent.doubt * away.length();
-            is_out &= least - self.reach - self.growth * r(&hit) - error > 0.0;
-            let linear = tangent.value + tangent.slope.dot(away);
-            (low, high) = (math::min(linear, low), math::max(linear, high));
-            across = math::max(tangent.slope.perp_dot(away).abs(), across);
+            let eye = ground.size.eye;
+            let r = eye.map_or(0.0, |eye| (hit.world - eye).length());
+            let r_tangent = eye.map_or(0.0, |eye| tangent.to_eye.dot(hit.world - eye));
+            let nearest = tangent.distance + tangent.gradient.dot(away) - tangent.doubt * away.length();
+            spread.include(Corner {
+                least: nearest - self.reach - self.growth * r - error,
+                most: distance(self.from, self.to, hit.plan) - self.reach - self.growth * r_tangent + error,
+                linear: tangent.value + tangent.slope.dot(away),
+                across: tangent.slope.perp_dot(away),
+            });
         }
-        match (is_in, is_out) {
+        match (spread.most <= 0.0, spread.least > 0.0) {
             (true, _) => Verdict::In,
             (_, true) => Verdict::Out,
-            _ => Verdict::Cut(ground.line(&self.cut(&tangent, centre.plan, (low, high), across))),
+            _ => Verdict::Cut(ground.line(&cut(&tangent, centre.plan, &spread))),
         }
-    }
-
-    /// Where to cut an undecided piece: along the tangent where much lies beyond it, along the chord where much lies within, else
-    /// through the middle of the arc.
-    fn cut(&self, tangent: &Tangent, centre: Plan, (low, high): (f64, f64), across: f64) -> HalfPlane {
-        let slope = tangent.slope;
-        let steep = slope.length();
-        let along = |normal: DVec2, offset: f64| HalfPlane {
-            at: centre,
-            normal: [Ball::exact(normal.x), Ball::exact(normal.y)],
-            offset: Ball::exact(offset),
-        };
-        if steep < LEAST_STEEP {
-            // At the segment itself there is no tangent: any cut makes the piece smaller.
-            return along(DVec2::new(1.0, 0.618), 0.0);
-        }
-        let radius = self.reach + self.growth * tangent.r;
-        let half_chord = across / steep;
-        let sagitta = half_chord * half_chord / (2.0 * math::max(radius, half_chord));
-        let band = math::max(high - low, 0.0);
-        if high > 0.0 && low < 0.0 && high > WORTH * band {
-            return along(slope, tangent.value);
-        }
-        if -sagitta - low > WORTH * band && high > -sagitta {
-            return along(slope, tangent.value + sagitta);
-        }
-        along(slope.perp(), 0.0)
     }
 
     fn tangent(&self, ground: &Ground, centre: &Hit) -> Tangent {
-        let away = centre.plan - nearest(self.from, self.to, centre.plan);
+        let foot = nearest(self.from, self.to, centre.plan);
+        let away = centre.plan - foot;
         let distance = away.length();
         let gradient = if distance > 0.0 { away / distance } else { DVec2::ZERO };
         let rounding = 16.0 * f64::EPSILON * self.size(centre);
@@ -239,7 +215,7 @@ impl Near {
         let climb = to_eye.z / math::max(normal.z, 1e-9);
         let r_slope = to_eye.truncate() - normal.truncate() * climb;
         let slope = gradient - r_slope * self.growth;
-        Tangent { distance, gradient, doubt, r, to_eye, slope, value: distance - self.reach - self.growth * r }
+        Tangent { distance, gradient, doubt, to_eye, slope, value: distance - self.reach - self.growth * r }
     }
 
     /// What hits' errors and the roundings here can do to the bounds, metres.
@@ -278,12 +254,87 @@ struct Tangent {
     gradient: DVec2,
     /// By how much the gradient may be off: near the segment its direction is all rounding.
     doubt: f64,
-    r: f64,
+    /// The unit vector from the eye.
     to_eye: DVec3,
     /// The gradient of f over the plan.
     slope: DVec2,
     /// f itself.
     value: f64,
+}
+
+/// Where to cut an undecided piece: where what lies beyond is surely out, or surely in, if that is much; else in half.
+fn cut(tangent: &Tangent, centre: Plan, spread: &Spread) -> HalfPlane {
+    let slope = tangent.slope;
+    let along = |normal: DVec2, offset: f64| HalfPlane {
+        at: centre,
+        normal: [Ball::exact(normal.x), Ball::exact(normal.y)],
+        offset: Ball::exact(offset),
+    };
+    if slope.length() < LEAST_STEEP {
+        // At the segment itself there is no tangent: any cut makes the piece smaller.
+        return along(DVec2::new(1.0, 0.618), 0.0);
+    }
+    let (low, high) = spread.linear;
+    // Off the border by what the bounds lose, and a little for the cut itself.
+    let margin = 1e-9 * (high - low);
+    let (out, within) = (spread.bend_out + margin, -spread.bend_in - margin);
+    let worth = WORTH * (high - low);
+    if high - out > worth && low < out {
+        return along(slope, tangent.value - out);
+    }
+    if within - low > worth && high > within {
+        return along(slope, tangent.value - within);
+    }
+    let (west, east) = spread.across;
+    match east - west > high - low {
+        true => along(slope.perp(), -0.5 * (west + east)),
+        false => along(slope, tangent.value - 0.5 * (low + high)),
+    }
+}
+
+/// A piece's corner: bounds of f, and its place in the first-order picture.
+#[derive(Debug, Clone, Copy)]
+struct Corner {
+    /// The tangents' f, which f is nowhere below in the piece if it is not here.
+    least: f64,
+    /// What f is at most.
+    most: f64,
+    /// f to the first order.
+    linear: f64,
+    /// How far along the border, times the slope.
+    across: f64,
+}
+
+/// A piece's corners together.
+#[derive(Debug, Clone, Copy)]
+struct Spread {
+    least: f64,
+    most: f64,
+    linear: (f64, f64),
+    across: (f64, f64),
+    /// How far the lower bound stays below the first order, and the upper bound above it.
+    bend_out: f64,
+    bend_in: f64,
+}
+
+impl Default for Spread {
+    fn default() -> Self {
+        let nothing = (f64::INFINITY, f64::NEG_INFINITY);
+        let (least, most) = nothing;
+        Self { least, most, linear: nothing, across: nothing, bend_out: 0.0, bend_in: 0.0 }
+    }
+}
+
+impl Spread {
+    fn include(&mut self, corner: Corner) {
+        let wider = |(low, high), v| (math::min(v, low), math::max(v, high));
+        self.least = math::min(corner.least, self.least);
+        self.most = math::max(corner.most, self.most);
+        self.linear = wider(self.linear, corner.linear);
+        self.across = wider(self.across, corner.across);
+        self.bend_out = math::max(corner.linear - corner.least, self.bend_out);
+        self.bend_in = math::max(corner.most - corner.linear, self.bend_in);
+    }
 }
 
 /// A plan point known no better than this, in metres, decides nothing.

@@ -61,7 +61,8 @@ impl Frustum {
     fn meets(&self, center: World, axes: &[DVec3; 3]) -> bool {
         let reach = |normal: DVec3| axes.iter().fold(0.0, |sum, axis| sum + normal.dot(*axis).abs());
         let size = center.to_vec().abs().max_element() + self.eye.to_vec().abs().max_element();
-        let margin = |normal: DVec3| BOX_SHARE * normal.length() * (size + axes[0].length() + axes[1].length());
+        let margin =
+            |normal: DVec3| BOX_SHARE * normal.length() * (size + axes[0].length() + axes[1].length());
         let depth = self.forward.dot(center - self.eye);
         let span = reach(self.forward) + margin(self.forward);
         depth + span >= self.near

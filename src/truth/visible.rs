@@ -68,7 +68,9 @@ impl Sight {
         let at = [pixel[0] + corner[0], pixel[1] + corner[1]];
         self.offered.extend(near.iter().map(|&k| Offered::new(k, &facets[k as usize], pixel, (at, side))));
         self.offered.sort_unstable_by(|a, b| {
-            b.nearest.total_cmp(&a.nearest).then(facets[a.facet as usize].id.cmp(&facets[b.facet as usize].id))
+            b.nearest
+                .total_cmp(&a.nearest)
+                .then(facets[a.facet as usize].id.cmp(&facets[b.facet as usize].id))
         });
         (self.first_fragment, self.first_sky) = (self.fragments.len(), self.sky.len());
         let square = pieces.square(corner, side);

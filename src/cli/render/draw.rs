@@ -18,9 +18,6 @@ use std::time::Instant;
 /// The buffers that hold plan coordinates: scene-local in memory, absolute in files.
 const IN_PLAN: [&str; 2] = ["plan", "quad"];
 
-/// The truth's name among the techniques'.
-const TRUTH: &str = "truth";
-
 /// What is wanted of each technique.
 pub(super) struct Wish {
     pub(super) buffers: Buffers,
@@ -47,8 +44,9 @@ pub(super) struct Certified {
 impl Certified {
     /// Computes the truth so many times.
     pub(super) fn of(stage: &Stage, budget: &Budget, repeat: u32, bar: &Bar) -> Result<Self> {
-        bar.start(TRUTH);
-        let once = || truth::certify(&stage.scene, &stage.mesh, &stage.view, budget, &|share| bar.done(share));
+        bar.start(truth::NAME);
+        let once =
+            || truth::certify(&stage.scene, &stage.mesh, &stage.view, budget, &|share| bar.done(share));
         let (mut truth, first) = timed(|| Ok(once()))?;
         let mut times = vec![first];
         for _ in 1..repeat {
@@ -83,11 +81,11 @@ impl Drawing<'_> {
     pub(super) fn truth(&mut self, wish: &Wish) -> Result<RunResult> {
         let Certified { truth, budget, frame_ms, .. } = self.certified;
         let image = truth.image();
-        let path = format!("{TRUTH}.png");
+        let path = format!("{}.png", truth::NAME);
         self.batch.stage(&path, |to| write_png(&image, to))?;
         let names = Truth::BUFFERS.iter().filter(|name| wish.buffers.wants(name));
         let planes: Vec<Plane> = names.filter_map(|name| truth.plane(name)).collect();
-        let buffers: Result<_> = planes.iter().map(|plane| self.stage_plane(TRUTH, plane)).collect();
+        let buffers: Result<_> = planes.iter().map(|plane| self.stage_plane(truth::NAME, plane)).collect();
         let counts = [
             ("triangles", truth.tally.triangles),
             ("fragments", truth.tally.fragments),
@@ -95,7 +93,7 @@ impl Drawing<'_> {
             ("wide_pixels", truth.tally.wide_pixels),
         ];
         Ok(RunResult {
-            technique: TRUTH.into(),
+            technique: truth::NAME.into(),
             parameters: ByName::from_pairs([
                 ("width", Value::from(budget.width)),
                 ("depth", Value::from(budget.depth)),

@@ -5,8 +5,8 @@ use super::*;
 use crate::footprint::Footprints;
 use crate::scene::file::SceneFile;
 use crate::scene::{
-    Cap, Color, Feature, Fill, Join, Layer, Line, Outline, OutlineMode, Posts, Rule, Scene, Shape, Style, Surface,
-    Width,
+    Cap, Color, Feature, Fill, Join, Layer, Line, Outline, OutlineMode, Posts, Rule, Scene, Shape, Style,
+    Surface, Width,
 };
 use crate::space::Plan;
 use crate::truth::{Budget, pixel_size};
@@ -121,7 +121,8 @@ fn scene(dice: &mut Dice) -> (Scene, Surface) {
         let steps = (DVec2::X * 12.5, DVec2::Y * 12.5);
         Surface::Grid(Posts::new((5, 5), Plan::new(-25.0, -25.0), steps, heights).unwrap())
     } else {
-        let corners = [(-30.0, -30.0), (30.0, -30.0), (30.0, 30.0), (-30.0, 30.0)].map(|(x, y)| Plan::new(x, y));
+        let corners =
+            [(-30.0, -30.0), (30.0, -30.0), (30.0, 30.0), (-30.0, 30.0)].map(|(x, y)| Plan::new(x, y));
         let inner = points(dice, 8);
         let all = corners.into_iter().chain(inner);
         Surface::Points(all.map(|p| World::new(p.x, p.y, dice.between(0.0, 15.0))).collect())
@@ -158,7 +159,11 @@ fn ray(frame: &ViewFrame, at: [f64; 2]) -> (V3, V3) {
     let pixel = rational(frame.lens().pixel());
     let x = (rational(at[0]) - half(frame.width())) * pixel.clone();
     let y = (half(frame.height()) - rational(at[1])) * pixel;
-    let offset = plus_times(&plus_times(&[zero(), zero(), zero()], &vector(frame.right()), &x), &vector(frame.up()), &y);
+    let offset = plus_times(
+        &plus_times(&[zero(), zero(), zero()], &vector(frame.right()), &x),
+        &vector(frame.up()),
+        &y,
+    );
     let (eye, forward) = (vector(frame.eye().to_vec()), vector(frame.forward()));
     let one = R::ONE;
     match frame.lens() {
@@ -305,7 +310,8 @@ fn in_join(a: &V2, b: &V2, c: &V2, half: &R, join: Join, p: &V2) -> bool {
     // v = alpha n1 + beta n2 with unit normals: alpha + beta <= half, alpha = share1 * sqrt(q1), beta = share2 * sqrt(q2).
     let whole = perp(&m1, &m2);
     let (share1, share2) = (perp(&v, &m2) / whole.clone(), perp(&m1, &v) / whole);
-    let rest = square(half.clone()) - square(share1.clone()) * q1.clone() - square(share2.clone()) * q2.clone();
+    let rest =
+        square(half.clone()) - square(share1.clone()) * q1.clone() - square(share2.clone()) * q2.clone();
     let twice = rational(4.0) * square(share1) * square(share2) * q1 * q2;
     rest >= zero() && twice <= square(rest)
 }
@@ -330,9 +336,9 @@ fn in_stroke(points: &[Plan], is_ring: bool, line: &Line, frame: &ViewFrame, see
     let count = chain.len();
     let is_square = line.cap == Cap::Square && !is_ring;
     let segments = chain.windows(2).enumerate();
-    let in_segment = segments
-        .clone()
-        .any(|(k, s)| in_rectangle(&s[0], &s[1], &half, (is_square && k == 0, is_square && k + 2 == count), p));
+    let in_segment = segments.clone().any(|(k, s)| {
+        in_rectangle(&s[0], &s[1], &half, (is_square && k == 0, is_square && k + 2 == count), p)
+    });
     let in_corner = chain.windows(3).any(|s| in_join(&s[0], &s[1], &s[2], &half, line.join, p))
         || (is_ring && in_join(&chain[count - 2], &chain[0], &chain[1], &half, line.join, p));
     let ends = [&chain[0], &chain[count - 1]];
@@ -392,7 +398,8 @@ fn violations(seed: u64, count: usize) -> Vec<String> {
     while judged < count {
         let at_seed = dice.0;
         let (scene, surface) = scene(&mut dice);
-        let (Ok(mesh), Ok(frame)) = (Mesh::new(surface, scene.diagonal), scene.camera.view(&scene.image)) else {
+        let (Ok(mesh), Ok(frame)) = (Mesh::new(surface, scene.diagonal), scene.camera.view(&scene.image))
+        else {
             continue;
         };
         let size = pixel_size(&mesh, &frame);
@@ -406,7 +413,8 @@ fn violations(seed: u64, count: usize) -> Vec<String> {
         for (x, y) in (0..9).flat_map(|y| (0..12).map(move |x| (x, y))) {
             work.block([x, y], 1, &all);
             let sky = work.sight.sky.iter().map(|shape| (*shape, None, Vec::new()));
-            let seen = work.refinery.claims().into_iter().map(|(shape, facet, claims)| (shape, Some(facet), claims));
+            let seen =
+                work.refinery.claims().into_iter().map(|(shape, facet, claims)| (shape, Some(facet), claims));
             for (shape, facet, claims) in sky.chain(seen) {
                 let piece = work.pieces.of(shape);
                 if dice.below(8) > 0 && claims.is_empty() && facet.is_some() {
@@ -459,7 +467,9 @@ fn judge(
 }
 
 fn violations_on_all_threads(count: usize) -> Vec<String> {
-    let found = crate::parallel::map_indices(64, |k| violations(0x5eed_0000 + (k as u64) * 0x1_0000_0001, count / 64));
+    let found = crate::parallel::map_indices(64, |k| {
+        violations(0x5eed_0000 + (k as u64) * 0x1_0000_0001, count / 64)
+    });
     found.concat()
 }
 
