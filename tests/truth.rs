@@ -8,6 +8,7 @@ use drapery::scene::{
     Surface, TechniqueSettings, Width,
 };
 use drapery::space::{Plan, World};
+use drapery::technique::{self, FrameOptions, Kind, Stage};
 use drapery::terrain::Mesh;
 use drapery::truth::{Budget, Truth, certify};
 use glam::{DVec2, DVec3};
@@ -571,6 +572,30 @@ mod brute_force {
             // Jittered samples do better than independent ones (0.5 / 16 a pixel), and have no bias.
             assert!((square / values).sqrt() < 0.5 / N as f64, "scene {k}: {}", (square / values).sqrt());
             assert!((signed / values).abs() < 0.003, "scene {k}: {}", signed / values);
+        }
+    }
+}
+
+#[test]
+fn the_pixels_centres_see_what_exact_visibility_says() {
+    use drapery::buffer::{Plane, Values};
+    for k in 0..4 {
+        let (mut scene, surface) = varied(k);
+        scene.layers.clear();
+        let truth = truth(&scene, surface.clone(), 1e-3);
+        let stage = Stage::new(scene, surface).unwrap();
+        let names = ["depth".to_owned(), "triangle".to_owned()];
+        let prepared = technique::prepare(Kind::InverseProjection, &stage).unwrap();
+        let frame = prepared.frame(&FrameOptions { tile: 16, buffers: &names, progress: &|_| {} }).unwrap();
+        let plane = |name: &str| frame.planes.iter().find(|p| p.name == name).unwrap();
+        assert_eq!(truth.plane("triangle").unwrap().values, plane("triangle").values, "scene {k}");
+        let (Some(Plane { values: Values::F64(own), .. }), Values::F64(theirs)) =
+            (truth.plane("depth"), &plane("depth").values)
+        else {
+            panic!("depths are doubles");
+        };
+        for (a, b) in own.iter().zip(theirs) {
+            assert!(a == b || (a - b).abs() < 1e-9 * b, "scene {k}: {a} and {b}");
         }
     }
 }

@@ -35,7 +35,7 @@ use crate::parallel;
 use crate::resolve::code_values;
 use crate::scene::Scene;
 use crate::space::{Lens, ViewFrame, World};
-use crate::terrain::Mesh;
+use crate::terrain::{Mesh, SKY};
 use setting::Setting;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use tile::{Frustum, TILE, TileTruth, certify_tile};
@@ -121,6 +121,15 @@ impl PixelCoverage {
     }
 }
 
+/// What a pixel's centre sees.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Centre {
+    /// The triangle's number.
+    pub triangle: u32,
+    /// The visible point, in plain doubles.
+    pub world: World,
+}
+
 /// What was done.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Tally {
@@ -145,6 +154,10 @@ pub struct Truth {
     pub estimate: Buffer<[f64; 4]>,
     /// What each item covers of each pixel, when the budget asks for it.
     pub coverage: Option<Buffer<PixelCoverage>>,
+    /// What each pixel's centre sees; `None`: the sky.
+    pub centres: Buffer<Option<Centre>>,
+    /// The centres' view depths, metres; infinite in the sky.
+    pub depth: Buffer<f64>,
     /// What was done.
     pub tally: Tally,
     /// Bytes of the footprints and their index.
@@ -170,19 +183,27 @@ impl Truth {
         &self.items
     }
 
-    /// The names of the buffers that [`Truth::plane`] gives.
-    pub const BUFFERS: [&'static str; 3] = ["lo", "hi", "color"];
+    /// The names of the buffers that [`Truth::plane`] gives, from the first stage to the last.
+    pub const BUFFERS: [&'static str; 6] = ["depth", "triangle", "plan", "lo", "hi", "color"];
 
     /// A buffer by its name.
     pub fn plane(&self, name: &str) -> Option<Plane> {
-        let (name, buffer) = match name {
-            "lo" => ("lo", &self.low),
-            "hi" => ("hi", &self.high),
-            "color" => ("color", &self.estimate),
-            _ => return None,
+        let colors = |buffer: &Buffer<[f64; 4]>| (4, Values::F64(buffer.values().as_flattened().to_vec()));
+        let centres = || self.centres.values().iter();
+        let index = Self::BUFFERS.iter().position(|known| *known == name)?;
+        let (components, values) = match name {
+            "depth" => (1, Values::F64(self.depth.values().to_vec())),
+            "triangle" => (1, Values::U32(centres().map(|c| c.map_or(SKY, |c| c.triangle)).collect())),
+            "plan" => {
+                let plan = |c: &Option<Centre>| c.map_or([f64::INFINITY; 2], |c| [c.world.x, c.world.y]);
+                (2, Values::F64(centres().flat_map(plan).collect()))
+            }
+            "lo" => colors(&self.low),
+            "hi" => colors(&self.high),
+            _ => colors(&self.estimate),
         };
-        let values = Values::F64(buffer.values().as_flattened().to_vec());
-        Some(Plane { name, width: buffer.width(), height: buffer.height(), components: 4, values })
+        let (width, height) = (self.estimate.width(), self.estimate.height());
+        Some(Plane { name: Self::BUFFERS[index], width, height, components, values })
     }
 }
 
@@ -210,17 +231,19 @@ pub fn certify(
         progress((done.fetch_add(1, Ordering::Relaxed) + 1) as f64 / (columns * rows) as f64);
         (corner, size, tile)
     });
-    assembled(tiles, (width, height), &footprints, budget)
+    assembled(tiles, view, &footprints, budget)
 }
 
 /// The tiles as one picture.
 fn assembled(
     tiles: Vec<([usize; 2], [usize; 2], TileTruth)>,
-    (width, height): (usize, usize),
+    view: &ViewFrame,
     footprints: &Footprints,
     budget: &Budget,
 ) -> Truth {
+    let (width, height) = (view.width(), view.height());
     let count = width * height;
+    let mut centres = vec![None; count];
     let mut bounds = [vec![[0.0; 4]; count], vec![[0.0; 4]; count], vec![[0.0; 4]; count]];
     let mut coverage = if budget.coverage { vec![PixelCoverage::default(); count] } else { Vec::new() };
     let mut tally = Tally::default();
@@ -230,6 +253,7 @@ fn assembled(
             for (bound, color) in bounds.iter_mut().zip(colors) {
                 bound[at] = *color;
             }
+            centres[at] = tile.centres[k];
             let is_wide = (0..4).any(|c| colors[1][c] - colors[0][c] > budget.width);
             tally.wide_pixels += u64::from(is_wide);
             if let Some(of_pixel) = tile.coverage.get_mut(k) {
@@ -241,10 +265,13 @@ fn assembled(
         tally.pieces += tile.tally.pieces;
     }
     let [low, high, estimate] = bounds.map(|values| Buffer::from_values(width, height, values));
+    let depth = centres.iter().map(|c: &Option<Centre>| c.map_or(f64::INFINITY, |c| view.depth(c.world)));
     Truth {
         low,
         high,
         estimate,
+        depth: Buffer::from_values(width, height, depth.collect()),
+        centres: Buffer::from_values(width, height, centres),
         coverage: budget.coverage.then(|| Buffer::from_values(width, height, coverage)),
         tally,
         structure_bytes: footprints.bytes(),

@@ -108,3 +108,9 @@ pub(super) fn middle(piece: &[[f64; 2]]) -> [f64; 2] {
     let [x, y] = piece.iter().fold([0.0, 0.0], |[x, y], p| [x + p[0], y + p[1]]);
     [x / piece.len() as f64, y / piece.len() as f64]
 }
+
+/// Whether a convex piece holds a point, its border included.
+pub(super) fn holds(piece: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
+    let next = piece.iter().cycle().skip(1);
+    piece.iter().zip(next).all(|(a, b)| (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]) >= 0.0)
+}

@@ -1,11 +1,11 @@
 //! The triangles of a tile, and the tile's pixels.
 
 use super::facet::{Facet, TileRays};
-use super::polygon::Pieces;
+use super::polygon::{self, Pieces};
 use super::refine::{Pixel, Refinery};
 use super::setting::Setting;
 use super::visible::Sight;
-use super::{PixelCoverage, Tally};
+use super::{Centre, PixelCoverage, Tally};
 use crate::space::{Lens, PlanBox, ViewFrame, World};
 use crate::terrain::{Mesh, Node};
 use glam::DVec3;
@@ -86,6 +86,7 @@ impl Frustum {
 pub(super) struct TileTruth {
     pub(super) colors: Vec<[[f64; 4]; 3]>,
     pub(super) coverage: Vec<PixelCoverage>,
+    pub(super) centres: Vec<Option<Centre>>,
     pub(super) tally: Tally,
 }
 
@@ -184,6 +185,7 @@ impl<'a> Work<'a> {
         let out = TileTruth {
             colors: vec![[[0.0; 4]; 3]; count],
             coverage: vec![PixelCoverage::default(); kept],
+            centres: vec![None; count],
             tally: Tally { triangles: facets.len() as u64, ..Tally::default() },
         };
         let (pieces, sight, refinery) = (Pieces::default(), Sight::default(), Refinery::default());
@@ -218,10 +220,21 @@ impl<'a> Work<'a> {
         let colors = self.refinery.refine(&pixel, &mut self.pieces, &self.sight);
         let index = y * self.size[0] + x;
         self.out.colors[index] = colors;
+        self.out.centres[index] = self.centre(corner);
         self.out.tally.fragments += self.sight.fragments.len() as u64;
         if self.setting.budget.coverage {
             self.out.coverage[index] = self.refinery.coverage();
         }
+    }
+
+    /// What the pixel's centre sees; where triangles meet there, one of them.
+    fn centre(&self, pixel: [f64; 2]) -> Option<Centre> {
+        const CENTRE: [f64; 2] = [0.5, 0.5];
+        let mut fragments = self.sight.fragments.iter();
+        let fragment = fragments.find(|f| polygon::holds(self.pieces.of(f.shape), CENTRE))?;
+        let facet = &self.facets[fragment.facet as usize];
+        let (world, _) = facet.hit(&self.rays, pixel.map(|v| v + 0.5));
+        Some(Centre { triangle: facet.id, world })
     }
 
     /// Finds what a square of a pixel sees.
