@@ -143,8 +143,10 @@ impl Refinery {
         self.clear(sight.slop);
         let mut mean = Mean::NOTHING;
         for sky in &sight.sky {
-            mean.add(&PaintRange::exact(pixel.setting.sky), pieces.area(*sky));
-            self.slop += ROUNDING;
+            let area = pieces.area(*sky);
+            mean.add(&PaintRange::exact(pixel.setting.sky), area);
+            // A speck may lie wholly in the doubtful strip of a border.
+            self.slop += ROUNDING + if area < SPECK { area } else { 0.0 };
         }
         for fragment in &sight.fragments {
             self.look(pixel, pieces, Piece::new(fragment, pieces.area(fragment.shape)), &mut mean);

@@ -6,16 +6,18 @@ use super::refine::{Pixel, Refinery};
 use super::setting::Setting;
 use super::visible::Sight;
 use super::{Centre, PixelCoverage, Tally};
+use crate::math;
 use crate::space::{Lens, PlanBox, ViewFrame, World};
-use crate::terrain::{Mesh, Node};
+use crate::terrain::{Bounds, Mesh, Node};
 use glam::DVec3;
+use std::ops::Range;
 
-/// Side of a tile in pixels: a power of two, so that it halves down to pixels.
+/// Side of a tile in pixels: a multiple of [`BLOCK`].
 pub(super) const TILE: usize = 32;
 
-/// A square with more triangles than this is quartered, down to a sixteenth of a pixel.
+/// A pixel's square with more triangles than this is quartered, down to an eighth of a pixel.
 const MOST_TRIANGLES: usize = 24;
-const SMALLEST: f64 = 1.0 / 16.0;
+const SMALLEST: f64 = 1.0 / 8.0;
 
 /// The half spaces of what a rectangle of the screen sees: through the eye, or along the view.
 #[derive(Debug)]
@@ -90,10 +92,26 @@ pub(super) struct TileTruth {
     pub(super) tally: Tally,
 }
 
+/// A leaf of the terrain's hierarchy as a tile sees it.
+#[derive(Debug)]
+struct Leaf {
+    node: Node,
+    /// A box of the tile around what is seen of it.
+    from: [f64; 2],
+    to: [f64; 2],
+    /// No point of it is nearer (as [`Facet::nearness`]).
+    nearest: f64,
+    /// Its facets among the tile's, once one of its pixels needed them.
+    facets: Option<Range<u32>>,
+}
+
 /// A tile at work.
 struct Work<'a> {
     setting: &'a Setting<'a>,
+    mesh: &'a Mesh,
     rays: TileRays,
+    /// Nearest first.
+    leaves: Vec<Leaf>,
     facets: Vec<Facet>,
     /// The tile's pixels that are in the picture.
     size: [usize; 2],
@@ -111,35 +129,82 @@ pub(super) fn certify_tile(
     (corner, size): ([usize; 2], [usize; 2]),
 ) -> TileTruth {
     let mut work = Work::new(setting, mesh, frame, (corner, size));
-    let all = work.all();
-    work.block([0, 0], TILE, &all);
+    for y in (0..size[1]).step_by(BLOCK) {
+        for x in (0..size[0]).step_by(BLOCK) {
+            work.block([x, y]);
+        }
+    }
     work.out.tally.pieces = work.refinery.pieces;
+    work.out.tally.triangles = work.facets.len() as u64;
     work.out
 }
 
-/// The triangles that a tile may see.
-fn gather(mesh: &Mesh, frustum: &Frustum, rays: &TileRays, node: Node, out: &mut Vec<Facet>) {
-    if !mesh.bounds(node).is_some_and(|b| frustum.meets(b.center, &b.axes)) {
+/// The leaves that a tile may see.
+fn gather(mesh: &Mesh, frustum: &Frustum, view: (&ViewFrame, [f64; 2]), node: Node, out: &mut Vec<Leaf>) {
+    let Some(bounds) = mesh.bounds(node).filter(|b| frustum.meets(b.center, &b.axes)) else {
         return;
-    }
-    if node.level > 0 {
-        return mesh.for_each_child(node, |child| gather(mesh, frustum, rays, child, out));
-    }
-    let mut offer = |id: u32| {
-        let facet = mesh.triangle(id).and_then(|corners| Facet::new(rays, id, corners));
-        out.extend(facet.filter(|facet| may_cover(facet, [0.0, 0.0], rays.span)));
     };
-    match mesh {
-        Mesh::Grid(grid) => {
-            let (columns, rows) = grid.cells(node);
-            for (i, j) in rows.flat_map(|j| columns.clone().map(move |i| (i, j))) {
-                let first = grid.first_triangle(i, j);
-                offer(first);
-                offer(first + 1);
+    if node.level > 0 {
+        return mesh.for_each_child(node, |child| gather(mesh, frustum, view, child, out));
+    }
+    out.push(Leaf::new(node, &bounds, view));
+}
+
+impl Leaf {
+    fn new(node: Node, bounds: &Bounds, (frame, corner): (&ViewFrame, [f64; 2])) -> Self {
+        let everywhere = ([f64::NEG_INFINITY; 2], [f64::INFINITY; 2]);
+        let mut leaf = Self { node, from: everywhere.1, to: everywhere.0, nearest: f64::INFINITY, facets: None };
+        let mut least = f64::INFINITY;
+        for k in 0..8 {
+            let sign = |bit: u32| if k >> bit & 1 == 0 { -1.0 } else { 1.0 };
+            let [a, b, c] = bounds.axes;
+            let p = bounds.center + (a * sign(0) + b * sign(1) + c * sign(2));
+            let depth = frame.depth(p);
+            least = if depth < least { depth } else { least };
+            for (axis, at) in frame.screen_from_world(p).map_or([f64::NAN; 2], |s| [s.x, s.y]).into_iter().enumerate() {
+                leaf.from[axis] = math::min(at - corner[axis] - LEAF_MARGIN, leaf.from[axis]);
+                leaf.to[axis] = math::max(at - corner[axis] + LEAF_MARGIN, leaf.to[axis]);
             }
         }
-        Mesh::Tin(tin) => tin.leaf(node).for_each(offer),
+        let size = bounds.center.to_vec().abs().max_element() + frame.eye().to_vec().abs().max_element();
+        // Too near for rounding to stay below the margin, or behind the eye: it may be anywhere.
+        if least <= NEAR_SHARE * size && matches!(frame.lens(), Lens::Central { .. }) {
+            (leaf.from, leaf.to) = everywhere;
+            return leaf;
+        }
+        leaf.nearest = match frame.lens() {
+            Lens::Central { .. } => 1.0 / least * (1.0 + 1e-6),
+            Lens::Parallel { .. } => -least + NEAR_SHARE * size,
+        };
+        leaf
     }
+
+    /// Whether a square may see some of it.
+    fn meets(&self, [x, y]: [f64; 2], side: f64) -> bool {
+        self.from[0] <= x + side && self.to[0] >= x && self.from[1] <= y + side && self.to[1] >= y
+    }
+}
+
+/// What is added around a leaf's box on the screen, pixels: far more than the rounding of its place.
+const LEAF_MARGIN: f64 = 1e-2;
+
+/// View depths below this share of the coordinates are too near to trust a box's place on the screen.
+const NEAR_SHARE: f64 = 1e-6;
+
+/// Side of a block of pixels that open the terrain's leaves together.
+const BLOCK: usize = 8;
+
+/// Triangles that a block's first look takes; each further look takes twice as many.
+const FIRST_LOOK: usize = 512;
+
+/// A block of pixels at work.
+struct Block<'a> {
+    /// Its first pixel.
+    corner: [usize; 2],
+    /// The leaves that have not been opened, nearest first.
+    rest: &'a [usize],
+    /// Which of its pixels are not done.
+    open: &'a mut [[bool; BLOCK]; BLOCK],
 }
 
 /// Whether a facet may cover some of a square.
@@ -171,51 +236,106 @@ fn narrowed(facets: &[Facet], from: &[u32], corner: [f64; 2], side: f64) -> Vec<
 impl<'a> Work<'a> {
     fn new(
         setting: &'a Setting<'a>,
-        mesh: &Mesh,
+        mesh: &'a Mesh,
         frame: &ViewFrame,
         (corner, size): ([usize; 2], [usize; 2]),
     ) -> Self {
         let start = corner.map(|v| v as f64);
         let rays = TileRays::new(frame, start, TILE as f64);
         let frustum = Frustum::new(frame, start, [start[0] + size[0] as f64, start[1] + size[1] as f64]);
-        let mut facets = Vec::new();
-        gather(mesh, &frustum, &rays, mesh.root(), &mut facets);
+        let mut leaves = Vec::new();
+        gather(mesh, &frustum, (frame, start), mesh.root(), &mut leaves);
+        leaves.sort_by(|a, b| b.nearest.total_cmp(&a.nearest));
         let count = size[0] * size[1];
         let kept = if setting.budget.coverage { count } else { 0 };
         let out = TileTruth {
             colors: vec![[[0.0; 4]; 3]; count],
             coverage: vec![PixelCoverage::default(); kept],
             centres: vec![None; count],
-            tally: Tally { triangles: facets.len() as u64, ..Tally::default() },
+            tally: Tally::default(),
         };
         let (pieces, sight, refinery) = (Pieces::default(), Sight::default(), Refinery::default());
-        Self { setting, rays, facets, size, pieces, sight, refinery, out }
+        Self { setting, mesh, rays, leaves, facets: Vec::new(), size, pieces, sight, refinery, out }
     }
 
-    fn all(&self) -> Vec<u32> {
-        (0..self.facets.len() as u32).collect()
+    /// Does the pixels of a block: opens leaves, nearest first, until each pixel is covered before the next one.
+    fn block(&mut self, [x, y]: [usize; 2]) {
+        let corner = [x as f64, y as f64];
+        let near: Vec<usize> =
+            (0..self.leaves.len()).filter(|&k| self.leaves[k].meets(corner, BLOCK as f64)).collect();
+        let mut open = [[true; BLOCK]; BLOCK];
+        let (mut look, mut seen, mut facets) = (FIRST_LOOK, 0, Vec::new());
+        loop {
+            while seen < near.len() && facets.len() < look {
+                facets.extend(self.facets_of(near[seen]));
+                seen += 1;
+            }
+            let rest = &near[seen..];
+            self.squares(&mut Block { corner: [x, y], rest, open: &mut open }, [0, 0], BLOCK, &facets);
+            if rest.is_empty() {
+                return;
+            }
+            look *= 2;
+        }
     }
 
-    /// Does the pixels of a block, which sees some of these facets.
-    fn block(&mut self, [x, y]: [usize; 2], side: usize, from: &[u32]) {
-        if x >= self.size[0] || y >= self.size[1] {
+    /// The facets of a leaf, made when they are first asked for.
+    fn facets_of(&mut self, leaf: usize) -> Range<u32> {
+        if let Some(facets) = &self.leaves[leaf].facets {
+            return facets.clone();
+        }
+        let first = self.facets.len() as u32;
+        let (mesh, rays, out) = (self.mesh, &self.rays, &mut self.facets);
+        let mut offer = |id: u32| {
+            let facet = mesh.triangle(id).and_then(|corners| Facet::new(rays, id, corners));
+            out.extend(facet.filter(|facet| may_cover(facet, [0.0, 0.0], rays.span)));
+        };
+        let node = self.leaves[leaf].node;
+        match mesh {
+            Mesh::Grid(grid) => {
+                let (columns, rows) = grid.cells(node);
+                for (i, j) in rows.flat_map(|j| columns.clone().map(move |i| (i, j))) {
+                    let first = grid.first_triangle(i, j);
+                    offer(first);
+                    offer(first + 1);
+                }
+            }
+            Mesh::Tin(tin) => tin.leaf(node).for_each(offer),
+        }
+        let facets = first..self.facets.len() as u32;
+        self.leaves[leaf].facets = Some(facets.clone());
+        facets
+    }
+
+    /// Does those open pixels of a square of a block that these facets cover.
+    fn squares(&mut self, block: &mut Block, [x, y]: [usize; 2], side: usize, from: &[u32]) {
+        let at = [block.corner[0] + x, block.corner[1] + y];
+        let is_open = block.open[y..y + side].iter().any(|row| row[x..x + side].contains(&true));
+        if !is_open || at[0] >= self.size[0] || at[1] >= self.size[1] {
             return;
         }
-        let near = narrowed(&self.facets, from, [x as f64, y as f64], side as f64);
+        let near = narrowed(&self.facets, from, [at[0] as f64, at[1] as f64], side as f64);
         if side == 1 {
-            return self.pixel([x, y], &near);
+            block.open[y][x] = !self.pixel(at, &near, block.rest);
+            return;
         }
         let half = side / 2;
         for (dx, dy) in [(0, 0), (half, 0), (0, half), (half, half)] {
-            self.block([x + dx, y + dy], half, &near);
+            self.squares(block, [x + dx, y + dy], half, &near);
         }
     }
 
-    fn pixel(&mut self, [x, y]: [usize; 2], near: &[u32]) {
+    /// Does a pixel that sees some of these facets, unless more may be seen of the leaves that have not been opened: returns
+    /// whether it is done.
+    fn pixel(&mut self, [x, y]: [usize; 2], near: &[u32], rest: &[usize]) -> bool {
         self.pieces.clear();
         self.sight.clear();
         let corner = [x as f64, y as f64];
         self.square(corner, [0.0, 0.0], 1.0, near);
+        let next = rest.iter().map(|&k| &self.leaves[k]).find(|leaf| leaf.meets(corner, 1.0));
+        if next.is_some_and(|leaf| !self.sight.hides(leaf.nearest)) {
+            return false;
+        }
         let pixel = Pixel { setting: self.setting, rays: &self.rays, facets: &self.facets, corner };
         let colors = self.refinery.refine(&pixel, &mut self.pieces, &self.sight);
         let index = y * self.size[0] + x;
@@ -225,6 +345,7 @@ impl<'a> Work<'a> {
         if self.setting.budget.coverage {
             self.out.coverage[index] = self.refinery.coverage();
         }
+        true
     }
 
     /// What the pixel's centre sees; where triangles meet there, one of them.

@@ -30,7 +30,8 @@ pub(super) struct Sight {
     pub(super) sky: Vec<Polygon>,
     /// Area that is doubtful.
     pub(super) slop: f64,
-    offered: Vec<Offered>,
+    /// The triangles of the square in hand, nearest first.
+    order: Vec<(f64, u32)>,
     /// Where the fragments and the sky of the square in hand begin.
     first_fragment: usize,
     first_sky: usize,
@@ -64,23 +65,23 @@ impl Sight {
         near: &[u32],
         (pixel, corner, side): ([f64; 2], [f64; 2], f64),
     ) {
-        self.offered.clear();
         let at = [pixel[0] + corner[0], pixel[1] + corner[1]];
-        self.offered.extend(near.iter().map(|&k| Offered::new(k, &facets[k as usize], pixel, (at, side))));
-        self.offered.sort_unstable_by(|a, b| {
-            b.nearest
-                .total_cmp(&a.nearest)
-                .then(facets[a.facet as usize].id.cmp(&facets[b.facet as usize].id))
+        let mut order = std::mem::take(&mut self.order);
+        order.clear();
+        order.extend(near.iter().map(|&k| (facets[k as usize].nearness_range(at, side).1, k)));
+        order.sort_unstable_by(|a, b| {
+            let id = |k: u32| facets[k as usize].id;
+            b.0.total_cmp(&a.0).then(id(a.1).cmp(&id(b.1)))
         });
         (self.first_fragment, self.first_sky) = (self.fragments.len(), self.sky.len());
         let square = pieces.square(corner, side);
         self.sky.push(square);
         let mut farthest = f64::INFINITY;
-        for k in 0..self.offered.len() {
-            let offered = self.offered[k];
-            if self.sky.len() == self.first_sky && offered.nearest < farthest {
+        for &(nearest, k) in &order {
+            if self.sky.len() == self.first_sky && nearest < farthest {
                 break;
             }
+            let offered = Offered::new(k, &facets[k as usize], pixel, nearest);
             if offered.nearest >= farthest {
                 self.hide(pieces, &offered);
             }
@@ -89,6 +90,12 @@ impl Sight {
                 .iter()
                 .fold(f64::INFINITY, |least, f| if f.farthest < least { f.farthest } else { least });
         }
+        self.order = order;
+    }
+
+    /// Whether nothing that comes no nearer than this can be seen.
+    pub(super) fn hides(&self, nearest: f64) -> bool {
+        self.sky.is_empty() && self.fragments.iter().all(|fragment| fragment.farthest > nearest)
     }
 
     /// Gives a triangle what it hides of fragments already laid down.
@@ -240,7 +247,7 @@ enum Order {
 }
 
 impl Offered {
-    fn new(k: u32, facet: &Facet, pixel: [f64; 2], (corner, side): ([f64; 2], f64)) -> Self {
+    fn new(k: u32, facet: &Facet, pixel: [f64; 2], nearest: f64) -> Self {
         let bounds = facet.bounds();
         let first = bounds[0].seen_from(pixel).line();
         let mut sides = [first; MOST_BOUNDS];
@@ -252,7 +259,7 @@ impl Offered {
             sides,
             count: bounds.len(),
             nearness: facet.nearness.seen_from(pixel),
-            nearest: facet.nearness_range(corner, side).1,
+            nearest,
         }
     }
 }

@@ -9,6 +9,8 @@ use crate::scene::{
     Surface, Width,
 };
 use crate::space::Plan;
+use crate::truth::polygon::Polygon;
+use crate::truth::visible::SPECK;
 use crate::truth::{Budget, pixel_size};
 use dashu::rational::Relaxed;
 use glam::DVec2;
@@ -409,10 +411,12 @@ fn violations(seed: u64, count: usize) -> Vec<String> {
         let triangles: Vec<(u32, [World; 3])> =
             (0..mesh.triangle_ids()).filter_map(|id| Some((id, mesh.triangle(id)?))).collect();
         let mut work = Work::new(&setting, &mesh, &frame, ([0, 0], [12, 9]));
-        let all = work.all();
+        let all: Vec<u32> = (0..work.leaves.len()).flat_map(|leaf| work.facets_of(leaf)).collect();
         for (x, y) in (0..9).flat_map(|y| (0..12).map(move |x| (x, y))) {
-            work.block([x, y], 1, &all);
-            let sky = work.sight.sky.iter().map(|shape| (*shape, None, Vec::new()));
+            let near = narrowed(&work.facets, &all, [x as f64, y as f64], 1.0);
+            assert!(work.pixel([x, y], &near, &[]));
+            let of_size = |shape: &&Polygon| work.pieces.area(**shape) >= SPECK;
+            let sky = work.sight.sky.iter().filter(of_size).map(|shape| (*shape, None, Vec::new()));
             let seen =
                 work.refinery.claims().into_iter().map(|(shape, facet, claims)| (shape, Some(facet), claims));
             for (shape, facet, claims) in sky.chain(seen) {
