@@ -45,6 +45,7 @@ pub mod predicate;
 pub mod raster;
 pub mod report;
 pub mod resolve;
+pub mod sampling;
 pub mod scene;
 pub mod source;
 pub mod space;
