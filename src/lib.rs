@@ -8,7 +8,8 @@
 //! 4. [`raster`] and [`visibility`] find, exactly, which triangle each sample sees, and where;
 //! 5. [`technique`] draws, each beside its paper; [`resolve`] composes colours;
 //! 6. [`output`] writes pictures, buffers and numbers;
-//! 7. [`compare`] says how far a picture is from what is expected.
+//! 7. [`compare`] says how far a picture is from what is expected;
+//! 8. [`report`] sets that against time, beside the [`truth`] and plain supersampling ([`sampling`]).
 //!
 //! ```
 //! use drapery::scene::file::SceneFile;

@@ -25,6 +25,17 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ),
     ("output", &["buffer"]),
     ("compare", &["buffer"]),
+    ("interval", &[]),
+    ("footprint", &["scene", "space", "predicate", "interval", "parallel"]),
+    (
+        "truth",
+        &["footprint", "interval", "resolve", "terrain", "scene", "space", "predicate", "parallel", "buffer"],
+    ),
+    (
+        "sampling",
+        &["visibility", "footprint", "resolve", "raster", "terrain", "scene", "space", "parallel", "buffer"],
+    ),
+    ("report", &["truth", "technique", "compare", "output", "buffer"]),
 ];
 const ANYONE: &[&str] = &["error", "math", "Error", "Result", "Position"];
 

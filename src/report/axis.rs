@@ -59,7 +59,7 @@ impl LogAxis {
 
     /// The grid lines: 1 to 9 times each power of ten. Words are at powers of ten, and on an axis of few of them at 2 and 5 times too.
     pub(super) fn ticks(&self) -> Vec<Tick> {
-        let is_short = self.high / self.low < 150.0;
+        let is_short = self.high / self.low < 1500.0;
         let mut ticks = Vec::new();
         for exponent in exponent_below(self.low)..=exponent_below(self.high) {
             for digit in 1..=9 {

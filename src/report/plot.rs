@@ -4,12 +4,12 @@ use super::axis::{LogAxis, duration, short};
 use super::{Metric, Run, SUPERSAMPLING, SceneReport, TRUTH};
 use maud::{Markup, PreEscaped, html};
 
-const WIDTH: f64 = 960.0;
+const WIDTH: f64 = 1040.0;
 const HEIGHT: f64 = 560.0;
 /// The plot's rectangle in the picture: left, top, right, bottom.
-const FIELD: [f64; 4] = [74.0, 26.0, 700.0, 496.0];
+const FIELD: [f64; 4] = [74.0, 26.0, 724.0, 496.0];
 /// Where the legend begins.
-const LEGEND: [f64; 2] = [724.0, 40.0];
+const LEGEND: [f64; 2] = [752.0, 40.0];
 
 /// How rounding to 8-bit code values alone can move a channel.
 const ROUNDING: f64 = 1.0 / 510.0;
@@ -27,12 +27,11 @@ font:13px system-ui,-apple-system,'Segoe UI',Roboto,'Helvetica Neue',sans-serif}
 .plot .paper{fill:var(--paper)}.plot text{fill:var(--soft)}.plot .strong{fill:var(--ink)}.plot .tag{font-size:11px}
 .plot .grid{stroke:var(--grid);fill:none}.plot .faint{stroke:var(--faint);fill:none}
 .plot .frame{stroke:var(--soft);fill:none}
-.plot .front{stroke:var(--ink);stroke-width:1.5;fill:none;opacity:.55}
+.plot .front{stroke:var(--ink);stroke-width:4;stroke-linejoin:round;fill:none;opacity:.16}
 .plot .limit{stroke:var(--soft);stroke-dasharray:2 4;fill:none}
 .plot .s{stroke:var(--c);fill:none;stroke-width:1.6;opacity:.75}
 .plot .bar{stroke:var(--c);stroke-width:1.2;fill:none;opacity:.8}
-.plot .m{stroke:var(--c);fill:var(--c);stroke-width:1.8}.plot .m.open{fill:var(--paper)}
-.plot .ring{stroke:var(--ink);fill:none;stroke-width:1.2;opacity:.8}
+.plot .m{stroke:var(--paper);fill:var(--c);stroke-width:.8}.plot .m.open{stroke:var(--c);fill:var(--paper);stroke-width:1.8}
 .plot .halo{paint-order:stroke;stroke:var(--paper);stroke-width:3px}
 ";
 
@@ -95,7 +94,7 @@ pub fn svg(scene: &SceneReport, metric: Metric) -> String {
             (front(&axes, &scene.runs))
             @for one in &series { (one.lines(&axes)) }
             @for one in &series { (one.marks(&axes)) }
-            @for one in &series { (one.tags(&axes)) }
+            (tags(&axes, &series, &scene.runs))
             (legend(&series))
         }
     };
@@ -164,16 +163,15 @@ impl<'a> Series<'a> {
 
     /// A mark for each run, with the spread of its times and what it is when one points at it.
     fn marks(&self, axes: &Axes) -> Markup {
+        // The scene's own settings lie above the others.
+        let own = self.runs.iter().filter(|run| run.is_own);
         html! {
             g style={ "--c:" (self.color) } {
-                @for run in &self.runs {
+                @for run in self.runs.iter().filter(|run| !run.is_own).chain(own) {
                     @let [x, y] = axes.at(run);
                     g {
                         title { (told(run)) }
                         @if run.frame_ms.max > run.frame_ms.min { path.bar d=(bar(axes, run, y)) {} }
-                        @if run.on_front && axes.metric == Metric::Rmse {
-                            circle.ring cx=(fixed(x)) cy=(fixed(y)) r="8" {}
-                        }
                         path class=(if self.is_open { "m open" } else { "m" }) d=(self.mark_of(run).path(x, y)) {}
                     }
                 }
@@ -186,20 +184,47 @@ impl<'a> Series<'a> {
         if run.is_own { Mark::Star } else { self.mark }
     }
 
-    /// Names of points: all of a short line of supersampling, the ends of any other.
-    fn tags(&self, axes: &Axes) -> Markup {
+    /// The runs whose points are named: all of a short line of supersampling, the ends of any other.
+    fn named(&self) -> impl Iterator<Item = &'a Run> {
         let last = self.runs.len() - 1;
-        let is_named = |k: usize| match self.runs[k].technique.as_str() {
-            SUPERSAMPLING => self.runs.len() <= NAMED_POINTS,
-            _ => self.is_line && self.dash == "none" && (k == 0 || k == last),
+        let is_named = move |k: usize, run: &Run| match run.technique.as_str() {
+            SUPERSAMPLING => last < NAMED_POINTS,
+            _ => self.is_line && (k == 0 || k == last),
         };
-        html! {
-            @for (_, run) in self.runs.iter().enumerate().filter(|(k, _)| is_named(*k)) {
-                @let [x, y] = axes.at(run);
-                text.tag.halo x=(fixed(x + 9.0)) y=(fixed(y - 7.0)) style={ "fill:" (self.color) } { (run.varied[0]) }
-            }
+        self.runs.iter().enumerate().filter(move |(k, run)| is_named(*k, run)).map(|(_, run)| *run)
+    }
+}
+
+/// The names of points, where there is room for them.
+fn tags(axes: &Axes, all: &[Series], runs: &[Run]) -> Markup {
+    let marks: Vec<[f64; 4]> =
+        runs.iter().map(|run| axes.at(run)).map(|[x, y]| [x - 5.0, y - 5.0, x + 5.0, y + 5.0]).collect();
+    let mut taken: Vec<[f64; 4]> = Vec::new();
+    let mut tags = Vec::new();
+    for (one, run) in all.iter().flat_map(|one| one.named().map(move |run| (one, run))) {
+        let words = run.varied.first().map_or("", String::as_str);
+        let (width, [x, y]) = (6.4 * words.len() as f64, axes.at(run));
+        let places = [[9.0, -7.0], [9.0, 17.0], [-9.0 - width, -7.0], [-9.0 - width, 17.0]];
+        let boxed = places.map(|[dx, dy]| [x + dx, y + dy - 11.0, x + dx + width, y + dy + 2.0]);
+        let is_free = |place: &[f64; 4], others: &[[f64; 4]]| !others.iter().any(|other| meets(place, other));
+        let inside = |place: &&[f64; 4]| place[0] > FIELD[0] && is_free(place, &taken);
+        let free: Vec<&[f64; 4]> = boxed.iter().filter(inside).collect();
+        let best = free.iter().find(|place| is_free(place, &marks)).or(free.first());
+        if let Some(place) = best.copied().copied() {
+            taken.push(place);
+            tags.push((one.color.as_str(), words, place));
         }
     }
+    html! {
+        @for (color, words, [x, _, _, bottom]) in tags {
+            text.tag.halo x=(fixed(x)) y=(fixed(bottom - 2.0)) style={ "fill:" (color) } { (words) }
+        }
+    }
+}
+
+/// Whether two rectangles meet.
+fn meets(a: &[f64; 4], b: &[f64; 4]) -> bool {
+    a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3]
 }
 
 impl Mark {
@@ -321,7 +346,7 @@ fn legend(series: &[Series]) -> Markup {
             text x=(fixed(x + 34.0)) y=(fixed(y + 4.0)) { (one.name) }
         }
         path.m style="--c:var(--soft)" d=(Mark::Star.path(x + 13.0, row(n + 2))) {}
-        text x=(fixed(x + 34.0)) y=(fixed(row(n + 2) + 4.0)) { "settings of the scene; truth" }
+        text x=(fixed(x + 34.0)) y=(fixed(row(n + 2) + 4.0)) { "the scene's own settings" }
         path.front d=(polyline(&[[x, row(n) - 4.0], [x + 13.0, row(n) - 4.0], [x + 13.0, row(n) + 4.0], [x + 26.0, row(n) + 4.0]])) {}
         text x=(fixed(x + 34.0)) y=(fixed(row(n) + 4.0)) { "Pareto front" }
         path.frame d=(polyline(&[[x + 2.0, row(n + 1)], [x + 24.0, row(n + 1)]])) {}
@@ -340,4 +365,72 @@ fn polyline(points: &[[f64; 2]]) -> String {
 /// A coordinate to a hundredth.
 fn fixed(v: f64) -> String {
     format!("{v:.2}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::output::{ByName, SceneResult};
+    use crate::report::{Errors, Times};
+
+    fn run(technique: &str, varied: &str, line: Option<&str>, (ms, error): (f64, f64)) -> Run {
+        let error = Errors { max: error, mean: error, rmse: error, p99: error, over_one_code_value: 0.0, flip_mean: None };
+        Run {
+            technique: technique.into(),
+            varied: vec![varied.into()],
+            is_own: false,
+            line: line.map(Into::into),
+            parameters: ByName::default(),
+            device: ByName::default(),
+            prepare_ms: Times::of(vec![]),
+            frame_ms: Times::of(vec![ms, ms * 1.5]),
+            structure_bytes: 0,
+            counts: ByName::default(),
+            error,
+            is_rounded: true,
+            image_hash: String::new(),
+            on_front: false,
+        }
+    }
+
+    fn scene(runs: Vec<Run>) -> SceneReport {
+        let scene = SceneResult {
+            name: "a <b> & c".into(),
+            hash: String::new(),
+            plan_space: String::new(),
+            origin: [0.0; 2],
+        };
+        SceneReport { scene, width: 1, height: 1, notes: vec![], reference_width_max: 0.0, runs }
+    }
+
+    #[test]
+    fn lines_are_series_of_their_own_and_what_is_on_none_is_another() {
+        let runs = [
+            run(TRUTH, "", None, (9.0, 0.1)),
+            run("a", "n=1", Some("x=1"), (1.0, 0.5)),
+            run("a", "n=2", Some("x=1"), (2.0, 0.4)),
+            run("a", "n=1", Some("x=2"), (1.0, 0.3)),
+            run("a", "y=1", None, (1.0, 0.2)),
+        ];
+        let names: Vec<String> = series(&runs).into_iter().map(|one| one.name).collect();
+        assert_eq!(names, ["truth (half its width)", "a, x=1", "a, x=2", "a, other settings"]);
+        assert_ne!(series(&runs)[1].dash, series(&runs)[2].dash);
+    }
+
+    #[test]
+    fn a_plot_of_zero_errors_and_of_no_time_is_drawn_in_the_field() {
+        let svg = svg(&scene(vec![run("a", "", None, (0.0, 0.0)), run("b", "", None, (0.0, 0.0))]), Metric::Rmse);
+        assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
+        assert!(svg.contains("a &lt;b&gt; &amp; c"), "{svg}");
+    }
+
+    #[test]
+    fn the_front_is_a_staircase_from_the_top_to_the_right() {
+        let runs = vec![run("a", "", None, (1.0, 0.5)), run("b", "", None, (10.0, 0.1)), run("c", "", None, (20.0, 0.4))];
+        let axes = Axes { time: LogAxis::around(&[1.0, 20.0]), error: LogAxis::around(&[0.1, 0.5]), metric: Metric::Rmse };
+        let path = front(&axes, &runs).into_string();
+        let corners: Vec<&str> = path.split(['M', 'L']).skip(1).collect();
+        assert_eq!(corners.len(), 5, "{path}");
+        assert!(corners[0].ends_with(&fixed(FIELD[1])) && corners[4].starts_with(&fixed(FIELD[2])), "{path}");
+    }
 }

@@ -135,16 +135,21 @@ impl<'a> Sampler<'a> {
     /// The mean paint of a pixel's samples.
     fn pixel(&self, seen: &Seen, [x, y]: [usize; 2], nearby: &mut Nearby) -> Paint {
         let n = self.n;
-        let samples = || (y * n..(y + 1) * n).flat_map(|r| (x * n..(x + 1) * n).map(move |c| [c, r]));
-        let points = samples().map(|at| seen.plan_at(at)).filter(|at| at.is_finite());
+        let samples = (y * n..(y + 1) * n).flat_map(|r| (x * n..(x + 1) * n).map(move |c| [c, r]));
+        let points = samples.map(|at| seen.plan_at(at)).filter(|at| at.is_finite());
         let has_all = nearby.find(self.footprints, points);
         let mut sum = Paint::CLEAR;
-        for at in samples() {
-            if !has_all {
-                // The samples lie far apart: each has its own neighbourhood.
-                nearby.find_all(self.footprints, seen.plan_at(at));
+        for r in y * n..(y + 1) * n {
+            // Rows are summed first: fewer roundings.
+            let mut of_row = Paint::CLEAR;
+            for c in x * n..(x + 1) * n {
+                if !has_all {
+                    // The samples lie far apart: each has its own neighbourhood.
+                    nearby.find_all(self.footprints, seen.plan_at([c, r]));
+                }
+                of_row = of_row.plus(self.paint(seen, [c, r], nearby));
             }
-            sum = sum.plus(self.paint(seen, at, nearby));
+            sum = sum.plus(of_row);
         }
         sum.divided_by((n * n) as f64)
     }

@@ -45,7 +45,7 @@ fn many_samples_come_near_the_truth() {
     };
     let [one, four, sixteen] = [1, 4, 16].map(rmse);
     assert!(one > 0.02 && four < 0.3 * one && sixteen < 0.2 * four, "{one} {four} {sixteen}");
-    assert!(sixteen < 0.001, "{sixteen}");
+    assert!(sixteen < 0.002, "{sixteen}");
 }
 
 #[test]

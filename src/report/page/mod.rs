@@ -110,7 +110,7 @@ impl Section<'_> {
                     figure.plotted hidden[k > 0] {
                         (PreEscaped(plot::svg(self.scene, *metric)))
                         figcaption {
-                            "Down and left is better. Point at a mark for its numbers; ringed: no other run is as fast and as right. As a file: "
+                            "Down and left is better. Point at a mark for its numbers. As a file: "
                             a href=(self.plots[k]) { (self.plots[k]) }
                         }
                     }
@@ -195,7 +195,7 @@ fn footer() -> Markup {
             h3 { "How to read it" }
             dl {
                 dt { "truth" }
-                dd { "The certified intervals. As a run, its error is half the width of each interval: what its estimate may be off at most." }
+                dd { "The certified intervals. As a run, its error is half the width of each interval: what its estimate may be off at most. Where it is wide, the errors of others are the least that they can be." }
                 dt { "supersampling" }
                 dd { "The mean of n × n point samples a pixel: the plain competitor of the truth. Its error, like the truth's, is of values before they are rounded." }
                 dt { "techniques" }

@@ -14,7 +14,7 @@ const HEADS: [(&str, &str); 12] = [
     ("> 1/255", "share of pixels with a channel off by more than 1/255"),
     ("FLIP", "mean of FLIP against the truth's picture, for information"),
     ("frame", "median of the times of a frame; below it the shortest and the longest"),
-    ("prepare", "median of the times to build what does not depend on the camera"),
+    ("prepare", "median of the times to build what does not depend on the camera; point at one for the spread"),
     ("memory", "bytes of the technique's structures"),
     ("counts", "what was counted"),
 ];
@@ -48,7 +48,7 @@ fn row(run: &Run) -> Markup {
                 None => { td.n data-v="-1" { "—" } }
             }
             (time(&run.frame_ms))
-            (time(&run.prepare_ms))
+            (prepare(&run.prepare_ms))
             (number(run.structure_bytes as f64, size(run.structure_bytes)))
             td.n data-v=(run.counts.0.len()) { @if !run.counts.0.is_empty() {
                 details {
@@ -71,6 +71,12 @@ fn time(times: &Times) -> Markup {
             @if times.max > times.min { small { (duration(times.min)) " – " (duration(times.max)) } }
         }
     }
+}
+
+/// The time of preparing; what the truth and supersampling have none of.
+fn prepare(times: &Times) -> Markup {
+    let spread = format!("{} to {}", duration(times.min), duration(times.max));
+    html! { td.n data-v=(times.median) title=(spread) { @if times.max > 0.0 { (duration(times.median)) } @else { "—" } } }
 }
 
 /// Bytes in words.
