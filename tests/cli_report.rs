@@ -27,8 +27,15 @@ line = { color = "#ff7f00", width_m = 60.0 }
 "##;
 
 /// Columns and keys that hold times, or what follows from them.
-const OF_TIME: [&str; 7] =
-    ["frame_ms", "frame_ms_min", "frame_ms_max", "prepare_ms", "prepare_ms_min", "prepare_ms_max", "on_front"];
+const OF_TIME: [&str; 7] = [
+    "frame_ms",
+    "frame_ms_min",
+    "frame_ms_max",
+    "prepare_ms",
+    "prepare_ms_min",
+    "prepare_ms_max",
+    "on_front",
+];
 
 /// A folder with the scene, in which the program is called.
 struct Place(tempfile::TempDir);
@@ -181,7 +188,10 @@ fn a_setting_of_the_scene_is_the_one_that_is_marked() {
     let own: Vec<&Value> =
         runs.iter().filter(|r| r["technique"] == "inverse-projection" && r["is_own"] == true).collect();
     assert_eq!(own.len(), 1);
-    assert_eq!((&own[0]["parameters"]["samples"], &own[0]["device"]["precision"]), (&5.into(), &"f64".into()));
+    assert_eq!(
+        (&own[0]["parameters"]["samples"], &own[0]["device"]["precision"]),
+        (&5.into(), &"f64".into())
+    );
     let alone = |r: &&Value| r["varied"][0] == "point_in_polygon=winding";
     assert_eq!(runs.iter().find(alone).unwrap()["parameters"]["samples"], 5);
 }

@@ -43,7 +43,8 @@ impl Certified {
     /// Computes the truth so many times.
     pub(super) fn of(stage: &Stage, budget: &Budget, repeat: u32, bar: &Bar) -> Result<Self> {
         bar.start(TRUTH);
-        let once = || truth::certify(&stage.scene, &stage.mesh, &stage.view, budget, &|share| bar.done(share));
+        let once =
+            || truth::certify(&stage.scene, &stage.mesh, &stage.view, budget, &|share| bar.done(share));
         let (mut truth, first) = timed(|| Ok(once()))?;
         let mut times = vec![first];
         for _ in 1..repeat {

@@ -27,7 +27,7 @@ font:13px system-ui,-apple-system,'Segoe UI',Roboto,'Helvetica Neue',sans-serif}
 .plot .paper{fill:var(--paper)}.plot text{fill:var(--soft)}.plot .strong{fill:var(--ink)}.plot .tag{font-size:11px}
 .plot .grid{stroke:var(--grid);fill:none}.plot .faint{stroke:var(--faint);fill:none}
 .plot .frame{stroke:var(--soft);fill:none}
-.plot .front{stroke:var(--ink);stroke-width:4;stroke-linejoin:round;fill:none;opacity:.16}
+.plot .front{stroke:var(--ink);stroke-width:4;stroke-linejoin:round;fill:none;opacity:.22}
 .plot .limit{stroke:var(--soft);stroke-dasharray:2 4;fill:none}
 .plot .s{stroke:var(--c);fill:none;stroke-width:1.6;opacity:.75}
 .plot .bar{stroke:var(--c);stroke-width:1.2;fill:none;opacity:.8}
@@ -106,7 +106,10 @@ fn series(runs: &[Run]) -> Vec<Series<'_>> {
     let mut all: Vec<Series> = Vec::new();
     let mut techniques: Vec<&str> = Vec::new();
     for run in runs {
-        if !techniques.contains(&run.technique.as_str()) && run.technique != TRUTH && run.technique != SUPERSAMPLING {
+        if !techniques.contains(&run.technique.as_str())
+            && run.technique != TRUTH
+            && run.technique != SUPERSAMPLING
+        {
             techniques.push(&run.technique);
         }
         let number = techniques.iter().position(|name| *name == run.technique).unwrap_or(0);
@@ -320,7 +323,7 @@ fn grid(axes: &Axes) -> Markup {
         @if has_limit {
             @let y = axes.y(ROUNDING);
             path.limit d=(polyline(&[[left, y], [right, y]])) {}
-            text.tag.halo x=(fixed(right - 6.0)) y=(fixed(y - 5.0)) text-anchor="end" { "half an 8-bit code value" }
+            text.tag.halo x=(fixed(left + 6.0)) y=(fixed(y - 5.0)) { "half an 8-bit code value" }
         }
         path.frame d=(polyline(&[[left, top], [left, bottom], [right, bottom]])) {}
         text.strong x=(fixed(0.5 * (left + right))) y=(fixed(bottom + 46.0)) text-anchor="middle" { "time of a frame" }
@@ -374,7 +377,14 @@ mod tests {
     use crate::report::{Errors, Times};
 
     fn run(technique: &str, varied: &str, line: Option<&str>, (ms, error): (f64, f64)) -> Run {
-        let error = Errors { max: error, mean: error, rmse: error, p99: error, over_one_code_value: 0.0, flip_mean: None };
+        let error = Errors {
+            max: error,
+            mean: error,
+            rmse: error,
+            p99: error,
+            over_one_code_value: 0.0,
+            flip_mean: None,
+        };
         Run {
             technique: technique.into(),
             varied: vec![varied.into()],
@@ -419,15 +429,24 @@ mod tests {
 
     #[test]
     fn a_plot_of_zero_errors_and_of_no_time_is_drawn_in_the_field() {
-        let svg = svg(&scene(vec![run("a", "", None, (0.0, 0.0)), run("b", "", None, (0.0, 0.0))]), Metric::Rmse);
+        let svg =
+            svg(&scene(vec![run("a", "", None, (0.0, 0.0)), run("b", "", None, (0.0, 0.0))]), Metric::Rmse);
         assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
         assert!(svg.contains("a &lt;b&gt; &amp; c"), "{svg}");
     }
 
     #[test]
     fn the_front_is_a_staircase_from_the_top_to_the_right() {
-        let runs = vec![run("a", "", None, (1.0, 0.5)), run("b", "", None, (10.0, 0.1)), run("c", "", None, (20.0, 0.4))];
-        let axes = Axes { time: LogAxis::around(&[1.0, 20.0]), error: LogAxis::around(&[0.1, 0.5]), metric: Metric::Rmse };
+        let runs = vec![
+            run("a", "", None, (1.0, 0.5)),
+            run("b", "", None, (10.0, 0.1)),
+            run("c", "", None, (20.0, 0.4)),
+        ];
+        let axes = Axes {
+            time: LogAxis::around(&[1.0, 20.0]),
+            error: LogAxis::around(&[0.1, 0.5]),
+            metric: Metric::Rmse,
+        };
         let path = front(&axes, &runs).into_string();
         let corners: Vec<&str> = path.split(['M', 'L']).skip(1).collect();
         assert_eq!(corners.len(), 5, "{path}");

@@ -23,7 +23,8 @@ pub fn csv(report: &Report) -> String {
             }
         }
     }
-    let mut text = line(FIXED.iter().map(|t| (*t).to_owned()).chain(columns.iter().map(|(title, ..)| title.clone())));
+    let mut text =
+        line(FIXED.iter().map(|t| (*t).to_owned()).chain(columns.iter().map(|(title, ..)| title.clone())));
     for scene in &report.scenes {
         for run in &scene.runs {
             let more = columns.iter().map(|(_, name, of)| value(of(run), name));
@@ -108,7 +109,11 @@ fn line(cells: impl Iterator<Item = String>) -> String {
 
 /// A cell; quoted where it holds what would end it.
 fn escaped(cell: &str) -> String {
-    if cell.contains([',', '"', '\n', '\r']) { format!("\"{}\"", cell.replace('"', "\"\"")) } else { cell.to_owned() }
+    if cell.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", cell.replace('"', "\"\""))
+    } else {
+        cell.to_owned()
+    }
 }
 
 #[cfg(test)]

@@ -164,7 +164,8 @@ impl<'a> Sampler<'a> {
             let height = seen.sight.hit(column, row).map_or(0.0, |hit| hit.height);
             (World::new(plan.x, plan.y, height) - self.view.eye()).length()
         };
-        let holding = nearby.items().iter().filter(|item| nearby.holds(self.footprints, item, (plan, &from_eye)));
+        let holding =
+            nearby.items().iter().filter(|item| nearby.holds(self.footprints, item, (plan, &from_eye)));
         holding.fold(self.ground.at(id, plan), |below, item| {
             self.compositor.over(below, self.paints[item.number as usize])
         })

@@ -59,10 +59,9 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
     let scene = SceneInput::read(arguments.scene.as_deref(), &arguments.overrides)?;
     let batch = Batch::into(&arguments.output)?;
     let bar = Bar::new();
-    let runs =
-        parallel::with_threads(arguments.threads, || {
-            render(arguments, (&asked, &budget), &scene, batch, &bar)
-        })?;
+    let runs = parallel::with_threads(arguments.threads, || {
+        render(arguments, (&asked, &budget), &scene, batch, &bar)
+    })?;
     for run in runs.map_err(|error| scene.blame(error))? {
         bar.say(&told(arguments, &run));
     }

@@ -212,7 +212,9 @@ fn tries(variations: Vec<Variation>, input: &SceneInput) -> Result<Vec<Try>> {
         let is_same = |known: &Try| (known.technique, known.device) == (one.technique, one.device);
         match all.iter().position(is_same) {
             None => one.is_own = all.is_empty(),
-            Some(at) if all[at].is_own && all[at].variation.line.is_none() && one.variation.line.is_some() => {
+            Some(at)
+                if all[at].is_own && all[at].variation.line.is_none() && one.variation.line.is_some() =>
+            {
                 all.remove(at);
                 one.is_own = true;
             }

@@ -67,9 +67,8 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
     let bar = Bar::new();
     let mut measured = Vec::new();
     for input in &inputs {
-        let scene = parallel::with_threads(arguments.threads, || {
-            measure(input, &budget, arguments.repeat, &bar)
-        })?;
+        let scene =
+            parallel::with_threads(arguments.threads, || measure(input, &budget, arguments.repeat, &bar))?;
         measured.push(scene.map_err(|error| input.blame(error))?);
     }
     let (reports, exhibits) = measured.into_iter().map(|m| (m.report, m.exhibits)).unzip();
@@ -130,7 +129,8 @@ fn file_names(report: &Report) -> Vec<Vec<String>> {
 fn told(scene: &SceneReport) -> String {
     let mut front: Vec<_> = scene.runs.iter().filter(|run| run.on_front).collect();
     front.sort_by(|a, b| a.frame_ms.median.total_cmp(&b.frame_ms.median));
-    let mut text = format!("{}: {} runs; none is faster and more right than", scene.scene.name, scene.runs.len());
+    let mut text =
+        format!("{}: {} runs; none is faster and more right than", scene.scene.name, scene.runs.len());
     for run in front {
         text.push_str(&format!(
             "\n  {:>9.1} ms  rmse {:.6}  {}",
@@ -164,8 +164,13 @@ mod tests {
         let scenes = ["valley", "../up", "valley", "valley-2", "valley"].map(named).to_vec();
         let report = Report { schema: REPORT_SCHEMA, repeat: 1, scenes };
         let first: Vec<String> = file_names(&report).into_iter().map(|names| names[0].clone()).collect();
-        let expected =
-            ["valley-rmse.svg", "---up-rmse.svg", "valley-2-rmse.svg", "valley-2-2-rmse.svg", "valley-3-rmse.svg"];
+        let expected = [
+            "valley-rmse.svg",
+            "---up-rmse.svg",
+            "valley-2-rmse.svg",
+            "valley-2-2-rmse.svg",
+            "valley-3-rmse.svg",
+        ];
         assert_eq!(first, expected);
     }
 }

@@ -24,9 +24,8 @@ pub(super) struct Notable {
 impl Notable {
     /// Keeps a run's picture where it is notable.
     pub(super) fn offer(&mut self, run: &Run, picture: &Buffer<[u8; 4]>, difference: &Difference) {
-        let shown = || {
-            Some(Shown { run: run.clone(), picture: picture.clone(), difference: difference.clone() })
-        };
+        let shown =
+            || Some(Shown { run: run.clone(), picture: picture.clone(), difference: difference.clone() });
         let is_new = |known: &Option<Shown>, is_further: &dyn Fn(&Run) -> bool| {
             known.as_ref().is_none_or(|known| is_further(&known.run))
         };

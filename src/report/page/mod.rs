@@ -147,12 +147,14 @@ fn slider() -> Markup {
                     option value="8" { "8 : 1" }
                 } }
             }
-            div.view { div.stage {
-                img.a alt="";
-                img.b alt="";
-                div.edge {}
-            } }
-            input type="range" min="0" max="1000" value="500" aria-label="border between the two pictures";
+            div.frame {
+                div.view { div.stage {
+                    img.a alt="";
+                    img.b alt="";
+                    div.edge {}
+                } }
+                input type="range" min="0" max="1000" value="500" aria-label="border between the two pictures";
+            }
         }
     }
 }
@@ -160,7 +162,8 @@ fn slider() -> Markup {
 /// The scale of all heat maps.
 fn legend(scale: &[u8]) -> Markup {
     let place = |distance: f64| 100.0 * (1.0 + crate::math::ln(distance) / crate::math::ln(65535.0));
-    let marks = [(1e-4, "0.0001"), (1e-3, "0.001"), (1.0 / 255.0, "1/255"), (1e-2, "0.01"), (0.1, "0.1"), (1.0, "1")];
+    let marks =
+        [(1e-4, "0.0001"), (1e-3, "0.001"), (1.0 / 255.0, "1/255"), (1e-2, "0.01"), (0.1, "0.1"), (1.0, "1")];
     html! {
         div.scale {
             img src={ "data:image/png;base64," (base64(scale)) } alt="colours from small to large errors";

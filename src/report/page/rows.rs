@@ -14,7 +14,10 @@ const HEADS: [(&str, &str); 12] = [
     ("> 1/255", "share of pixels with a channel off by more than 1/255"),
     ("FLIP", "mean of FLIP against the truth's picture, for information"),
     ("frame", "median of the times of a frame; below it the shortest and the longest"),
-    ("prepare", "median of the times to build what does not depend on the camera; point at one for the spread"),
+    (
+        "prepare",
+        "median of the times to build what does not depend on the camera; point at one for the spread",
+    ),
     ("memory", "bytes of the technique's structures"),
     ("counts", "what was counted"),
 ];

@@ -58,10 +58,8 @@ impl Sweep {
             }
             for line in lines {
                 let name = words(&line).join(" ");
-                let on_line = |step: &Step| Variation {
-                    changes: [step, &line[..]].concat(),
-                    line: Some(name.clone()),
-                };
+                let on_line =
+                    |step: &Step| Variation { changes: [step, &line[..]].concat(), line: Some(name.clone()) };
                 all.extend(along.iter().map(on_line));
             }
         }
@@ -99,7 +97,10 @@ mod tests {
                 let changed = SceneFile::parse(SCENE, None, &changes).unwrap();
                 let plain = SceneFile::parse(SCENE, None, &[]).unwrap();
                 let is_default = (changed.technique, changed.device) == (plain.technique, plain.device);
-                assert!(!is_default || variation.changes.is_empty() || variation.line.is_some(), "{variation:?}");
+                assert!(
+                    !is_default || variation.changes.is_empty() || variation.line.is_some(),
+                    "{variation:?}"
+                );
             }
         }
     }
