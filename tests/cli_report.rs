@@ -111,9 +111,10 @@ fn a_report_has_all_its_files_and_a_row_for_every_setting() {
     let place = Place::new();
     let said = place.reported(&["tiny.toml", "--repeat", "1"]);
     assert!(said.contains("report.html") && said.contains("tiny: "), "{said}");
-    let plots = ["max", "mean", "over-one", "p99", "rmse"].map(|metric| format!("tiny-{metric}.svg"));
-    let expected: Vec<String> =
-        ["report.csv", "report.html", "report.json"].map(String::from).into_iter().chain(plots).collect();
+    let metrics = ["max", "mean", "over-one", "p99", "rmse"];
+    let plots = metrics.iter().flat_map(|m| [format!("tiny-{m}-techniques.svg"), format!("tiny-{m}.svg")]);
+    let pages = ["report.csv", "report.html", "report.json"].map(String::from);
+    let expected: Vec<String> = pages.into_iter().chain(plots).collect();
     assert_eq!(place.names("report"), expected);
 
     let runs = runs(&place.text("report/report.json"));

@@ -35,6 +35,49 @@ font:13px system-ui,-apple-system,'Segoe UI',Roboto,'Helvetica Neue',sans-serif}
 .plot .halo{paint-order:stroke;stroke:var(--paper);stroke-width:3px}
 ";
 
+/// Which plot of a scene.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct View {
+    /// What the upright axis shows.
+    pub metric: Metric,
+    /// Which runs are shown.
+    pub scope: Scope,
+}
+
+/// Which runs a plot shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Scope {
+    /// All.
+    All,
+    /// Without the truth and supersampling, whose slow frames press the others together.
+    Techniques,
+}
+
+impl Scope {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::All, Self::Techniques];
+}
+
+impl View {
+    /// Every plot of a scene, those of all runs first.
+    pub fn all() -> impl Iterator<Item = Self> {
+        let of = |scope| Metric::ALL.into_iter().map(move |metric| Self { metric, scope });
+        Scope::ALL.into_iter().flat_map(of)
+    }
+
+    /// A short name, for files.
+    pub fn name(self) -> String {
+        match self.scope {
+            Scope::All => self.metric.name().to_owned(),
+            Scope::Techniques => format!("{}-techniques", self.metric.name()),
+        }
+    }
+
+    fn shows(self, run: &Run) -> bool {
+        self.scope == Scope::All || (run.technique != TRUTH && run.technique != SUPERSAMPLING)
+    }
+}
+
 /// The shapes of marks, so that colour is never all that tells them apart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Mark {
@@ -77,24 +120,26 @@ impl Axes {
     }
 }
 
-/// The plot of a scene's runs by one metric: a whole SVG document, which may stand in a page as it is.
-pub fn svg(scene: &SceneReport, metric: Metric) -> String {
-    let times = scene.runs.iter().flat_map(|run| [run.frame_ms.min, run.frame_ms.median, run.frame_ms.max]);
+/// A plot of a scene's runs: a whole SVG document, which may stand in a page as it is.
+pub fn svg(scene: &SceneReport, view: View) -> String {
+    let metric = view.metric;
+    let runs: Vec<&Run> = scene.runs.iter().filter(|run| view.shows(run)).collect();
+    let times = runs.iter().flat_map(|run| [run.frame_ms.min, run.frame_ms.median, run.frame_ms.max]);
     // A frame that no clock could tell from nothing took a little.
     let times: Vec<f64> = times.map(|ms| crate::math::max(ms, 1e-3)).collect();
-    let errors: Vec<f64> = scene.runs.iter().map(|run| metric.of(&run.error)).collect();
+    let errors: Vec<f64> = runs.iter().map(|run| metric.of(&run.error)).collect();
     let axes = Axes { time: LogAxis::around(&times), error: LogAxis::around(&errors), metric };
-    let series = series(&scene.runs);
+    let series = series(&runs);
     let title = format!("{}: {} against the time of a frame", scene.scene.name, metric.title());
     let drawn = html! {
         svg.plot xmlns="http://www.w3.org/2000/svg" viewBox={ "0 0 " (WIDTH) " " (HEIGHT) } role="img" aria-label=(title) {
             style { (PreEscaped(STYLE)) }
             rect.paper width=(WIDTH) height=(HEIGHT) {}
             (grid(&axes))
-            (front(&axes, &scene.runs))
+            (front(&axes, &runs))
             @for one in &series { (one.lines(&axes)) }
             @for one in &series { (one.marks(&axes)) }
-            (tags(&axes, &series, &scene.runs))
+            (tags(&axes, &series, &runs))
             (legend(&series))
         }
     };
@@ -102,7 +147,7 @@ pub fn svg(scene: &SceneReport, metric: Metric) -> String {
 }
 
 /// The series in the order of their first runs.
-fn series(runs: &[Run]) -> Vec<Series<'_>> {
+fn series<'a>(runs: &[&'a Run]) -> Vec<Series<'a>> {
     let mut all: Vec<Series> = Vec::new();
     let mut techniques: Vec<&str> = Vec::new();
     for run in runs {
@@ -199,7 +244,7 @@ impl<'a> Series<'a> {
 }
 
 /// The names of points, where there is room for them.
-fn tags(axes: &Axes, all: &[Series], runs: &[Run]) -> Markup {
+fn tags(axes: &Axes, all: &[Series], runs: &[&Run]) -> Markup {
     let marks: Vec<[f64; 4]> =
         runs.iter().map(|run| axes.at(run)).map(|[x, y]| [x - 5.0, y - 5.0, x + 5.0, y + 5.0]).collect();
     let mut taken: Vec<[f64; 4]> = Vec::new();
@@ -283,7 +328,7 @@ fn bar(axes: &Axes, run: &Run, y: f64) -> String {
 }
 
 /// The front of the plot's own metric, as steps: everything right of and above it is beaten.
-fn front(axes: &Axes, runs: &[Run]) -> Markup {
+fn front(axes: &Axes, runs: &[&Run]) -> Markup {
     let points: Vec<[f64; 2]> =
         runs.iter().map(|run| [run.frame_ms.median, axes.metric.of(&run.error)]).collect();
     let mut steps: Vec<[f64; 2]> = Vec::new();
@@ -422,15 +467,17 @@ mod tests {
             run("a", "n=1", Some("x=2"), (1.0, 0.3)),
             run("a", "y=1", None, (1.0, 0.2)),
         ];
-        let names: Vec<String> = series(&runs).into_iter().map(|one| one.name).collect();
+        let names: Vec<String> =
+            series(&runs.iter().collect::<Vec<_>>()).into_iter().map(|one| one.name).collect();
         assert_eq!(names, ["truth (half its width)", "a, x=1", "a, x=2", "a, other settings"]);
-        assert_ne!(series(&runs)[1].dash, series(&runs)[2].dash);
+        let all: Vec<&Run> = runs.iter().collect();
+        assert_ne!(series(&all)[1].dash, series(&all)[2].dash);
     }
 
     #[test]
     fn a_plot_of_zero_errors_and_of_no_time_is_drawn_in_the_field() {
-        let svg =
-            svg(&scene(vec![run("a", "", None, (0.0, 0.0)), run("b", "", None, (0.0, 0.0))]), Metric::Rmse);
+        let view = View { metric: Metric::Rmse, scope: Scope::All };
+        let svg = svg(&scene(vec![run("a", "", None, (0.0, 0.0)), run("b", "", None, (0.0, 0.0))]), view);
         assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
         assert!(svg.contains("a &lt;b&gt; &amp; c"), "{svg}");
     }
@@ -447,7 +494,7 @@ mod tests {
             error: LogAxis::around(&[0.1, 0.5]),
             metric: Metric::Rmse,
         };
-        let path = front(&axes, &runs).into_string();
+        let path = front(&axes, &runs.iter().collect::<Vec<_>>()).into_string();
         let corners: Vec<&str> = path.split(['M', 'L']).skip(1).collect();
         assert_eq!(corners.len(), 5, "{path}");
         assert!(corners[0].ends_with(&fixed(FIELD[1])) && corners[4].starts_with(&fixed(FIELD[2])), "{path}");

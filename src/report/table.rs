@@ -4,34 +4,62 @@ use super::{Report, Run, SceneReport};
 use crate::output::ByName;
 use serde_json::Value;
 
+/// A column of values that only some runs have.
+struct Column<'a> {
+    title: String,
+    name: &'a str,
+    group: Group,
+}
+
+/// Where a column's values are found.
+#[derive(Debug, Clone, Copy)]
+enum Group {
+    Device,
+    Parameter,
+    Count,
+}
+
+impl Group {
+    fn of(self, run: &Run) -> &ByName {
+        match self {
+            Self::Device => &run.device,
+            Self::Parameter => &run.parameters,
+            Self::Count => &run.counts,
+        }
+    }
+}
+
 /// The text of the file (RFC 4180, lines end in a line feed): fixed columns, then one for each device setting, parameter and
 /// count that any run has.
 pub fn csv(report: &Report) -> String {
-    let named: Vec<(&str, fn(&Run) -> &ByName)> = vec![
-        ("device", |run| &run.device),
-        ("parameter", |run| &run.parameters),
-        ("count", |run| &run.counts),
-    ];
-    let mut columns: Vec<(String, &str, fn(&Run) -> &ByName)> = Vec::new();
-    for (prefix, of) in &named {
-        for run in report.scenes.iter().flat_map(|scene| &scene.runs) {
-            for (name, _) in &of(run).0 {
-                let title = format!("{prefix}.{name}");
-                if !columns.iter().any(|(known, ..)| *known == title) {
-                    columns.push((title, name, *of));
-                }
-            }
-        }
-    }
-    let mut text =
-        line(FIXED.iter().map(|t| (*t).to_owned()).chain(columns.iter().map(|(title, ..)| title.clone())));
+    let columns = columns(report);
+    let titles = FIXED.iter().map(|title| (*title).to_owned());
+    let mut text = line(titles.chain(columns.iter().map(|column| column.title.clone())));
     for scene in &report.scenes {
         for run in &scene.runs {
-            let more = columns.iter().map(|(_, name, of)| value(of(run), name));
+            let more = columns.iter().map(|column| value(column.group.of(run), column.name));
             text.push_str(&line(fixed(scene, run).into_iter().chain(more)));
         }
     }
     text
+}
+
+/// The columns after the fixed ones, in the order in which they are met.
+fn columns(report: &Report) -> Vec<Column<'_>> {
+    let mut columns: Vec<Column> = Vec::new();
+    for (prefix, group) in
+        [("device", Group::Device), ("parameter", Group::Parameter), ("count", Group::Count)]
+    {
+        for run in report.scenes.iter().flat_map(|scene| &scene.runs) {
+            for (name, _) in &group.of(run).0 {
+                let title = format!("{prefix}.{name}");
+                if !columns.iter().any(|known| known.title == title) {
+                    columns.push(Column { title, name, group });
+                }
+            }
+        }
+    }
+    columns
 }
 
 const FIXED: [&str; 25] = [

@@ -9,7 +9,8 @@ use super::scene_input::SceneInput;
 use super::stop::{Outcome, Status};
 use drapery::output::Batch;
 use drapery::report::page::{Section, page};
-use drapery::report::{Exhibit, Metric, REPORT_SCHEMA, Report, SceneReport, plot, table};
+use drapery::report::plot::{self, View};
+use drapery::report::{Exhibit, REPORT_SCHEMA, Report, SceneReport, table};
 use drapery::truth::Budget;
 use drapery::{Result, parallel};
 use measuring::{Measured, Measuring};
@@ -28,7 +29,7 @@ supersampling with 1, 4, 16, ... samples a pixel. Each row tells what differs fr
 it again.
 
 Writes DIR/report.html (one file, readable without a network), DIR/report.csv, DIR/report.json and the plots as
-DIR/SCENE-METRIC.svg: all of them, or none when something fails. All numbers but the times are the same in every run.
+DIR/NAME-METRIC.svg: all of them, or none when something fails. All numbers but the times are the same in every run.
 
 A whole sweep takes minutes: the truth and each setting are computed --repeat times.";
 
@@ -96,8 +97,8 @@ fn measure(input: &SceneInput, budget: &Budget, repeat: u32, bar: &Bar) -> Resul
 fn write(report: &Report, exhibits: Vec<Vec<Exhibit>>, mut batch: Batch) -> Result<()> {
     let names = file_names(report);
     for (scene, plots) in report.scenes.iter().zip(&names) {
-        for (metric, name) in Metric::ALL.iter().zip(plots) {
-            batch.stage(name, |to| to.write_all(plot::svg(scene, *metric).as_bytes()))?;
+        for (view, name) in View::all().zip(plots) {
+            batch.stage(name, |to| to.write_all(plot::svg(scene, view).as_bytes()))?;
         }
     }
     let parts = report.scenes.iter().zip(&exhibits).zip(&names);
@@ -121,7 +122,7 @@ fn file_names(report: &Report) -> Vec<Vec<String>> {
         let free = (1..).map(again).find(|name| !stems.contains(name));
         stems.push(free.unwrap_or(stem));
     }
-    let plots = |stem: &String| Metric::ALL.iter().map(|m| format!("{stem}-{}.svg", m.name())).collect();
+    let plots = |stem: &String| View::all().map(|view| format!("{stem}-{}.svg", view.name())).collect();
     stems.iter().map(plots).collect()
 }
 

@@ -3,7 +3,8 @@
 mod base64;
 mod rows;
 
-use super::{Exhibit, Metric, Report, SceneReport, exhibit, plot};
+use super::plot::{self, View};
+use super::{Exhibit, Metric, Report, SceneReport, exhibit};
 use crate::error::Result;
 use base64::base64;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
@@ -22,7 +23,7 @@ pub struct Section<'a> {
     pub scene: &'a SceneReport,
     /// The pictures, the most important first.
     pub exhibits: &'a [Exhibit],
-    /// The files of the plots, in the order of [`Metric::ALL`].
+    /// The files of the plots, in the order of [`View::all`].
     pub plots: &'a [String],
 }
 
@@ -32,7 +33,7 @@ pub struct Section<'a> {
 /// Internal errors only.
 pub fn page(report: &Report, sections: &[Section]) -> Result<String> {
     let scale = exhibit::scale()?;
-    let mut room = MOST_BYTES;
+    let (share, mut room) = (MOST_BYTES / sections.len().max(1), 0);
     let page = html! {
         (DOCTYPE)
         html lang="en" {
@@ -48,11 +49,12 @@ pub fn page(report: &Report, sections: &[Section]) -> Result<String> {
                     h1 { "Speed against error" }
                     p.lead {
                         "Every technique over its settings, measured against the certified truth. Error is the distance of a "
-                        "channel (0 to 1) from the interval that provably holds the right value; 0 inside it. Times are medians of "
-                        (report.repeat) (if report.repeat == 1 { " run" } else { " runs" }) ", with the shortest and the longest."
+                        "channel (0 to 1) from the interval that provably holds the right value; 0 inside it. "
+                        @if report.repeat == 1 { "Times are of one run." }
+                        @else { "Times are medians of " (report.repeat) " runs, with the shortest and the longest." }
                     }
                 }
-                @for section in sections { (section.markup(&mut room, &scale)) }
+                @for section in sections { (section.markup(&mut room, share, &scale)) }
                 (footer())
                 script { (PreEscaped(SCRIPT)) }
             }
@@ -67,8 +69,9 @@ fn names(report: &Report) -> String {
 }
 
 impl Section<'_> {
-    /// A scene; `room` is what is left of the bytes of pictures.
-    fn markup(&self, room: &mut usize, scale: &[u8]) -> Markup {
+    /// A scene; `room` is what the scenes before it left of their bytes of pictures, `share` its own.
+    fn markup(&self, room: &mut usize, share: usize, scale: &[u8]) -> Markup {
+        *room += share;
         let (scene, mut shown, mut left_out) = (self.scene, Vec::new(), Vec::new());
         for exhibit in self.exhibits {
             match room.checked_sub(exhibit.bytes()) {
@@ -97,24 +100,31 @@ impl Section<'_> {
         }
     }
 
-    /// A plot for each metric, the first to be seen first.
+    /// All plots, the first to be seen first.
     fn plots(&self) -> Markup {
         html! {
             div.plots {
-                div.tabs role="group" aria-label="which error" {
-                    @for (k, metric) in Metric::ALL.iter().enumerate() {
-                        button type="button" aria-pressed=(k == 0) { (metric.word()) }
-                    }
-                }
-                @for (k, metric) in Metric::ALL.iter().enumerate() {
+                (buttons("which error", &Metric::ALL.map(Metric::word)))
+                (buttons("which runs", &["all runs", "only techniques"]))
+                @for (k, (view, file)) in View::all().zip(self.plots).enumerate() {
                     figure.plotted hidden[k > 0] {
-                        (PreEscaped(plot::svg(self.scene, *metric)))
+                        (PreEscaped(plot::svg(self.scene, view)))
                         figcaption {
-                            "Down and left is better. Point at a mark for its numbers. As a file: "
-                            a href=(self.plots[k]) { (self.plots[k]) }
+                            "Down and left is better. Point at a mark for its numbers. As a file: " a href=(file) { (file) }
                         }
                     }
                 }
+            }
+        }
+    }
+}
+
+/// Buttons of which one is pressed, first the first.
+fn buttons(what: &str, words: &[&str]) -> Markup {
+    html! {
+        div.tabs role="group" aria-label=(what) {
+            @for (k, word) in words.iter().enumerate() {
+                button type="button" aria-pressed=(k == 0) { (word) }
             }
         }
     }

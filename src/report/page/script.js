@@ -1,11 +1,14 @@
 'use strict';
 for (const scene of document.querySelectorAll('section.scene')) {
-  const tabs = [...scene.querySelectorAll('.tabs button')];
+  const groups = [...scene.querySelectorAll('.tabs')].map(group => [...group.children]);
   const plots = [...scene.querySelectorAll('.plotted')];
-  tabs.forEach((tab, k) => tab.addEventListener('click', () => {
-    tabs.forEach((other, j) => other.setAttribute('aria-pressed', j === k));
-    plots.forEach((plot, j) => { plot.hidden = j !== k; });
-  }));
+  const pressed = groups.map(() => 0);
+  groups.forEach((buttons, g) => buttons.forEach((button, k) => button.addEventListener('click', () => {
+    pressed[g] = k;
+    buttons.forEach((other, j) => other.setAttribute('aria-pressed', j === k));
+    const shown = pressed[1] * groups[0].length + pressed[0];
+    plots.forEach((plot, j) => { plot.hidden = j !== shown; });
+  })));
 
   const table = scene.querySelector('table.runs');
   const body = table.tBodies[0];
