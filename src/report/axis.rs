@@ -21,6 +21,9 @@ pub(super) struct Tick {
     pub(super) is_decade: bool,
 }
 
+/// How much farther than its values an axis reaches at least.
+const ROOM: f64 = 1.12;
+
 /// The share of an axis that is kept for zeros, which have no logarithm.
 const ZERO_BAND: f64 = 0.08;
 
@@ -34,7 +37,7 @@ impl LogAxis {
         if most == 0.0 {
             return Self { low: 0.1, high: 1.0, has_zero };
         }
-        Self { low: round_down(least / 1.25), high: round_up(most * 1.25), has_zero }
+        Self { low: round_down(least / ROOM), high: round_up(most * ROOM), has_zero }
     }
 
     /// The place of a value, 0 to 1.
@@ -57,15 +60,20 @@ impl LogAxis {
         value > self.low && value < self.high
     }
 
-    /// The grid lines: 1 to 9 times each power of ten. Words are at powers of ten, and on an axis of few of them at 2 and 5 times too.
+    /// The grid lines: 1 to 9 times each power of ten. Words are at powers of ten, on a shorter axis at 2 and 5 times them too, and on
+    /// a very short one at all.
     pub(super) fn ticks(&self) -> Vec<Tick> {
-        let is_short = self.high / self.low < 1500.0;
+        let length = self.high / self.low;
         let mut ticks = Vec::new();
         for exponent in exponent_below(self.low)..=exponent_below(self.high) {
             for digit in 1..=9 {
                 let value = decimal(digit, exponent);
                 if value >= self.low && value <= self.high {
-                    let is_labelled = digit == 1 || (is_short && (digit == 2 || digit == 5));
+                    let is_labelled = match digit {
+                        1 => true,
+                        2 | 5 => length < 1500.0,
+                        _ => length < 5.0,
+                    };
                     ticks.push(Tick { value, is_labelled, is_decade: digit == 1 });
                 }
             }
@@ -92,19 +100,16 @@ fn exponent_below(value: f64) -> i32 {
     exponent
 }
 
-/// The largest 1, 2 or 5 times a power of ten at or below a value.
+/// The largest 1 to 9 times a power of ten at or below a value.
 fn round_down(value: f64) -> f64 {
     let exponent = exponent_below(value);
-    let candidates = [5, 2, 1].map(|digit| decimal(digit, exponent));
-    candidates.into_iter().find(|c| *c <= value).unwrap_or(value)
+    (1..=9).rev().map(|digit| decimal(digit, exponent)).find(|c| *c <= value).unwrap_or(value)
 }
 
-/// The smallest 1, 2 or 5 times a power of ten at or above a value.
+/// The smallest 1 to 10 times a power of ten at or above a value.
 fn round_up(value: f64) -> f64 {
     let exponent = exponent_below(value);
-    let candidates =
-        [decimal(1, exponent), decimal(2, exponent), decimal(5, exponent), decimal(1, exponent + 1)];
-    candidates.into_iter().find(|c| *c >= value).unwrap_or(value)
+    (1..=10).map(|digit| decimal(digit, exponent)).find(|c| *c >= value).unwrap_or(value)
 }
 
 /// Milliseconds in words: `20 ms`, `5 s`.
@@ -135,7 +140,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_axis_begins_and_ends_at_one_two_or_five() {
+    fn an_axis_begins_and_ends_at_a_grid_line() {
         let axis = LogAxis::around(&[0.0031, 0.4]);
         assert_eq!((axis.low, axis.high, axis.has_zero), (0.002, 0.5, false));
         assert_eq!((axis.place(0.002), axis.place(0.5)), (0.0, 1.0));
@@ -146,7 +151,7 @@ mod tests {
     fn powers_of_ten_are_exact_and_labelled() {
         let axis = LogAxis::around(&[0.002, 700.0]);
         let words: Vec<f64> = axis.ticks().iter().filter(|t| t.is_labelled).map(|t| t.value).collect();
-        assert_eq!(words, [0.001, 0.01, 0.1, 1.0, 10.0, 100.0, 1000.0]);
+        assert_eq!(words, [0.001, 0.01, 0.1, 1.0, 10.0, 100.0]);
         let first: Vec<f64> = axis.ticks().iter().take(3).map(|t| t.value).collect();
         assert_eq!(first, [0.001, 0.002, 0.003]);
     }
@@ -155,7 +160,9 @@ mod tests {
     fn a_short_axis_has_words_at_two_and_five() {
         let ticks = LogAxis::around(&[3.0, 30.0]).ticks();
         let words: Vec<f64> = ticks.iter().filter(|t| t.is_labelled).map(|t| t.value).collect();
-        assert_eq!(words, [2.0, 5.0, 10.0, 20.0, 50.0]);
+        assert_eq!(words, [2.0, 5.0, 10.0, 20.0]);
+        let ticks = LogAxis::around(&[0.35, 0.5]).ticks();
+        assert_eq!(ticks.iter().filter(|t| t.is_labelled).count(), ticks.len());
     }
 
     #[test]
