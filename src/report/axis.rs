@@ -175,6 +175,11 @@ mod tests {
     }
 
     #[test]
+    fn a_power_of_ten_has_its_own_exponent_whatever_its_logarithm_is_rounded_to() {
+        assert!((-30..=30).all(|k| exponent_below(decimal(1, k)) == k && exponent_below(decimal(9, k)) == k));
+    }
+
+    #[test]
     fn numbers_are_short() {
         let words = [0.0, 0.001, 0.012345, 1.5, 20.0, 123.45, 98765.4, 0.0000123].map(short);
         assert_eq!(words, ["0", "0.001", "0.0123", "1.5", "20", "123", "98765", "1.2e-5"]);
