@@ -9,6 +9,8 @@
 //! 5. [`technique`] draws, each beside its paper; [`resolve`] composes colours;
 //! 6. [`output`] writes pictures, buffers and numbers;
 //! 7. [`compare`] says how far a picture is from what is expected; [`golden`] replays what is known.
+//! 7. [`compare`] says how far a picture is from what is expected;
+//! 8. [`report`] sets that against time, beside the [`truth`] and plain supersampling ([`sampling`]).
 //!
 //! ```
 //! use drapery::scene::file::SceneFile;
@@ -46,6 +48,7 @@ pub mod predicate;
 pub mod raster;
 pub mod report;
 pub mod resolve;
+pub mod sampling;
 pub mod scene;
 pub mod source;
 pub mod space;

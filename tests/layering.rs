@@ -32,11 +32,15 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
         &["footprint", "interval", "resolve", "terrain", "scene", "space", "predicate", "parallel", "buffer"],
     ),
     ("compare", &["buffer"]),
-    ("report", &["truth", "compare", "buffer"]),
     (
         "golden",
         &["technique", "truth", "visibility", "source", "scene", "compare", "output", "parallel", "buffer"],
     ),
+    (
+        "sampling",
+        &["visibility", "footprint", "resolve", "raster", "terrain", "scene", "space", "parallel", "buffer"],
+    ),
+    ("report", &["truth", "technique", "compare", "output", "buffer"]),
 ];
 const ANYONE: &[&str] = &["error", "math", "Error", "Result", "Position"];
 

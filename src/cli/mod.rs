@@ -8,9 +8,11 @@ mod compare;
 mod completions;
 mod golden;
 mod info;
+mod measure;
 mod new;
 mod refusal;
 mod render;
+mod report;
 mod scene_input;
 mod schema;
 mod stop;
@@ -26,6 +28,7 @@ Examples:
   drapery new dem.tif lakes.geojson roads.shp > scene.toml
   drapery render scene.toml -o pictures            every technique that applies, and the truth
   drapery render scene.toml -t truth -t clipmap --set image.width=600
+  drapery report scene.toml                        speed against error, as a page in report/
   drapery compare expected.png actual.png --tolerance 1/255
   drapery golden check
   drapery schema > scene.schema.json               for completion in an editor
@@ -51,6 +54,8 @@ struct Cli {
 enum Command {
     /// Render a scene by one technique or by all.
     Render(render::Arguments),
+    /// Compare every technique, over its settings, with the truth: error, time, memory.
+    Report(report::Arguments),
     /// Write a starter scene for your own files, commented, ready to render.
     New(new::Arguments),
     /// Judge a picture by another.
@@ -83,6 +88,7 @@ fn call() -> ExitCode {
 fn run(command: Command) -> Outcome {
     match command {
         Command::Render(arguments) => render::run(&arguments),
+        Command::Report(arguments) => report::run(&arguments),
         Command::New(arguments) => new::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Golden(arguments) => golden::run(&arguments),

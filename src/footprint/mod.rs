@@ -14,7 +14,7 @@ pub use box_tree::BoxTree;
 pub use primitive::{Convex, HalfPlane, MOST_SIDES, Primitive, Sides};
 
 use crate::scene::{Color, Feature, Layer, Line, OutlineMode, Rule, Shape, Width};
-use crate::space::{Plan, PlanBox};
+use crate::space::{Lens, Plan, PlanBox, ViewFrame};
 use area::Area;
 
 /// Vertices of a stroke nearer to each other than this are one vertex, metres: far below any width that can be seen, far above
@@ -89,6 +89,18 @@ pub struct PixelSize {
     pub eye: Option<crate::space::World>,
     /// The farthest that terrain lies above or below the eye, metres.
     pub height_span: f64,
+}
+
+impl PixelSize {
+    /// The size in a view of a terrain whose heights lie between two.
+    pub fn of(view: &ViewFrame, (low, high): (f64, f64)) -> Self {
+        let eye = view.eye();
+        let height_span = crate::math::max((high - eye.z).abs(), (low - eye.z).abs());
+        match view.lens() {
+            Lens::Central { pixel } => Self { pixel, eye: Some(eye), height_span },
+            Lens::Parallel { pixel } => Self { pixel, eye: None, height_span },
+        }
+    }
 }
 
 /// The items of a scene.

@@ -15,7 +15,7 @@ mod whole;
 pub use batch::Batch;
 pub use look::look;
 pub use npy::{Npy, absolute};
-pub use picture::write_png;
+pub use picture::{small_png, write_png};
 pub use result::{
     BufferResult, ByName, ErrorResult, ImageResult, RESULT_SCHEMA, RenderResult, RunResult, SceneResult,
 };

@@ -11,9 +11,23 @@ use std::io::{self, Write};
 /// # Errors
 /// Those of the writer, and a picture that PNG cannot hold.
 pub fn write_png(picture: &Buffer<[u8; 4]>, to: &mut dyn Write) -> io::Result<()> {
+    write(picture, CompressionType::Fast, to)
+}
+
+/// The bytes of a PNG that is to be carried around within another file: compressed for size.
+///
+/// # Errors
+/// As [`write_png`].
+pub fn small_png(picture: &Buffer<[u8; 4]>) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    write(picture, CompressionType::Default, &mut bytes)?;
+    Ok(bytes)
+}
+
+fn write(picture: &Buffer<[u8; 4]>, compression: CompressionType, to: &mut dyn Write) -> io::Result<()> {
     let size = |n: usize| u32::try_from(n).map_err(io::Error::other);
     let (width, height) = (size(picture.width())?, size(picture.height())?);
-    PngEncoder::new_with_quality(to, CompressionType::Fast, FilterType::Adaptive)
+    PngEncoder::new_with_quality(to, compression, FilterType::Adaptive)
         .write_image(picture.values().as_flattened(), width, height, ExtendedColorType::Rgba8)
         .map_err(io::Error::other)
 }
@@ -28,8 +42,10 @@ mod tests {
         let picture = Buffer::from_values(7, 5, values);
         let mut file = Vec::new();
         write_png(&picture, &mut file).unwrap();
-        let back = image::load_from_memory(&file).unwrap().into_rgba8();
-        assert_eq!(back.dimensions(), (7, 5));
-        assert_eq!(back.as_raw(), picture.values().as_flattened());
+        for file in [file, small_png(&picture).unwrap()] {
+            let back = image::load_from_memory(&file).unwrap().into_rgba8();
+            assert_eq!(back.dimensions(), (7, 5));
+            assert_eq!(back.as_raw(), picture.values().as_flattened());
+        }
     }
 }

@@ -108,6 +108,11 @@ impl Mesh {
         }
     }
 
+    /// The lowest and the highest that the terrain comes.
+    pub fn heights(&self) -> (f64, f64) {
+        self.bounds(self.root()).map_or((0.0, 0.0), |b| (b.center.z - b.axes[2].z, b.center.z + b.axes[2].z))
+    }
+
     /// Calls `visit` with each child of a node above level 0.
     #[inline]
     pub fn for_each_child(&self, node: Node, visit: impl FnMut(Node)) {

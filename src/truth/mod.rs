@@ -34,7 +34,7 @@ use crate::math;
 use crate::parallel;
 use crate::resolve::code_values;
 use crate::scene::Scene;
-use crate::space::{Lens, ViewFrame, World};
+use crate::space::{ViewFrame, World};
 use crate::terrain::{Mesh, SKY};
 use setting::Setting;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -215,7 +215,8 @@ pub fn certify(
     budget: &Budget,
     progress: &(dyn Fn(f64) + Sync),
 ) -> Truth {
-    let (size, heights) = (pixel_size(mesh, view), heights(mesh));
+    let heights = mesh.heights();
+    let size = PixelSize::of(view, heights);
     let (width, height) = (view.width(), view.height());
     let whole = Frustum::new(view, [0.0, 0.0], [width as f64, height as f64]);
     let bounds = mesh.plan_bounds();
@@ -276,21 +277,5 @@ fn assembled(
         tally,
         structure_bytes: footprints.bytes(),
         items: footprints.items().to_vec(),
-    }
-}
-
-/// The lowest and the highest that the terrain comes.
-fn heights(mesh: &Mesh) -> (f64, f64) {
-    mesh.bounds(mesh.root()).map_or((0.0, 0.0), |b| (b.center.z - b.axes[2].z, b.center.z + b.axes[2].z))
-}
-
-/// How widths in pixels become metres in a view.
-fn pixel_size(mesh: &Mesh, view: &ViewFrame) -> PixelSize {
-    let (low, high) = heights(mesh);
-    let World { z, .. } = view.eye();
-    let height_span = math::max((high - z).abs(), (low - z).abs());
-    match view.lens() {
-        Lens::Central { pixel } => PixelSize { pixel, eye: Some(view.eye()), height_span },
-        Lens::Parallel { pixel } => PixelSize { pixel, eye: None, height_span },
     }
 }

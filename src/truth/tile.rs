@@ -153,7 +153,8 @@ fn gather(mesh: &Mesh, frustum: &Frustum, view: (&ViewFrame, [f64; 2]), node: No
 impl Leaf {
     fn new(node: Node, bounds: &Bounds, (frame, corner): (&ViewFrame, [f64; 2])) -> Self {
         let everywhere = ([f64::NEG_INFINITY; 2], [f64::INFINITY; 2]);
-        let mut leaf = Self { node, from: everywhere.1, to: everywhere.0, nearest: f64::INFINITY, facets: None };
+        let mut leaf =
+            Self { node, from: everywhere.1, to: everywhere.0, nearest: f64::INFINITY, facets: None };
         let mut least = f64::INFINITY;
         for k in 0..8 {
             let sign = |bit: u32| if k >> bit & 1 == 0 { -1.0 } else { 1.0 };
@@ -161,7 +162,9 @@ impl Leaf {
             let p = bounds.center + (a * sign(0) + b * sign(1) + c * sign(2));
             let depth = frame.depth(p);
             least = if depth < least { depth } else { least };
-            for (axis, at) in frame.screen_from_world(p).map_or([f64::NAN; 2], |s| [s.x, s.y]).into_iter().enumerate() {
+            for (axis, at) in
+                frame.screen_from_world(p).map_or([f64::NAN; 2], |s| [s.x, s.y]).into_iter().enumerate()
+            {
                 leaf.from[axis] = math::min(at - corner[axis] - LEAF_MARGIN, leaf.from[axis]);
                 leaf.to[axis] = math::max(at - corner[axis] + LEAF_MARGIN, leaf.to[axis]);
             }

@@ -254,12 +254,6 @@ impl Offered {
         for (line, form) in sides[1..].iter_mut().zip(&bounds[1..]) {
             *line = form.seen_from(pixel).line();
         }
-        Self {
-            facet: k,
-            sides,
-            count: bounds.len(),
-            nearness: facet.nearness.seen_from(pixel),
-            nearest,
-        }
+        Self { facet: k, sides, count: bounds.len(), nearness: facet.nearness.seen_from(pixel), nearest }
     }
 }

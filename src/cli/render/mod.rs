@@ -4,15 +4,13 @@ mod draw;
 mod techniques;
 
 use super::bar::Bar;
-use super::refusal::harmless;
+use super::measure::{Certified, TruthArguments, scene_result};
 use super::scene_input::SceneInput;
 use super::stop::{Outcome, Status};
-use drapery::output::{Batch, RESULT_SCHEMA, RenderResult, RunResult, SceneResult};
-use drapery::scene::file::{SceneFile, TerrainSource};
-use drapery::technique::Stage;
+use drapery::output::{Batch, RESULT_SCHEMA, RenderResult, RunResult};
 use drapery::truth::Budget;
-use drapery::{Error, Result, parallel, source};
-use draw::{Certified, Drawing, Wish};
+use drapery::{Result, parallel};
+use draw::{Drawing, Wish};
 use std::path::PathBuf;
 use techniques::Asked;
 
@@ -55,25 +53,14 @@ pub(super) struct Arguments {
     truth: TruthArguments,
 }
 
-/// How exact the truth is; every run's error is its distance from it.
-#[derive(Debug, Clone, Copy, clap::Args)]
-pub(super) struct TruthArguments {
-    /// Refine each pixel of the truth until no channel's interval is wider than this (units of 1, not of 255).
-    #[arg(long = "truth-width", value_name = "W", default_value_t = Budget::default().width)]
-    width: f64,
-    /// Cut a pixel of the truth into at most 2^D pieces; what is open then stays in the interval.
-    #[arg(long = "truth-depth", value_name = "D", default_value_t = Budget::default().depth)]
-    depth: u32,
-}
-
 pub(super) fn run(arguments: &Arguments) -> Outcome {
     let asked = techniques::asked(&arguments.techniques)?;
-    let budget = Budget::new(arguments.truth.width, arguments.truth.depth)?;
+    let budget = arguments.truth.budget()?;
     let scene = SceneInput::read(arguments.scene.as_deref(), &arguments.overrides)?;
     let batch = Batch::into(&arguments.output)?;
     let bar = Bar::new();
     let runs = parallel::with_threads(arguments.threads, || {
-        render(arguments, (&asked, &budget), &scene.file, batch, &bar)
+        render(arguments, (&asked, &budget), &scene, batch, &bar)
     })?;
     for run in runs.map_err(|error| scene.blame(error))? {
         bar.say(&told(arguments, &run));
@@ -85,15 +72,11 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
 fn render(
     arguments: &Arguments,
     (asked, budget): (&Asked, &Budget),
-    file: &SceneFile,
+    input: &SceneInput,
     mut batch: Batch,
     bar: &Bar,
 ) -> Result<Vec<RunResult>> {
-    let (scene, surface) = source::load::load(file, &|what| bar.start(what))?;
-    for note in &scene.notes {
-        bar.say(&format!("note: {}", harmless(note)));
-    }
-    let stage = Stage::new(scene, surface).map_err(|error| of_terrain(error, file))?;
+    let stage = input.stage(bar)?;
     let kinds = techniques::applying(asked, &stage, bar)?;
     let wish = Wish {
         buffers: techniques::buffers(&arguments.buffers, asked.truth, &kinds, &stage)?,
@@ -108,7 +91,7 @@ fn render(
 
     let result = RenderResult {
         schema: RESULT_SCHEMA,
-        scene: scene_result(&stage, file),
+        scene: scene_result(&stage, &input.file),
         notes: stage.scene.notes.clone(),
         runs: runs?,
     };
@@ -116,28 +99,6 @@ fn render(
     batch.stage("result.json", |to| to.write_all(text.as_bytes()))?;
     batch.commit()?;
     Ok(result.runs)
-}
-
-fn scene_result(stage: &Stage, file: &SceneFile) -> SceneResult {
-    let scene = &stage.scene;
-    SceneResult {
-        name: scene.name.clone(),
-        hash: file.hash.clone(),
-        plan_space: scene.plan_space.clone(),
-        origin: scene.origin.to_array(),
-    }
-}
-
-/// An error of the terrain's surface: its file and the line that names it.
-fn of_terrain(error: Error, scene: &SceneFile) -> Error {
-    let TerrainSource::File(file) = &scene.terrain.source else {
-        return error;
-    };
-    let error = error.in_file(&file.path);
-    match file.position {
-        Some(position) => error.named_in(scene.path.as_deref(), position),
-        None => error,
-    }
 }
 
 /// A run in a line, for people.

@@ -1,6 +1,7 @@
 //! Which techniques a call asks for, and which buffers of theirs.
 
 use crate::cli::bar::Bar;
+use crate::cli::measure::applicable;
 use clap::ValueEnum;
 use drapery::technique::{self, Kind, Stage};
 use drapery::truth::Truth;
@@ -77,15 +78,7 @@ pub(super) fn applying(asked: &Asked, stage: &Stage, bar: &Bar) -> Result<Vec<Ki
         kinds.iter().try_for_each(|kind| technique::applies(*kind, stage))?;
         return Ok(kinds.clone());
     }
-    let mut kinds = Vec::new();
-    for kind in Kind::ALL {
-        match technique::applies(kind, stage) {
-            Ok(()) => kinds.push(kind),
-            Err(error) if error.is_internal() => return Err(error),
-            Err(error) => bar.say(&format!("note: {} is left out: {}", kind.name(), error.what())),
-        }
-    }
-    Ok(kinds)
+    applicable(stage, bar)
 }
 
 /// The buffers to make.

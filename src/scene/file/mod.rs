@@ -80,10 +80,18 @@ impl SceneFile {
     /// # Errors
     /// When it cannot be read, is not UTF-8, or [`SceneFile::parse`] refuses it.
     pub fn read(path: &Path, overrides: &[Override]) -> Result<SceneFile> {
-        let bytes = std::fs::read(path)
-            .map_err(|error| Error::new(format!("this scene file cannot be read: {error}")).in_file(path))?;
-        Self::parse(&decode(bytes, path)?, Some(path), overrides)
+        Self::parse(&text_of(path)?, Some(path), overrides)
     }
+}
+
+/// The text of a scene file, for [`SceneFile::parse`].
+///
+/// # Errors
+/// When it cannot be read or is not UTF-8.
+pub fn text_of(path: &Path) -> Result<String> {
+    let bytes = std::fs::read(path)
+        .map_err(|error| Error::new(format!("this scene file cannot be read: {error}")).in_file(path))?;
+    decode(bytes, path)
 }
 
 /// The bytes of a scene file as text.

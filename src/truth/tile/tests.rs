@@ -2,16 +2,16 @@
 //! hold the point is found again from the definitions of `docs/semantics.md`, without a rounding.
 
 use super::*;
-use crate::footprint::Footprints;
+use crate::footprint::{Footprints, PixelSize};
 use crate::scene::file::SceneFile;
 use crate::scene::{
     Cap, Color, Feature, Fill, Join, Layer, Line, Outline, OutlineMode, Posts, Rule, Scene, Shape, Style,
     Surface, Width,
 };
 use crate::space::Plan;
+use crate::truth::Budget;
 use crate::truth::polygon::Polygon;
 use crate::truth::visible::SPECK;
-use crate::truth::{Budget, pixel_size};
 use dashu::rational::Relaxed;
 use glam::DVec2;
 
@@ -404,7 +404,7 @@ fn violations(seed: u64, count: usize) -> Vec<String> {
         else {
             continue;
         };
-        let size = pixel_size(&mesh, &frame);
+        let size = PixelSize::of(&frame, mesh.heights());
         let footprints = Footprints::new(&scene.layers, size, &|_| true);
         let budget = Budget { width: 0.02, depth: 8, coverage: true };
         let setting = Setting::new(&scene, &mesh, (&footprints, size), budget);

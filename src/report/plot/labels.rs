@@ -1,0 +1,66 @@
+//! The words beside points, and the legend.
+
+use super::super::Run;
+use super::series::{Mark, Series};
+use super::{Axes, FIELD, fixed, polyline};
+use maud::{Markup, html};
+
+/// Where the legend begins.
+const LEGEND: [f64; 2] = [752.0, 40.0];
+
+/// The names of points, where there is room for them.
+pub(super) fn tags(axes: &Axes, all: &[Series], runs: &[&Run]) -> Markup {
+    let marks: Vec<[f64; 4]> =
+        runs.iter().map(|run| axes.at(run)).map(|[x, y]| [x - 5.0, y - 5.0, x + 5.0, y + 5.0]).collect();
+    let mut taken: Vec<[f64; 4]> = Vec::new();
+    let mut tags = Vec::new();
+    for (one, run) in all.iter().flat_map(|one| one.named().map(move |run| (one, run))) {
+        let words = run.varied.first().map_or("", String::as_str);
+        let (width, [x, y]) = (6.4 * words.len() as f64, axes.at(run));
+        let places = [[9.0, -7.0], [9.0, 17.0], [-9.0 - width, -7.0], [-9.0 - width, 17.0]];
+        let boxed = places.map(|[dx, dy]| [x + dx, y + dy - 11.0, x + dx + width, y + dy + 2.0]);
+        let is_free = |place: &[f64; 4], others: &[[f64; 4]]| !others.iter().any(|other| meets(place, other));
+        let inside = |place: &&[f64; 4]| place[0] > FIELD[0] && is_free(place, &taken);
+        let free: Vec<&[f64; 4]> = boxed.iter().filter(inside).collect();
+        let best = free.iter().find(|place| is_free(place, &marks)).or(free.first());
+        if let Some(place) = best.copied().copied() {
+            taken.push(place);
+            tags.push((one.color.as_str(), words, place));
+        }
+    }
+    html! {
+        @for (color, words, [x, _, _, bottom]) in tags {
+            text.tag.halo x=(fixed(x)) y=(fixed(bottom - 2.0)) style={ "fill:" (color) } { (words) }
+        }
+    }
+}
+
+/// Whether two rectangles meet.
+fn meets(a: &[f64; 4], b: &[f64; 4]) -> bool {
+    a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3]
+}
+
+/// What the marks and lines stand for.
+pub(super) fn legend(series: &[Series]) -> Markup {
+    let row = |k: usize| LEGEND[1] + 22.0 * k as f64;
+    let x = LEGEND[0];
+    let n = series.len();
+    html! {
+        @for (k, one) in series.iter().enumerate() {
+            @let y = row(k);
+            g style={ "--c:" (one.color) } {
+                @if one.is_line {
+                    path.s stroke-dasharray=(one.dash) d=(polyline(&[[x, y], [x + 26.0, y]])) {}
+                }
+                path class=(if one.is_open { "m open" } else { "m" }) d=(one.mark.path(x + 13.0, y)) {}
+            }
+            text x=(fixed(x + 34.0)) y=(fixed(y + 4.0)) { (one.name) }
+        }
+        path.m style="--c:var(--soft)" d=(Mark::Star.path(x + 13.0, row(n + 2))) {}
+        text x=(fixed(x + 34.0)) y=(fixed(row(n + 2) + 4.0)) { "the scene's own settings" }
+        path.front d=(polyline(&[[x, row(n) - 4.0], [x + 13.0, row(n) - 4.0], [x + 13.0, row(n) + 4.0], [x + 26.0, row(n) + 4.0]])) {}
+        text x=(fixed(x + 34.0)) y=(fixed(row(n) + 4.0)) { "Pareto front" }
+        path.frame d=(polyline(&[[x + 2.0, row(n + 1)], [x + 24.0, row(n + 1)]])) {}
+        text x=(fixed(x + 34.0)) y=(fixed(row(n + 1) + 4.0)) { "shortest to longest time" }
+    }
+}

@@ -1,0 +1,226 @@
+//! `drapery report` as a user or a script calls it: what it writes, what it says, and what it leaves when it fails.
+
+#![allow(clippy::unwrap_used, reason = "helpers of tests are no tests to the lint")]
+
+use drapery::report::sweep;
+use drapery::technique::Kind;
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+/// A small scene that every technique draws.
+const SCENE: &str = r##"
+schema = 1
+name = "tiny"
+image = { width = 48, height = 32 }
+camera = { eye = [0, -1800, 1500], target = [0, 0, 100] }
+terrain.generate = { kind = "fbm", seed = 3, posts = [33, 33], cell_m = 60.0, height_m = 200.0 }
+[[layer]]
+name = "lake"
+features = [{ polygon = [[-300, -400], [300, -400], [300, 200], [-300, 200]] }]
+fill = { color = "#3388ff", opacity = 0.6 }
+[[layer]]
+name = "road"
+features = [{ line = [[-800, -500], [800, 300]] }]
+line = { color = "#ff7f00", width_m = 60.0 }
+"##;
+
+/// Columns and keys that hold times, or what follows from them.
+const OF_TIME: [&str; 7] = [
+    "frame_ms",
+    "frame_ms_min",
+    "frame_ms_max",
+    "prepare_ms",
+    "prepare_ms_min",
+    "prepare_ms_max",
+    "on_front",
+];
+
+/// A folder with the scene, in which the program is called.
+struct Place(tempfile::TempDir);
+
+impl Place {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("tiny.toml"), SCENE).unwrap();
+        Self(folder)
+    }
+
+    fn path(&self) -> &Path {
+        self.0.path()
+    }
+
+    fn report(&self, arguments: &[&str]) -> Output {
+        let program = env!("CARGO_BIN_EXE_drapery");
+        Command::new(program).arg("report").args(arguments).current_dir(self.path()).output().unwrap()
+    }
+
+    /// A report that has to succeed.
+    fn reported(&self, arguments: &[&str]) -> String {
+        let output = self.report(arguments);
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.success(), "{said}");
+        assert!(output.stdout.is_empty());
+        said
+    }
+
+    /// A report that has to be refused.
+    fn refused(&self, arguments: &[&str]) -> String {
+        let output = self.report(arguments);
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(!self.path().join("report").exists());
+        said
+    }
+
+    fn text(&self, name: &str) -> String {
+        fs::read_to_string(self.path().join(name)).unwrap()
+    }
+
+    fn names(&self, folder: &str) -> Vec<String> {
+        let entries = fs::read_dir(self.path().join(folder)).unwrap();
+        let mut names: Vec<String> =
+            entries.map(|e| e.unwrap().file_name().to_string_lossy().into_owned()).collect();
+        names.sort();
+        names
+    }
+
+    /// The rows of a CSV file as maps from columns to cells (no cell here holds a comma).
+    fn rows(&self, name: &str) -> Vec<Vec<(String, String)>> {
+        let text = self.text(name);
+        let mut lines = text.lines();
+        let heads: Vec<&str> = lines.next().unwrap().split(',').collect();
+        let row = |line: &str| {
+            let cells: Vec<&str> = line.split(',').collect();
+            assert_eq!(cells.len(), heads.len(), "{line}");
+            heads.iter().zip(cells).map(|(h, c)| ((*h).to_owned(), c.to_owned())).collect()
+        };
+        lines.map(row).collect()
+    }
+}
+
+/// The runs of a report's first scene.
+fn runs(text: &str) -> Vec<Value> {
+    let value: Value = serde_json::from_str(text).unwrap();
+    value["scenes"][0]["runs"].as_array().unwrap().clone()
+}
+
+#[test]
+fn a_report_has_all_its_files_and_a_row_for_every_setting() {
+    let place = Place::new();
+    let said = place.reported(&["tiny.toml", "--repeat", "1"]);
+    assert!(said.contains("report.html") && said.contains("tiny: "), "{said}");
+    let metrics = ["max", "mean", "over-one", "p99", "rmse"];
+    let plots = metrics.iter().flat_map(|m| [format!("tiny-{m}-techniques.svg"), format!("tiny-{m}.svg")]);
+    let pages = ["report.csv", "report.html", "report.json"].map(String::from);
+    let expected: Vec<String> = pages.into_iter().chain(plots).collect();
+    assert_eq!(place.names("report"), expected);
+
+    let runs = runs(&place.text("report/report.json"));
+    let of = |name: &str| runs.iter().filter(|run| run["technique"] == name).count();
+    assert_eq!((of("truth"), of("supersampling")), (1, 7));
+    for kind in Kind::ALL {
+        // The scene's own settings are on a line, and in one row.
+        let tried = sweep::of(kind).variations().len();
+        assert!(of(kind.name()) + 1 >= tried, "{} of {tried}", of(kind.name()));
+        let own = runs.iter().filter(|run| run["technique"] == kind.name() && run["is_own"] == true);
+        assert_eq!(own.count(), 1);
+    }
+    assert_eq!(place.rows("report/report.csv").len(), runs.len());
+}
+
+#[test]
+fn everything_but_times_is_the_same_in_every_run() {
+    let place = Place::new();
+    place.reported(&["tiny.toml", "--repeat", "1", "-o", "a", "--threads", "1"]);
+    place.reported(&["tiny.toml", "--repeat", "2", "-o", "b", "--threads", "2"]);
+    let timeless = |name: &str| {
+        let mut rows = place.rows(name);
+        rows.iter_mut().for_each(|row| row.retain(|(head, _)| !OF_TIME.contains(&head.as_str())));
+        rows
+    };
+    assert_eq!(timeless("a/report.csv"), timeless("b/report.csv"));
+    let timeless = |name: &str| {
+        let mut runs = runs(&place.text(name));
+        for run in &mut runs {
+            OF_TIME.iter().for_each(|key| drop(run.as_object_mut().unwrap().remove(*key)));
+        }
+        runs
+    };
+    assert_eq!(timeless("a/report.json"), timeless("b/report.json"));
+}
+
+#[test]
+fn more_samples_are_nearer_to_the_truth_and_the_best_is_on_the_front() {
+    let place = Place::new();
+    place.reported(&["tiny.toml", "--repeat", "1"]);
+    let runs = runs(&place.text("report/report.json"));
+    let rmse = |run: &Value| run["error"]["rmse"].as_f64().unwrap();
+    let errors: Vec<f64> = runs.iter().filter(|r| r["technique"] == "supersampling").map(rmse).collect();
+    assert!(errors[0] > 4.0 * errors[2] && errors[2] > 4.0 * errors[4], "{errors:?}");
+    let best = runs.iter().min_by(|a, b| rmse(a).total_cmp(&rmse(b))).unwrap();
+    assert_eq!(best["on_front"], true);
+}
+
+#[test]
+fn the_page_needs_no_network_and_knows_no_machine() {
+    let place = Place::new();
+    place.reported(&["tiny.toml", "--repeat", "1", "--set", "name=\"a <b> & c\""]);
+    let folder = place.path().to_string_lossy().into_owned();
+    for name in place.names("report") {
+        let text = place.text(&format!("report/{name}"));
+        let rest = text.replace("http://www.w3.org/2000/svg", "");
+        assert!(!rest.contains("http") && !rest.contains("//fonts"), "{name}");
+        assert!(!text.contains(&folder), "{name} names the folder it was made in");
+    }
+    let page = place.text("report/report.html");
+    assert!(page.contains("a &lt;b&gt; &amp; c") && !page.contains("a <b>"));
+    assert!(page.contains("data:image/png;base64,iVBOR"));
+    assert!(!page.contains("src=\"/") && !page.contains("<link"));
+}
+
+#[test]
+fn a_setting_of_the_scene_is_the_one_that_is_marked() {
+    let place = Place::new();
+    let set = "technique.inverse-projection.samples=5";
+    place.reported(&["tiny.toml", "--repeat", "1", "--set", set, "--truth-width", "0.1"]);
+    let runs = runs(&place.text("report/report.json"));
+    let own: Vec<&Value> =
+        runs.iter().filter(|r| r["technique"] == "inverse-projection" && r["is_own"] == true).collect();
+    assert_eq!(own.len(), 1);
+    assert_eq!(
+        (&own[0]["parameters"]["samples"], &own[0]["device"]["precision"]),
+        (&5.into(), &"f64".into())
+    );
+    let alone = |r: &&Value| r["varied"][0] == "point_in_polygon=winding";
+    assert_eq!(runs.iter().find(alone).unwrap()["parameters"]["samples"], 5);
+}
+
+#[test]
+fn two_scenes_are_one_report() {
+    let place = Place::new();
+    fs::write(place.path().join("other.toml"), SCENE.replace("\"tiny\"", "\"other\"")).unwrap();
+    place.reported(&["tiny.toml", "other.toml", "--repeat", "1", "--truth-width", "0.5"]);
+    let value: Value = serde_json::from_str(&place.text("report/report.json")).unwrap();
+    let names: Vec<&str> =
+        value["scenes"].as_array().unwrap().iter().map(|s| s["scene"]["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["tiny", "other"]);
+    assert!(place.names("report").contains(&"other-rmse.svg".to_owned()));
+    let page = place.text("report/report.html");
+    assert!(page.contains("<h2>tiny</h2>") && page.contains("<h2>other</h2>"));
+}
+
+#[test]
+fn a_scene_that_cannot_be_loaded_is_refused_and_nothing_is_written() {
+    let place = Place::new();
+    fs::write(place.path().join("bad.toml"), SCENE.replace("width_m", "widht_m")).unwrap();
+    let said = place.refused(&["tiny.toml", "bad.toml"]);
+    assert!(said.contains("bad.toml") && said.contains("widht_m"), "{said}");
+    let said = place.refused(&["missing.toml"]);
+    assert!(said.contains("missing.toml"), "{said}");
+    let said = place.refused(&["tiny.toml", "--set", "terrain={ source = \"missing.tif\" }"]);
+    assert!(said.contains("missing.tif"), "{said}");
+    let said = place.refused(&["tiny.toml", "--truth-width", "7"]);
+    assert!(said.contains("width"), "{said}");
+}
