@@ -5,6 +5,10 @@
 //! proven bound decides nearly every case; expansions (Shewchuk 1997, "Adaptive precision floating-point arithmetic")
 //! the rest. Refuses: nothing; NaN in gives an arbitrary sign.
 
+mod hit_side;
+
+pub use hit_side::{hit_is_above, hit_side, moved_ray_side};
+
 use crate::space::{Lens, Plan, Ray, ViewFrame, World};
 use glam::DVec3;
 use std::cmp::Ordering;
