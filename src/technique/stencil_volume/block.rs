@@ -5,7 +5,7 @@
 //! the filter cannot tell is marked [`OPEN`].
 
 use super::face::Face;
-use crate::math::min_f32;
+use crate::math::{max_f32, min_f32};
 use crate::space::World;
 
 /// Samples a row of a block: a vector.
@@ -64,19 +64,38 @@ impl Block {
     }
 
     /// Takes the surface points of row `r`, infinite where the sky is seen.
+    #[inline(always)]
     pub fn set_row(&mut self, r: usize, points: &[World], origin: World) {
-        for (c, p) in points.iter().enumerate() {
-            if !p.is_finite() {
-                continue;
-            }
-            let at = r * COLUMNS + c;
-            let rounded = (*p - origin).as_vec3().to_array();
-            [self.x[at], self.y[at], self.z[at]] = rounded;
-            for (k, v) in rounded.into_iter().enumerate() {
-                self.low[k] = min_f32(v, self.low[k]);
-                self.high[k] = crate::math::max_f32(v, self.high[k]);
-            }
+        let start = r * COLUMNS;
+        let known = |v: f64| if v.abs() < f64::INFINITY { v as f32 } else { f32::NAN };
+        for (lane, p) in points.iter().enumerate() {
+            self.x[start + lane] = known(p.x - origin.x);
+            self.y[start + lane] = known(p.y - origin.y);
+            self.z[start + lane] = known(p.z - origin.z);
         }
+    }
+
+    /// Finds how far the points reach, when all rows are known.
+    #[inline(always)]
+    pub fn close(&mut self) {
+        for (k, values) in [&self.x, &self.y, &self.z].into_iter().enumerate() {
+            let (mut low, mut high) = ([f32::INFINITY; COLUMNS], [f32::NEG_INFINITY; COLUMNS]);
+            for row in values.as_chunks::<COLUMNS>().0 {
+                for lane in 0..COLUMNS {
+                    // NaN changes nothing.
+                    low[lane] = min_f32(row[lane], low[lane]);
+                    high[lane] = max_f32(row[lane], high[lane]);
+                }
+            }
+            self.low[k] = low.into_iter().fold(f32::INFINITY, min_f32);
+            self.high[k] = high.into_iter().fold(f32::NEG_INFINITY, max_f32);
+        }
+    }
+
+    /// The largest coordinate of a point; 0 where all is sky.
+    pub fn reach(&self) -> f32 {
+        let ends = self.low.iter().chain(&self.high).map(|v| v.abs());
+        ends.filter(|v| v.is_finite()).fold(0.0, max_f32)
     }
 
     /// Whether a point of the block may lie in a box (relative to the tile's origin) that is `slack` larger.

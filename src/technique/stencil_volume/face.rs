@@ -188,9 +188,19 @@ pub struct Face {
 }
 
 /// A corner in homogeneous tile coordinates, with the size that bounds its error.
+#[derive(Debug, Clone, Copy)]
 struct Vertex {
     at: DVec3,
     size: f64,
+    /// Its place in the tile; `None` near the eye's plane and behind it.
+    screen: Option<[f64; 2]>,
+}
+
+/// The function of an edge, positive on its left as the viewer sees it, scaled to distances in samples.
+#[derive(Debug, Clone, Copy)]
+struct Edge {
+    function: DVec3,
+    doubt: f64,
 }
 
 /// Sets up volumes for a tile.
@@ -209,20 +219,66 @@ impl Setup<'_> {
     /// the near and far plane are, so nothing is left to the filter.
     pub fn faces(&self, extrusion: &Extrusion, volume: &Volume, is_cut: bool, faces: &mut Vec<Face>) {
         faces.clear();
+        if let (Some(ring), true) = (extrusion.rings_of(volume).next(), volume.is_box && !is_cut) {
+            return self.box_faces(ring, (volume.low, volume.high), faces);
+        }
         Outline::for_each(extrusion, volume, self.is_open_above, |outline| {
             faces.extend(self.face(outline, is_cut));
         });
     }
 
+    /// The faces of a convex volume of three or four corners: they share vertices and edges.
+    fn box_faces(&self, ring: &[Plan], (low, high): (f64, f64), faces: &mut Vec<Face>) {
+        let count = ring.len();
+        let next = |k: usize| if k + 1 < count { k + 1 } else { 0 };
+        let corner = |k: usize| ring[if k < count { k } else { 0 }];
+        let bottom: [Vertex; 4] = std::array::from_fn(|k| self.vertex(nadir(corner(k), low)));
+        let top: [Vertex; 4] = std::array::from_fn(|k| self.vertex(nadir(corner(k), high)));
+        let along: [DVec3; 4] = std::array::from_fn(|k| (corner(next(k)) - corner(k)).extend(0.0));
+        let up = DVec3::Z * (high - low);
+        let below: [Edge; 4] = std::array::from_fn(|k| self.edge(&bottom[k], along[k]));
+        let above: [Edge; 4] = std::array::from_fn(|k| self.edge(&top[k], along[k]));
+        let upright: [Edge; 4] = std::array::from_fn(|k| self.edge(&bottom[k], up));
+        if !self.is_open_above {
+            let edges = above.map(|e| (e, 1.0));
+            let outline = Outline::level(ring, high, 1, 1.0);
+            faces.extend(self.set_up(outline, &top[..count], &edges[..count]));
+        }
+        let edges = below.map(|e| (e, -1.0));
+        let outline = Outline::level(ring, low, -1, 1.0);
+        faces.extend(self.set_up(outline, &bottom[..count], &edges[..count]));
+        for k in 0..count {
+            let n = next(k);
+            let vertices = [bottom[k], bottom[n], top[n], top[k]];
+            let edges = [(below[k], 1.0), (upright[n], 1.0), (above[k], -1.0), (upright[k], -1.0)];
+            let outline = Outline::wall(ring[k], ring[n], (low, high));
+            faces.extend(self.set_up(outline, &vertices, &edges));
+        }
+    }
+
     /// A face; `None` where it cannot touch a sample of the tile.
-    #[inline]
     pub fn face(&self, outline: Outline, is_cut: bool) -> Option<Face> {
+        let corners = outline.corners();
+        let vertices: [Vertex; 4] = std::array::from_fn(|k| self.vertex(outline.corners[k]));
+        let vertices = &vertices[..corners.len()];
+        if is_cut {
+            return self.set_up(outline, vertices, &[]);
+        }
+        let edges: [(Edge, f64); 4] = std::array::from_fn(|k| {
+            let (a, b) = (k % corners.len(), (k + 1) % corners.len());
+            (self.edge(&vertices[a], corners[b] - corners[a]), 1.0)
+        });
+        self.set_up(outline, vertices, &edges[..corners.len()])
+    }
+
+    /// A face of known vertices and edges (each with the sign that makes it run as the face's corners do); without
+    /// edges, every sample is to be decided exactly.
+    #[inline(always)]
+    fn set_up(&self, outline: Outline, vertices: &[Vertex], edges: &[(Edge, f64)]) -> Option<Face> {
         let facing = outline.seen_by(&self.view.frame);
         if facing == Some(0) {
             return None;
         }
-        let vertices = outline.corners.map(|p| self.vertex(p));
-        let vertices = &vertices[..outline.count];
         let (columns, rows) = self.rectangle(vertices)?;
         let mut face = Face {
             edges: [DVec3::new(0.0, 0.0, f64::MAX); 4],
@@ -234,35 +290,41 @@ impl Setup<'_> {
             rows,
             outline,
         };
-        if let (Some(facing), false) = (facing, is_cut) {
-            face.doubt = self.edges(&outline, vertices, facing, &mut face.edges);
+        if let (Some(facing), false) = (facing, edges.is_empty()) {
+            let mut doubt = EVALUATION_DOUBT;
+            for (to, (edge, sign)) in face.edges.iter_mut().zip(edges) {
+                *to = edge.function * (f64::from(facing) * sign);
+                doubt = math::max(edge.doubt, doubt);
+            }
+            face.doubt = doubt as f32;
             (face.side, face.slack) = self.side(&outline, facing);
         }
         Some(face)
     }
 
+    #[inline(always)]
     fn vertex(&self, p: World) -> Vertex {
         let eye = self.view.frame.eye();
-        Vertex {
-            at: self.view.map_point(p),
-            size: (p - eye).abs().element_sum() + eye.to_vec().abs().max_element(),
-        }
+        let at = self.view.map_point(p);
+        let size = (p - eye).abs().element_sum() + eye.to_vec().abs().max_element();
+        // A hair in `rectangle` must cover the error of a projected corner.
+        let has_place = at.z > 1e6 * U * self.view.gain() * size;
+        let w = 1.0 / at.z;
+        Vertex { at, size, screen: if has_place { Some([at.x * w, at.y * w]) } else { None } }
     }
 
     /// The columns and rows around the face's picture; all of the tile's where a corner is near the eye's plane.
+    #[inline(always)]
     fn rectangle(&self, vertices: &[Vertex]) -> Option<((usize, usize), (usize, usize))> {
         let view = self.view;
-        let all = ((0, view.width - 1), (0, view.height - 1));
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for v in vertices {
-            // A sample's breadth below must cover the error of a projected corner.
-            if v.at.z <= 1e6 * U * view.gain() * v.size {
-                return Some(all);
-            }
-            let w = 1.0 / v.at.z;
-            for (k, value) in [v.at.x * w, v.at.y * w].into_iter().enumerate() {
-                low[k] = math::min(value, low[k]);
-                high[k] = math::max(value, high[k]);
+            let Some(at) = v.screen else {
+                return Some(((0, view.width - 1), (0, view.height - 1)));
+            };
+            for k in 0..2 {
+                low[k] = math::min(at[k], low[k]);
+                high[k] = math::max(at[k], high[k]);
             }
         }
         let span = |k: usize, first: f64, count: usize| {
@@ -277,26 +339,20 @@ impl Setup<'_> {
         Some((span(0, view.first.0, view.width)?, span(1, view.first.1, view.height)?))
     }
 
-    /// Scales the edge functions to distances; returns how near to an edge they cannot be trusted.
-    fn edges(&self, outline: &Outline, vertices: &[Vertex], facing: i32, edges: &mut [DVec3; 4]) -> f32 {
+    /// The function of an edge from a vertex, scaled to distances.
+    #[inline(always)]
+    fn edge(&self, from: &Vertex, along: DVec3) -> Edge {
         let gain = self.view.gain();
-        let unit = 384.0 * U * gain * gain;
-        let mut doubt = EVALUATION_DOUBT;
-        for (k, v) in vertices.iter().enumerate() {
-            let next = (k + 1) % vertices.len();
-            let along = outline.corners[next] - outline.corners[k];
-            // Tile coordinates run down, so a line that the viewer has on the left of an edge has a negative product.
-            let e = v.at.cross(self.view.map(along)) * f64::from(-facing);
-            let slope = e.x.abs() + e.y.abs();
-            if slope <= 0.0 {
-                return f32::INFINITY;
-            }
-            // As in `Facet`: every coordinate is at most `gain` times its displacement and off by 16 roundings of that.
-            let error = unit * v.size * along.abs().element_sum();
-            doubt = math::max(error / slope + EVALUATION_DOUBT, doubt);
-            edges[k] = e / slope;
+        // Tile coordinates run down, so what the viewer has on the left of an edge has a negative product.
+        let e = -from.at.cross(self.view.map(along));
+        let slope = e.x.abs() + e.y.abs();
+        if slope <= 0.0 {
+            return Edge { function: DVec3::ZERO, doubt: f64::INFINITY };
         }
-        doubt as f32
+        // As in `Facet`: every coordinate is at most `gain` times its displacement and off by 16 roundings of that.
+        let error = 384.0 * U * gain * gain * from.size * along.abs().element_sum();
+        let scale = 1.0 / slope;
+        Edge { function: e * scale, doubt: error * scale + EVALUATION_DOUBT }
     }
 
     /// The function whose sign is the depth test's, and how small it must not be.

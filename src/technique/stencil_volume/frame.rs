@@ -210,9 +210,14 @@ impl<'a> Drawing<'a> {
             counts: tile.counts,
         };
         let mut last = (self.sky, code_values(self.compositor.encoded(self.sky)));
-        let mut ground = Ground { id: SKY, paint: self.sky };
+        let mut ground = Ground { id: SKY, paint: self.sky, code: last.1 };
         for y in 0..size.1 {
             for x in 0..size.0 {
+                if n == 1 && !self.wants_colors && tile.painted(x, y).is_none() {
+                    self.look_at_ground((tile.view.column + x, tile.view.row + y), &mut ground);
+                    drawn.image.push(ground.code);
+                    continue;
+                }
                 let paint = self.pixel(&tile, (x, y), &mut ground);
                 if paint != last.0 {
                     last = (paint, code_values(self.compositor.encoded(paint)));
@@ -232,10 +237,10 @@ impl<'a> Drawing<'a> {
         let mut sum = Paint::CLEAR;
         for r in y * n..(y + 1) * n {
             for c in x * n..(x + 1) * n {
-                let paint = match tile.painted(c, r) {
-                    Some(paint) => paint,
-                    None => self.bare((tile.view.column + c, tile.view.row + r), ground),
-                };
+                let paint = tile.painted(c, r).unwrap_or_else(|| {
+                    self.look_at_ground((tile.view.column + c, tile.view.row + r), ground);
+                    ground.paint
+                });
                 if n == 1 {
                     return paint;
                 }
@@ -246,12 +251,16 @@ impl<'a> Drawing<'a> {
     }
 
     /// The ground at a sample; neighbours often see the same triangle.
-    fn bare(&self, (column, row): (usize, usize), last: &mut Ground) -> Paint {
+    #[inline(always)]
+    fn look_at_ground(&self, (column, row): (usize, usize), last: &mut Ground) {
         let id = self.sight.triangle(column, row);
         if id != last.id || !self.ground.is_constant_on_triangles() {
-            *last = Ground { id, paint: self.ground_paint(column, row) };
+            let paint = self.ground_paint(column, row);
+            if paint != last.paint {
+                *last = Ground { id, paint, code: code_values(self.compositor.encoded(paint)) };
+            }
+            last.id = id;
         }
-        last.paint
     }
 
     fn frame(&self, tiles: &[Drawn], options: &FrameOptions) -> Frame {
@@ -347,6 +356,8 @@ impl<'a> Drawing<'a> {
 struct Ground {
     id: u32,
     paint: Paint,
+    /// Its code values.
+    code: [u8; 4],
 }
 
 /// The planes that show how the stencil came about.

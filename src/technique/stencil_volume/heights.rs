@@ -85,14 +85,24 @@ fn visit(mesh: &Mesh, node: Node, region: &Region, range: &mut Range) {
 
 fn visit_cells(grid: &Grid, node: Node, region: &Region, range: &mut Range) {
     let (columns, rows) = grid.cells(node);
+    let posts = grid.posts();
     for j in rows {
+        let ends = [(columns.start, j), (columns.end, j), (columns.start, j + 1), (columns.end, j + 1)];
+        // Posts are rounded one by one: those between the ends may lie a little beside the ends' rectangle.
+        let row = PlanBox::around(ends.map(|(i, j)| posts.plan(i, j)));
+        let slack = 1e-9 * (row.min.to_vec().abs() + row.max.to_vec().abs()).element_sum();
+        if !region.meets(&row.grown(slack)) {
+            continue;
+        }
         for i in columns.clone() {
-            let posts = [(i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1)].map(|(i, j)| grid.posts().world(i, j));
-            include_if_met(&posts, region, range);
+            let corners =
+                [posts.world(i, j), posts.world(i + 1, j), posts.world(i, j + 1), posts.world(i + 1, j + 1)];
+            include_if_met(&corners, region, range);
         }
     }
 }
 
+#[inline(always)]
 fn include_if_met(corners: &[World], region: &Region, range: &mut Range) {
     if region.meets(&PlanBox::around(corners.iter().map(|p| p.plan()))) {
         corners.iter().for_each(|p| range.include(p.z));

@@ -454,49 +454,68 @@ fn seen(drawing: &Drawing, view: &TileView) -> (Place, Vec<Block>) {
     for row in (0..view.height).step_by(ROWS) {
         blocks.extend((0..view.width).step_by(COLUMNS).map(|column| Block::new((column, row), size)));
     }
-    let sky = World::new(f64::INFINITY, f64::INFINITY, f64::INFINITY);
-    let mut points = vec![sky; view.width * view.height];
+    let mut origin = None;
     if drawing.way != Way::Machine {
-        for (r, row) in points.chunks_exact_mut(view.width).enumerate() {
-            drawing.sight.world_of_row((view.column, view.row + r), row);
+        let mut points = vec![World::default(); view.width];
+        for r in 0..view.height {
+            drawing.sight.world_of_row((view.column, view.row + r), &mut points);
+            origin = origin.or_else(|| points.iter().copied().find(|p| p.is_finite()));
+            let Some(origin) = origin else { continue };
+            let from = r / ROWS * view.width.div_ceil(COLUMNS);
+            drawing.arch.dispatch(Take { points: &points, r: r % ROWS, origin, blocks: &mut blocks[from..] });
         }
     }
-    let place = place(view, &points);
-    for block in &mut blocks {
-        for r in 0..block.rows {
-            let start = (block.row + r) * view.width + block.column;
-            let row = &points[start..start + block.columns];
-            block.set_row(r, row, place.origin);
-        }
-    }
-    (place, blocks)
+    drawing.arch.dispatch(Close { blocks: &mut blocks });
+    let reach = blocks.iter().fold(0.0, |most, block| math::max_f32(block.reach(), most));
+    (place(view, origin.unwrap_or_default(), f64::from(reach)), blocks)
 }
 
-/// The middle of the points and how far they reach from it.
-fn place(view: &TileView, points: &[World]) -> Place {
-    let (mut low, mut high) = (glam::DVec3::INFINITY, glam::DVec3::NEG_INFINITY);
-    for p in points.iter().filter(|p| p.is_finite()) {
-        for k in 0..3 {
-            low[k] = math::min(p.to_vec()[k], low[k]);
-            high[k] = math::max(p.to_vec()[k], high[k]);
+/// [`Block::set_row`] of a row of blocks, compiled for the widest vectors of the machine at hand.
+struct Take<'t> {
+    points: &'t [World],
+    r: usize,
+    origin: World,
+    blocks: &'t mut [Block],
+}
+
+impl pulp::WithSimd for Take<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) {
+        for (block, points) in self.blocks.iter_mut().zip(self.points.chunks(COLUMNS)) {
+            block.set_row(self.r, points, self.origin);
         }
     }
-    if low.x > high.x {
-        return Place { origin: World::default(), reach: 0.0, error: 0.0 };
+}
+
+/// [`Block::close`] of all blocks, as [`Take`].
+struct Close<'t> {
+    blocks: &'t mut [Block],
+}
+
+impl pulp::WithSimd for Close<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) {
+        self.blocks.iter_mut().for_each(Block::close);
     }
-    let origin = World::from((low + high) / 2.0);
+}
+
+/// How precisely points are known that reach so far from an origin.
+fn place(view: &TileView, origin: World, reach: f64) -> Place {
     let frame = &view.frame;
-    let eye = frame.eye().to_vec().abs().max_element();
     // How far a surface point lies from the start of its ray.
     let picture = match frame.lens() {
         Lens::Central { .. } => 0.0,
         Lens::Parallel { pixel } => pixel * (frame.width() + frame.height()) as f64,
     };
-    let size = low.abs().max_element() + high.abs().max_element();
-    let distance = eye + size + picture;
+    let far = reach * (1.0 + f64::from(f32::EPSILON));
+    let size = frame.eye().to_vec().abs().max_element() + origin.to_vec().abs().max_element();
     // Parameters of hits are good to 2^-30 of themselves.
-    let error = distance * (2.0 / (1u64 << 30) as f64);
-    Place { origin, reach: (high - low).max_element(), error }
+    let error = (size + far + picture) * (2.0 / (1u64 << 30) as f64);
+    Place { origin, reach: far, error }
 }
 
 impl Drawing<'_> {
