@@ -66,7 +66,7 @@ fn chains(count: usize, length: f64) -> Vec<Feature> {
     };
     let mut chain = |index| {
         let mut at = Plan::new(random(), random());
-        let mut angle = random() * 6.283;
+        let mut angle = random() * std::f64::consts::TAU;
         let mut points = vec![at];
         for _ in 0..CHAIN {
             angle += random() - 0.5;
@@ -117,9 +117,6 @@ fn stencil_volume(c: &mut Criterion) {
                 b.iter(|| black_box(technique::prepare(Kind::StencilVolume, &stage).expect("metres")));
             });
             let prepared = technique::prepare(Kind::StencilVolume, &stage).expect("metres");
-            let (frame, vertices) = (prepared.frame(&options).expect("no buffers"), roads.0 * 8);
-            eprintln!("{name}: {:.1} bytes a vertex", prepared.structure_bytes() as f64 / vertices as f64);
-            eprintln!("{name}: {:?}", frame.counts);
             group.bench_function(BenchmarkId::new("frame", &name), |b| {
                 b.iter(|| black_box(prepared.frame(&options).expect("no buffers")));
             });

@@ -111,7 +111,8 @@ impl<'a> Sight<'a> {
         let sky = || P::from(World::new(f64::INFINITY, f64::INFINITY, f64::INFINITY));
         if self.machine.is_some() {
             for (k, to) in points.iter_mut().enumerate() {
-                let point = self.hit(first + k, row).map(|hit| World::new(hit.plan.x, hit.plan.y, hit.height));
+                let point =
+                    self.hit(first + k, row).map(|hit| World::new(hit.plan.x, hit.plan.y, hit.height));
                 *to = point.map_or_else(sky, P::from);
             }
             return;

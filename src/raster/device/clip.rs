@@ -69,19 +69,13 @@ impl<T: Real> Volume<T> {
     }
 
     /// Calls `emit` with the triangles of what remains of one; `is_clamped`: the near and the far plane clip nothing.
-    pub(super) fn clip(
-        &self,
-        triangle: &[Clip<T>; 3],
-        is_clamped: bool,
-        mut emit: impl FnMut([Clip<T>; 3]),
-    ) {
+    pub(super) fn clip(&self, triangle: &[Clip<T>; 3], is_clamped: bool, mut emit: impl FnMut([Clip<T>; 3])) {
         if !triangle.iter().flatten().all(|v| v.get().is_finite()) {
             return;
         }
         let is_off = |plane: Plane| is_clamped && matches!(plane, Plane::Near | Plane::Far);
-        let inside = Plane::ALL.map(|plane| {
-            triangle.iter().filter(|&&c| is_off(plane) || self.is_inside(plane, c)).count()
-        });
+        let inside = Plane::ALL
+            .map(|plane| triangle.iter().filter(|&&c| is_off(plane) || self.is_inside(plane, c)).count());
         if inside.contains(&0) {
             return;
         }

@@ -101,9 +101,7 @@ impl Block {
     /// Whether a point of the block may lie in a box (relative to the tile's origin) that is `slack` larger.
     #[inline(always)]
     pub fn meets(&self, low: &[f64; 3], high: &[f64; 3], slack: f64) -> bool {
-        (0..3).all(|k| {
-            f64::from(self.low[k]) <= high[k] + slack && f64::from(self.high[k]) >= low[k] - slack
-        })
+        (0..3).all(|k| f64::from(self.low[k]) <= high[k] + slack && f64::from(self.high[k]) >= low[k] - slack)
     }
 
     /// The rows of the block that a face's picture can touch, and whether there are any; `first` are the tile coordinates of
@@ -126,10 +124,10 @@ impl Block {
             let down = if e.y > 0.0 { e.y * (ROWS - 1) as f64 } else { 0.0 };
             e.x * x + e.y * y + e.z + across + down >= limit
         };
-        face.edges.iter().all(reaches).then_some((
-            face.rows.0.max(self.row) - self.row,
-            face.rows.1.min(last.1) - self.row,
-        ))
+        face.edges
+            .iter()
+            .all(reaches)
+            .then_some((face.rows.0.max(self.row) - self.row, face.rows.1.min(last.1) - self.row))
     }
 
     /// The states of row `r` of the block under a face; false: none of them is open.

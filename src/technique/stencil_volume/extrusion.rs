@@ -16,7 +16,9 @@
 use super::heights::{Region, heights_under};
 use super::stroke::Stroke;
 use crate::parallel;
-use crate::scene::{Color, Feature, Grouping, Layer, Outline, OutlineMode, Rule, Shape, StencilVolume, VolumeJoins};
+use crate::scene::{
+    Color, Feature, Grouping, Layer, Outline, OutlineMode, Rule, Shape, StencilVolume, VolumeJoins,
+};
 use crate::space::{Plan, PlanBox, World};
 use crate::terrain::Mesh;
 use std::ops::Range;

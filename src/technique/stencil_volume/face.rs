@@ -48,7 +48,12 @@ impl Outline {
     }
 
     /// Calls `visit` with the faces of a volume in order: the top cap (unless it is open above), the bottom cap, the walls.
-    pub fn for_each(extrusion: &Extrusion, volume: &Volume, is_open_above: bool, mut visit: impl FnMut(Self)) {
+    pub fn for_each(
+        extrusion: &Extrusion,
+        volume: &Volume,
+        is_open_above: bool,
+        mut visit: impl FnMut(Self),
+    ) {
         for (height, up) in [(volume.high, 1), (volume.low, -1)] {
             if up == 1 && is_open_above {
                 continue;
@@ -135,7 +140,9 @@ impl Outline {
         let [a, b, ..] = self.corners;
         let sign = |v: f64| if v == 0.0 { 0 } else { v.signum() as i32 };
         match frame.lens() {
-            Lens::Central { .. } if self.up == 0 => Some(-sign(orient2d(a.plan(), b.plan(), frame.eye().plan()))),
+            Lens::Central { .. } if self.up == 0 => {
+                Some(-sign(orient2d(a.plan(), b.plan(), frame.eye().plan())))
+            }
             Lens::Central { .. } => Some(sign(frame.eye().z - a.z) * self.up),
             Lens::Parallel { pixel } => {
                 let d = frame.forward();

@@ -282,9 +282,8 @@ impl<'a> Drawing<'a> {
 
     fn plane(&self, name: &str, tiles: &[Drawn]) -> Option<Plane> {
         let (columns, rows) = (self.lattice.columns, self.lattice.rows);
-        let of_samples = |name, components, values| {
-            Some(Plane { name, width: columns, height: rows, components, values })
-        };
+        let of_samples =
+            |name, components, values| Some(Plane { name, width: columns, height: rows, components, values });
         if let Some(k) = TRACES.iter().position(|known| *known == name) {
             return of_samples(TRACES[k], 1, self.trace(k, tiles));
         }

@@ -56,7 +56,9 @@ impl<'s> Prepare<'s> {
                 "stencil-volume has {} objects, there is no object {object}",
                 extrusion.objects.len()
             ))
-            .help("objects are counted from 0 in draw order: fills, outlines and lines, feature by feature"));
+            .help(
+                "objects are counted from 0 in draw order: fills, outlines and lines, feature by feature",
+            ));
         }
         Ok(Self { stage, extrusion })
     }

@@ -91,12 +91,7 @@ pub struct Stencil {
 impl Stencil {
     /// All zero.
     pub fn new(blocks: usize, width: Width) -> Self {
-        Self {
-            counts: vec![[0; SIZE]; blocks],
-            inside: Vec::new(),
-            touched: vec![false; blocks],
-            width,
-        }
+        Self { counts: vec![[0; SIZE]; blocks], inside: Vec::new(), touched: vec![false; blocks], width }
     }
 
     /// Counts one fragment; returns the step that was made.

@@ -9,19 +9,18 @@
 //!   mask applied through the boxes of the volumes (4.2.2). For planes to look at, and wherever something is asked for that does not cancel;
 //! - *on a machine* ([`Way::Machine`]): fragments and depth test of the imitated graphics processor.
 
-use super::block::{BEFORE, BEHIND, Block, COLUMNS, NONE, OPEN, ROWS, SIZE};
+mod fragments;
+mod points;
+
+use super::block::{Block, COLUMNS, ROWS, SIZE};
 use super::face::{Face, Fragment, Outline, Place, Setup};
 use super::frame::Drawing;
 use super::stencil::{Method, Stencil, Traces, Width, passes};
 use super::view::Entry;
-use crate::math;
-use crate::predicate;
 use crate::raster::TileView;
-use crate::raster::device::Window;
 use crate::resolve::Paint;
 use crate::scene::{Rule, VolumeCaps};
-use crate::space::{Lens, Ray, World};
-use crate::terrain::SKY;
+use fragments::Sparse;
 
 /// How fragments are found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -82,7 +81,7 @@ impl<'a> Tile<'a> {
     /// A tile before anything is drawn into it.
     pub fn new(drawing: &'a Drawing, view: TileView) -> Self {
         let size = (view.width, view.height);
-        let (place, blocks) = seen(drawing, &view);
+        let (place, blocks) = points::seen(drawing, &view);
         let count = blocks.len();
         Self {
             drawing,
@@ -296,226 +295,6 @@ impl<'a> Tile<'a> {
             }
         }
     }
-
-    /// Calls `visit` with each fragment of a face that is no volume's own (a box's).
-    fn for_each_fragment(&mut self, outline: &Outline, entry: &Entry, visit: &mut Visit<'_, 'a>) {
-        if self.drawing.way == Way::Machine {
-            return self.visit_on_machine(outline, visit);
-        }
-        let face = self.setup().face(*outline, self.drawing.is_cut(entry.volume));
-        if let Some(face) = face {
-            self.visit_face(&face, visit);
-        }
-    }
-
-    /// Calls `visit` with each fragment of a face, exactly.
-    fn visit_face(&mut self, face: &Face, visit: &mut Visit<'_, 'a>) {
-        let mut states = [NONE; COLUMNS];
-        for y in face.rows.0 / ROWS..=face.rows.1 / ROWS {
-            for x in face.columns.0 / COLUMNS..=face.columns.1 / COLUMNS {
-                let block = y * self.blocks_a_row + x;
-                let Some((from, to)) = self.blocks[block].rows_of(face, self.view.first) else { continue };
-                for r in from..=to {
-                    self.blocks[block].classify(face, self.view.first, r, &mut states);
-                    for (lane, state) in states.into_iter().enumerate() {
-                        let at = (block, r * COLUMNS + lane);
-                        let fragment = match state {
-                            NONE => None,
-                            OPEN => self.decide(face, at),
-                            state => face.facing.map(|facing| Fragment { facing, is_behind: state == BEHIND }),
-                        };
-                        if let Some(fragment) = fragment {
-                            visit(self, at, fragment);
-                        }
-                    }
-                }
-            }
-        }
-    }
-
-    /// Decides exactly how a sample's line of sight crosses a face.
-    #[cold]
-    fn decide(&mut self, face: &Face, at: (usize, usize)) -> Option<Fragment> {
-        self.counts.exact_decisions += 1;
-        let (c, r) = self.sample(at);
-        let ray = self.view.ray(c, r);
-        let id = self.drawing.sight.triangle(self.view.column + c, self.view.row + r);
-        let ground = if id == SKY { None } else { self.view_mesh().triangle(id) };
-        let seen = match self.view.frame.lens() {
-            Lens::Central { .. } => face.facing,
-            Lens::Parallel { .. } => None,
-        };
-        let fragment = face.outline.decide(&ray, ground.as_ref(), seen)?;
-        self.is_unclipped(face, &ray).then_some(fragment)
-    }
-
-    fn view_mesh(&self) -> &'a crate::terrain::Mesh {
-        &self.drawing.stage.mesh
-    }
-
-    /// Whether the near and the far plane leave a fragment of a face standing.
-    fn is_unclipped(&self, face: &Face, ray: &Ray) -> bool {
-        if !self.drawing.clips() {
-            return true;
-        }
-        let frame = &self.view.frame;
-        let [a, b, c, ..] = *face.outline.corners() else { return true };
-        predicate::is_hit_beyond(frame, ray, &[a, b, c], frame.near())
-            && (frame.far().is_infinite() || !predicate::is_hit_beyond(frame, ray, &[a, b, c], frame.far()))
-    }
-
-    /// Calls `visit` with each fragment of a face that the imitated machine draws.
-    fn visit_on_machine(&mut self, outline: &Outline, visit: &mut Visit<'_, 'a>) {
-        let drawing = self.drawing;
-        let Some(machine) = drawing.sight.machine() else { return };
-        let (column, row) = (self.view.column, self.view.row);
-        let window = Window { columns: column..column + self.view.width, rows: row..row + self.view.height };
-        let corners = outline.corners();
-        for k in 2..corners.len() {
-            let triangle = [corners[0], corners[k - 1], corners[k]];
-            let place = (drawing.sight.lattice(), &window);
-            machine.rasterize(&triangle, !drawing.clips(), place, &mut |(c, r), facing, depth| {
-                let stored = drawing.sight.stored(c, r).unwrap_or(depth);
-                let is_behind = !machine.passes(depth, stored);
-                let at = self.index(c - column, r - row);
-                visit(self, at, Fragment { facing, is_behind });
-            });
-        }
-    }
-}
-
-/// Takes the fragments of a face.
-type Visit<'v, 'a> = dyn FnMut(&mut Tile<'a>, (usize, usize), Fragment) + 'v;
-
-/// Counts the faces of a volume in some blocks, compiled for the widest vectors of the machine at hand.
-struct Sparse<'t, 'a, 'f> {
-    tile: &'t mut Tile<'a>,
-    faces: &'f [Face],
-    method: Method,
-    blocks: &'f [usize],
-}
-
-impl pulp::WithSimd for Sparse<'_, '_, '_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) {
-        let Self { tile, faces, method, blocks } = self;
-        let first = tile.view.first;
-        let mut covered = [0; COLUMNS];
-        for &block in blocks {
-            tile.stencil.touched[block] = true;
-            for face in faces {
-                let Some((from, to)) = tile.blocks[block].rows_of(face, first) else { continue };
-                let step = |state, is_behind| match face.facing {
-                    Some(facing) => (state, method.step(Fragment { facing, is_behind })),
-                    None => (state, 0),
-                };
-                let [(_, behind), (_, before)] = [step(BEHIND, true), step(BEFORE, false)];
-                for r in from..=to {
-                    let mut states = [NONE; COLUMNS];
-                    let any_open = tile.blocks[block].classify(face, first, r, &mut states);
-                    let mut steps = [0; COLUMNS];
-                    for lane in 0..COLUMNS {
-                        let state = states[lane];
-                        let forward = if state == BEFORE { before } else { 0 };
-                        steps[lane] = if state == BEHIND { behind } else { forward };
-                        covered[lane] += i32::from((state == BEHIND) | (state == BEFORE));
-                    }
-                    tile.stencil.add(block, r, &steps);
-                    if any_open {
-                        tile.settle(face, (block, r), method, &states);
-                    }
-                }
-            }
-        }
-        tile.counts.fragments += covered.iter().map(|v| *v as u64).sum::<u64>();
-    }
-}
-
-impl Tile<'_> {
-    /// Decides and counts the samples of a row that the filter left open.
-    #[cold]
-    fn settle(&mut self, face: &Face, (block, r): (usize, usize), method: Method, states: &[i32; COLUMNS]) {
-        for (lane, _) in states.iter().enumerate().filter(|(_, state)| **state == OPEN) {
-            let at = (block, r * COLUMNS + lane);
-            if let Some(fragment) = self.decide(face, at) {
-                self.counts.fragments += 1;
-                self.stencil.counts[block][at.1] += method.step(fragment);
-            }
-        }
-    }
-}
-
-/// The surface points of a tile, in blocks, and where they lie.
-fn seen(drawing: &Drawing, view: &TileView) -> (Place, Vec<Block>) {
-    let size = (view.width, view.height);
-    let mut blocks = Vec::new();
-    for row in (0..view.height).step_by(ROWS) {
-        blocks.extend((0..view.width).step_by(COLUMNS).map(|column| Block::new((column, row), size)));
-    }
-    let mut origin = None;
-    if drawing.way != Way::Machine {
-        let mut points = vec![World::default(); view.width];
-        for r in 0..view.height {
-            drawing.sight.world_of_row((view.column, view.row + r), &mut points);
-            origin = origin.or_else(|| points.iter().copied().find(|p| p.is_finite()));
-            let Some(origin) = origin else { continue };
-            let from = r / ROWS * view.width.div_ceil(COLUMNS);
-            drawing.arch.dispatch(Take { points: &points, r: r % ROWS, origin, blocks: &mut blocks[from..] });
-        }
-    }
-    drawing.arch.dispatch(Close { blocks: &mut blocks });
-    let reach = blocks.iter().fold(0.0, |most, block| math::max_f32(block.reach(), most));
-    (place(view, origin.unwrap_or_default(), f64::from(reach)), blocks)
-}
-
-/// [`Block::set_row`] of a row of blocks, compiled for the widest vectors of the machine at hand.
-struct Take<'t> {
-    points: &'t [World],
-    r: usize,
-    origin: World,
-    blocks: &'t mut [Block],
-}
-
-impl pulp::WithSimd for Take<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) {
-        for (block, points) in self.blocks.iter_mut().zip(self.points.chunks(COLUMNS)) {
-            block.set_row(self.r, points, self.origin);
-        }
-    }
-}
-
-/// [`Block::close`] of all blocks, as [`Take`].
-struct Close<'t> {
-    blocks: &'t mut [Block],
-}
-
-impl pulp::WithSimd for Close<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) {
-        self.blocks.iter_mut().for_each(Block::close);
-    }
-}
-
-/// How precisely points are known that reach so far from an origin.
-fn place(view: &TileView, origin: World, reach: f64) -> Place {
-    let frame = &view.frame;
-    // How far a surface point lies from the start of its ray.
-    let picture = match frame.lens() {
-        Lens::Central { .. } => 0.0,
-        Lens::Parallel { pixel } => pixel * (frame.width() + frame.height()) as f64,
-    };
-    let far = reach * (1.0 + f64::from(f32::EPSILON));
-    let size = frame.eye().to_vec().abs().max_element() + origin.to_vec().abs().max_element();
-    // Parameters of hits are good to 2^-30 of themselves.
-    let error = (size + far + picture) * (2.0 / (1u64 << 30) as f64);
-    Place { origin, reach: far, error }
 }
 
 impl Drawing<'_> {

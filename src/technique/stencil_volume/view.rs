@@ -134,10 +134,8 @@ impl<'a> Viewer<'a> {
         if volume.high <= volume.low {
             return Look { window: None, is_near: false, is_cut: false };
         }
-        let (low, high) = (
-            nadir(volume.plan.min, volume.low).to_vec(),
-            nadir(volume.plan.max, volume.high).to_vec(),
-        );
+        let (low, high) =
+            (nadir(volume.plan.min, volume.low).to_vec(), nadir(volume.plan.max, volume.high).to_vec());
         let is_near = low.cmple(self.high).all() && self.low.cmple(high).all();
         Look { window: self.window(extrusion, volume), is_near, is_cut: self.is_cut(low, high) }
     }
@@ -148,7 +146,8 @@ impl<'a> Viewer<'a> {
             return false;
         }
         let middle = self.frame.depth(World::from((low + high) / 2.0));
-        let spread = (self.frame.forward().abs()).dot((high - low) / 2.0) * (1.0 + 1e-9) + 1e-9 * middle.abs();
+        let spread =
+            (self.frame.forward().abs()).dot((high - low) / 2.0) * (1.0 + 1e-9) + 1e-9 * middle.abs();
         middle - spread < self.frame.near() || middle + spread > self.frame.far()
     }
 
@@ -193,7 +192,8 @@ impl<'a> Viewer<'a> {
     /// Calls `visit` with the corners of a volume, or of the box around one that is not a box itself.
     fn for_each_corner(&self, extrusion: &Extrusion, volume: &Volume, mut visit: impl FnMut(World)) {
         let plan = &volume.plan;
-        let around = [plan.min, Plan::new(plan.max.x, plan.min.y), plan.max, Plan::new(plan.min.x, plan.max.y)];
+        let around =
+            [plan.min, Plan::new(plan.max.x, plan.min.y), plan.max, Plan::new(plan.min.x, plan.max.y)];
         let ring = extrusion.rings_of(volume).next().filter(|_| volume.is_box).unwrap_or(&around);
         for corner in ring {
             visit(nadir(*corner, volume.low));

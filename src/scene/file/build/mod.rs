@@ -9,7 +9,9 @@ use super::section::{Section, Taken};
 use super::spec::{DataFile, SceneFile};
 use super::tree::Node;
 use crate::error::Result;
-use crate::scene::{Color, Compositing, Device, ImageSettings, InverseProjection, StencilVolume, TechniqueSettings};
+use crate::scene::{
+    Color, Compositing, Device, ImageSettings, InverseProjection, StencilVolume, TechniqueSettings,
+};
 use std::path::Path;
 
 pub(super) use camera::check_view;
