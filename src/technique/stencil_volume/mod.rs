@@ -31,6 +31,9 @@ use crate::scene::file::Named;
 use crate::scene::{Layer, OutlineMode, Width};
 use extrusion::Extrusion;
 
+/// The most samples of a picture: each takes 20 bytes while a frame is drawn.
+const MOST_SAMPLES: usize = 1 << 27;
+
 /// The technique with its volumes built.
 #[derive(Debug)]
 pub struct Prepare<'s> {
@@ -80,6 +83,12 @@ pub fn applies(stage: &Stage) -> Result<()> {
             layer.name
         ))
         .help("give the layer width_m, or leave the technique out"));
+    }
+    let n = stage.scene.technique.stencil_volume.samples as usize;
+    let samples = stage.view.width() * stage.view.height() * n * n;
+    if samples > MOST_SAMPLES {
+        return Err(Error::new(format!("stencil-volume has no room for {samples} samples: at most 2^27 in all"))
+            .help("use fewer samples a pixel, or a smaller image"));
     }
     let is_cut = |layer: &&Layer| layer.style.outline.is_some_and(|o| o.mode != OutlineMode::Normal);
     match stage.scene.layers.iter().find(is_cut) {
