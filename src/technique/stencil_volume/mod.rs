@@ -87,8 +87,10 @@ pub fn applies(stage: &Stage) -> Result<()> {
     let n = stage.scene.technique.stencil_volume.samples as usize;
     let samples = stage.view.width() * stage.view.height() * n * n;
     if samples > MOST_SAMPLES {
-        return Err(Error::new(format!("stencil-volume has no room for {samples} samples: at most 2^27 in all"))
-            .help("use fewer samples a pixel, or a smaller image"));
+        return Err(Error::new(format!(
+            "stencil-volume has no room for {samples} samples: at most 2^27 in all"
+        ))
+        .help("use fewer samples a pixel, or a smaller image"));
     }
     let is_cut = |layer: &&Layer| layer.style.outline.is_some_and(|o| o.mode != OutlineMode::Normal);
     match stage.scene.layers.iter().find(is_cut) {

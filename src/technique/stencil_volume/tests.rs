@@ -197,7 +197,7 @@ fn setting() -> impl Strategy<Value = Setting> {
     let lens = prop_oneof![
         Just(Projection::Perspective { fov_y_deg: 60.0 }),
         Just(Projection::Perspective { fov_y_deg: 120.0 }),
-        Just(Projection::Orthographic { height_m: 20.0 }),
+        Just(Projection::Orthographic { height_m: 16.0 }),
         Just(Projection::Orthographic { height_m: 12.5 }),
     ];
     let method = prop_oneof![3 => Just(Counting::Automatic), 1 => Just(Counting::ZFail)];
@@ -283,4 +283,36 @@ fn a_concave_ring_with_a_hole_and_an_island_is_counted_by_its_fan() {
     let island = vec![(-4.0, -30.0), (4.0, -30.0), (0.0, -20.0)];
     let mut stage = fixed(HILL, vec![outer, hole, island]);
     assert!(check(&mut stage, StencilVolume::default()) > 100);
+}
+
+#[test]
+fn samples_on_corners_and_edges_of_neighbours_have_one_owner() {
+    // Hard case 31: straight down, a metre a pixel, so that samples lie on half metres, as all corners do.
+    let text = "schema = 1\nimage = { width = 20, height = 16 }\n\
+        terrain.generate = { kind = \"plane\", posts = [9, 9], cell_m = 4.0, height_m = 2.0 }\n\
+        [camera]\neye = [0, 0, 40]\ntarget = [0, 0, 0]\nup = [0, 1, 0]\n";
+    let mut stage = fixed(text, vec![vec![(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)]]);
+    let half = |v: usize| -7.5 + 3.0 * v as f64;
+    let mut features = Vec::new();
+    for cell in 0..25 {
+        let (x0, y0) = (half(cell % 5), half(cell / 5));
+        let (x1, y1) = (half(cell % 5 + 1), half(cell / 5 + 1));
+        let corners = [(x0, y0), (x1, y0), (x1, y1), (x0, y1)].map(|(x, y)| Plan::new(x, y));
+        let halves = [[0, 1, 2], [0, 2, 3]];
+        for triangle in halves {
+            let ring = triangle.map(|k| corners[k]).to_vec();
+            features.push(Feature { index: features.len(), shape: Shape::Polygon(vec![ring]) });
+        }
+    }
+    stage.scene.layers[0].features = features;
+    for projection in
+        [Projection::Orthographic { height_m: 16.0 }, Projection::Perspective { fov_y_deg: 23.792_845 }]
+    {
+        stage.scene.camera.projection = projection;
+        stage.view = stage.scene.camera.view(&stage.scene.image).unwrap();
+        let inside = check(&mut stage, StencilVolume::default());
+        if matches!(projection, Projection::Orthographic { .. }) {
+            assert_eq!(inside, 15 * 15, "each sample of the squares has one owner");
+        }
+    }
 }
