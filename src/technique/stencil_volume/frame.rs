@@ -199,7 +199,7 @@ impl<'a> Drawing<'a> {
         let n = self.settings.samples as usize;
         let place = (view.column / n, view.row / n);
         let size = (view.width / n, view.height / n);
-        let mut tile = Tile::new(self, view);
+        let mut tile = Tile::new(self, view, entries);
         tile.draw(entries);
         let mut drawn = Drawn {
             place,

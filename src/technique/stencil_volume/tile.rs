@@ -78,10 +78,10 @@ pub struct Tile<'a> {
 }
 
 impl<'a> Tile<'a> {
-    /// A tile before anything is drawn into it.
-    pub fn new(drawing: &'a Drawing, view: TileView) -> Self {
+    /// A tile before anything is drawn into it; `entries` are the volumes that will be.
+    pub fn new(drawing: &'a Drawing, view: TileView, entries: &[Entry]) -> Self {
         let size = (view.width, view.height);
-        let (place, blocks) = points::seen(drawing, &view);
+        let (place, blocks) = points::seen(drawing, &view, entries);
         let count = blocks.len();
         Self {
             drawing,

@@ -10,7 +10,7 @@ use super::stencil::Method;
 use crate::math;
 use crate::parallel;
 use crate::raster::{Lattice, TileView};
-use crate::scene::{Counting, FarPlane, StencilVolume};
+use crate::scene::{Counting, FarPlane, Overflow, StencilVolume, VolumeCaps};
 use crate::space::{Plan, Screen, ViewFrame, World};
 use crate::technique::Stage;
 use glam::DVec3;
@@ -64,7 +64,7 @@ struct Look {
 impl Looks {
     /// Looks at all volumes.
     pub fn new(stage: &Stage, lattice: &Lattice, settings: &StencilVolume, extrusion: &Extrusion) -> Self {
-        let viewer = Viewer::new(&stage.view, lattice, settings.far);
+        let viewer = Viewer::new(stage, lattice, settings);
         let looks = parallel::map(&extrusion.volumes, |volume| viewer.look(extrusion, volume));
         let method = |look: &Look| match settings.method {
             Counting::Automatic if look.is_near => Method::ZFail,
@@ -107,13 +107,22 @@ struct Viewer<'a> {
     frame: &'a ViewFrame,
     lattice: &'a Lattice,
     far: FarPlane,
+    /// Whether no count can be left over outside a volume's own picture. Else the boxes through which masks are applied may
+    /// find one, and the pictures of the boxes count.
+    is_sound: bool,
     /// The box around the eye (or the eye's plane) and the near plane's rectangle.
     low: DVec3,
     high: DVec3,
 }
 
 impl<'a> Viewer<'a> {
-    fn new(frame: &'a ViewFrame, lattice: &'a Lattice, far: FarPlane) -> Self {
+    fn new(stage: &'a Stage, lattice: &'a Lattice, settings: &StencilVolume) -> Self {
+        let frame = &stage.view;
+        let is_sound = settings.overflow == Overflow::Wrap
+            && settings.caps == VolumeCaps::Both
+            && settings.method != Counting::ZPass
+            && settings.far == FarPlane::Clamp
+            && stage.scene.device.is_exact();
         let (mut low, mut high) = (frame.eye().to_vec(), frame.eye().to_vec());
         let (width, height) = (frame.width() as f64, frame.height() as f64);
         for (x, y) in [(0.0, 0.0), (width, 0.0), (0.0, height), (width, height)] {
@@ -127,7 +136,7 @@ impl<'a> Viewer<'a> {
             }
         }
         let slack = DVec3::splat(1e-9 * (low.abs().max_element() + high.abs().max_element()));
-        Self { frame, lattice, far, low: low - slack, high: high + slack }
+        Self { frame, lattice, far: settings.far, is_sound, low: low - slack, high: high + slack }
     }
 
     fn look(&self, extrusion: &Extrusion, volume: &Volume) -> Look {
@@ -189,12 +198,13 @@ impl<'a> Viewer<'a> {
         (!is_out).then(|| [from[0] as u32, from[1] as u32, last(to[0], last_column), last(to[1], last_row)])
     }
 
-    /// Calls `visit` with the corners of a volume, or of the box around one that is not a box itself.
+    /// Calls `visit` with the corners of a volume, or of the upright box around it.
     fn for_each_corner(&self, extrusion: &Extrusion, volume: &Volume, mut visit: impl FnMut(World)) {
         let plan = &volume.plan;
         let around =
             [plan.min, Plan::new(plan.max.x, plan.min.y), plan.max, Plan::new(plan.min.x, plan.max.y)];
-        let ring = extrusion.rings_of(volume).next().filter(|_| volume.is_box).unwrap_or(&around);
+        let ring =
+            extrusion.rings_of(volume).next().filter(|_| volume.is_box && self.is_sound).unwrap_or(&around);
         for corner in ring {
             visit(nadir(*corner, volume.low));
             visit(nadir(*corner, volume.high));

@@ -3,13 +3,15 @@
 use super::super::block::{Block, COLUMNS, ROWS};
 use super::super::face::Place;
 use super::super::frame::Drawing;
+use super::super::view::Entry;
 use super::Way;
 use crate::math;
 use crate::raster::TileView;
 use crate::space::{Lens, World};
+use std::ops::Range;
 
-/// The surface points of a tile, in blocks, and where they lie.
-pub(super) fn seen(drawing: &Drawing, view: &TileView) -> (Place, Vec<Block>) {
+/// The surface points of a tile that volumes may touch, in blocks, and where they lie.
+pub(super) fn seen(drawing: &Drawing, view: &TileView, entries: &[Entry]) -> (Place, Vec<Block>) {
     let size = (view.width, view.height);
     let mut blocks = Vec::new();
     for row in (0..view.height).step_by(ROWS) {
@@ -18,7 +20,7 @@ pub(super) fn seen(drawing: &Drawing, view: &TileView) -> (Place, Vec<Block>) {
     let mut origin = None;
     if drawing.way != Way::Machine {
         let mut points = vec![World::default(); view.width];
-        for r in 0..view.height {
+        for r in rows_of(view, entries) {
             drawing.sight.world_of_row((view.column, view.row + r), &mut points);
             origin = origin.or_else(|| points.iter().copied().find(|p| p.is_finite()));
             let Some(origin) = origin else { continue };
@@ -29,6 +31,13 @@ pub(super) fn seen(drawing: &Drawing, view: &TileView) -> (Place, Vec<Block>) {
     drawing.arch.dispatch(Close { blocks: &mut blocks });
     let reach = blocks.iter().fold(0.0, |most, block| math::max_f32(block.reach(), most));
     (place(view, origin.unwrap_or_default(), f64::from(reach)), blocks)
+}
+
+/// The rows of the tile that volumes may touch: the depth test of the others is never asked.
+fn rows_of(view: &TileView, entries: &[Entry]) -> Range<usize> {
+    let windows = entries.iter().map(|entry| entry.samples_in(view));
+    let rows = windows.fold((view.height, 0), |all, ((_, r0), (_, r1))| (all.0.min(r0), all.1.max(r1 + 1)));
+    rows.0..rows.1
 }
 
 /// [`Block::set_row`] of a row of blocks, compiled for the widest vectors of the machine at hand.
