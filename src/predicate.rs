@@ -5,6 +5,10 @@
 //! proven bound decides nearly every case; expansions (Shewchuk 1997, "Adaptive precision floating-point arithmetic")
 //! the rest. Refuses: nothing; NaN in gives an arbitrary sign.
 
+mod hit_side;
+
+pub use hit_side::{hit_is_above, hit_side, moved_ray_side};
+
 use crate::space::{Lens, Plan, Ray, ViewFrame, World};
 use glam::DVec3;
 use std::cmp::Ordering;
@@ -375,6 +379,26 @@ mod tests {
             if let (Some(first), Some(second)) = (parameter(&t1), parameter(&t2)) {
                 prop_assert_eq!(compare_along_ray(&ray, &t1, &t2), first.partial_cmp(&second).unwrap());
             }
+        }
+
+        #[test]
+        fn the_side_of_a_hit_is_that_of_rational_arithmetic(p in prop::array::uniform7(point())) {
+            let (ray, t) = (Ray { from: p[0], through: p[1] }, [p[2], p[3], p[4]]);
+            let (a, b) = (p[5].plan(), p[6].plan());
+            let (u, v) = (Difference::new(t[1], t[0]), Difference::new(t[2], t[0]));
+            let n = rational_det(&[Difference::new(t[0], ray.from), u, v]);
+            let d = rational_det(&[Difference::new(ray.through, ray.from), u, v]);
+            prop_assume!(d != RBig::ZERO && a != b);
+            let at = |from: f64, to: f64| rational(from) + (rational(to) - rational(from)) * n.clone() / d.clone();
+            let (x, y) = (at(ray.from.x, ray.through.x), at(ray.from.y, ray.through.y));
+            let (along_x, along_y) = (rational(b.x) - rational(a.x), rational(b.y) - rational(a.y));
+            let side = along_x.clone() * (y - rational(a.y)) - along_y.clone() * (x - rational(a.x));
+            // On the line: a step east, then one north.
+            let signs = [sign(&side), -sign(&along_y), sign(&along_x)];
+            let expected = signs.into_iter().find(|s| *s != 0.0).unwrap();
+            prop_assert_eq!(hit_side(&ray, &t, a, b).signum(), expected);
+            let height = at(ray.from.z, ray.through.z) - rational(p[5].z);
+            prop_assert_eq!(hit_is_above(&ray, &t, p[5].z), sign(&height) >= 0.0);
         }
     }
 }

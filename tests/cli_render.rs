@@ -92,10 +92,6 @@ fn names_of_all() -> Vec<&'static str> {
     std::iter::once(drapery::truth::NAME).chain(techniques).collect()
 }
 
-fn keys(value: &Value) -> Vec<&str> {
-    value.as_object().unwrap().keys().map(String::as_str).collect()
-}
-
 /// The hashes of all pictures and buffers of a run.
 fn hashes(result: &Value) -> Vec<(String, String)> {
     let of = |value: &Value| {

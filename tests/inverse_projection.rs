@@ -39,7 +39,7 @@ fn scene(size: (usize, usize), camera: Camera, layers: Vec<Layer>, settings: Inv
         layers,
         compositing: Compositing::default(),
         device: Device::default(),
-        technique: TechniqueSettings { inverse_projection: settings },
+        technique: TechniqueSettings { inverse_projection: settings, ..TechniqueSettings::default() },
         notes: Vec::new(),
     }
 }

@@ -7,6 +7,7 @@ mod camera;
 pub mod file;
 mod layer;
 mod settings;
+mod stencil;
 
 pub use camera::{Camera, Projection};
 pub use layer::{Cap, Feature, Fill, Join, Layer, Line, Outline, OutlineMode, Rule, Shape, Style, Width};
@@ -14,6 +15,7 @@ pub use settings::{
     BlendMode, BlendSpace, Color, Compositing, Corners, DepthFormat, Device, ImageSettings,
     InverseProjection, PointInPolygon, Precision, Silhouette, TechniqueSettings,
 };
+pub use stencil::{Counting, FarPlane, Grouping, Overflow, StencilVolume, VolumeCaps, VolumeJoins};
 
 use crate::space::{Plan, World};
 use glam::DVec2;

@@ -1,5 +1,7 @@
 //! The settings of a scene that need no data: image, compositing, device, technique parameters.
 
+use super::StencilVolume;
+
 /// A colour with straight alpha, encoded (sRGB-style) values 0..=1 of red, green, blue, alpha.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Color(pub [f64; 4]);
@@ -124,6 +126,8 @@ pub enum DepthFormat {
 pub struct TechniqueSettings {
     /// She 2016.
     pub inverse_projection: InverseProjection,
+    /// Schneider & Klein 2007.
+    pub stencil_volume: StencilVolume,
 }
 
 /// Parameters of inverse projection (She 2016).

@@ -170,6 +170,14 @@ impl World {
     }
 }
 
+impl From<World> for Plan {
+    /// The plan point below.
+    #[inline(always)]
+    fn from(p: World) -> Self {
+        p.plan()
+    }
+}
+
 /// An axis-aligned rectangle of the plan.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlanBox {

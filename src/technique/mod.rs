@@ -5,6 +5,7 @@
 //! at the number of threads or at another technique. Refuses: scenes that the technique's paper does not cover, with the reason.
 
 pub mod inverse_projection;
+pub mod stencil_volume;
 
 use crate::buffer::{Buffer, Plane};
 use crate::error::Result;
@@ -38,17 +39,20 @@ impl Stage {
 /// A technique's name in the contract.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
+    /// Schneider & Klein 2007.
+    StencilVolume,
     /// She 2016.
     InverseProjection,
 }
 
 impl Kind {
     /// Every technique that is built.
-    pub const ALL: [Self; 1] = [Self::InverseProjection];
+    pub const ALL: [Self; 2] = [Self::StencilVolume, Self::InverseProjection];
 
     /// The name on the command line and in files.
     pub fn name(self) -> &'static str {
         match self {
+            Self::StencilVolume => "stencil-volume",
             Self::InverseProjection => "inverse-projection",
         }
     }
@@ -101,6 +105,7 @@ pub trait Prepared: Sync {
 /// When the technique does not draw such a scene.
 pub fn prepare(kind: Kind, stage: &Stage) -> Result<Box<dyn Prepared + '_>> {
     match kind {
+        Kind::StencilVolume => Ok(Box::new(stencil_volume::Prepare::new(stage)?)),
         Kind::InverseProjection => Ok(Box::new(inverse_projection::Prepare::new(stage)?)),
     }
 }
@@ -111,6 +116,7 @@ pub fn prepare(kind: Kind, stage: &Stage) -> Result<Box<dyn Prepared + '_>> {
 /// The reason why it does not.
 pub fn applies(kind: Kind, stage: &Stage) -> Result<()> {
     match kind {
+        Kind::StencilVolume => stencil_volume::applies(stage),
         Kind::InverseProjection => inverse_projection::applies(stage),
     }
 }

@@ -9,7 +9,7 @@ use crate::parallel;
 use crate::raster::device::{Pipeline, Primitive, Real, Window};
 use crate::raster::{Counts, Lattice};
 use crate::scene::{Device, Precision};
-use crate::space::{Screen, ViewFrame};
+use crate::space::{Screen, ViewFrame, World};
 use crate::terrain::Mesh;
 
 /// Triangles that are transformed at a time.
@@ -38,6 +38,30 @@ impl Machine {
         match self {
             Self::Single(pipeline) => see_through(pipeline, visible, mesh),
             Self::Double(pipeline) => see_through(pipeline, visible, mesh),
+        }
+    }
+
+    /// Calls `visit` with what a triangle that leaves the depth buffer alone covers of a window of the lattice: column and
+    /// row, its facing (1: its corners run counter-clockwise as they are seen, else -1) and what it would store as depth.
+    /// `is_clamped`: neither the near nor the far plane clips it (NV_depth_clamp).
+    pub fn rasterize(
+        &self,
+        triangle: &[World; 3],
+        is_clamped: bool,
+        place: (&Lattice, &Window),
+        visit: &mut dyn FnMut((usize, usize), i32, f32),
+    ) {
+        match self {
+            Self::Single(pipeline) => pipeline.rasterize(triangle, is_clamped, place, visit),
+            Self::Double(pipeline) => pipeline.rasterize(triangle, is_clamped, place, visit),
+        }
+    }
+
+    /// The depth test.
+    pub fn passes(&self, new: f32, old: f32) -> bool {
+        match self {
+            Self::Single(pipeline) => pipeline.depth().passes(new, old),
+            Self::Double(pipeline) => pipeline.depth().passes(new, old),
         }
     }
 

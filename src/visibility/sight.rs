@@ -5,7 +5,7 @@ use super::{Hit, Machine, Visible, hit};
 use crate::predicate::TrianglePlane;
 use crate::raster::{Counts, Lattice};
 use crate::scene::Device;
-use crate::space::{Plan, ViewFrame};
+use crate::space::{Plan, ViewFrame, World};
 use crate::terrain::{Mesh, SKY};
 
 /// The triangle and the surface point of each sample of a lattice: exact, or as a [`Device`] finds them.
@@ -67,6 +67,16 @@ impl<'a> Sight<'a> {
         self.ids[row * self.visible.lattice.columns + column]
     }
 
+    /// The depth buffer's content at a sample; `None` where no machine is imitated.
+    pub fn stored(&self, column: usize, row: usize) -> Option<f32> {
+        self.machine.as_ref().map(|_| self.stored[row * self.visible.lattice.columns + column])
+    }
+
+    /// The imitated machine, if any.
+    pub fn machine(&self) -> Option<&Machine> {
+        self.machine.as_ref()
+    }
+
     /// The triangles of all samples, rows from the top.
     pub fn triangles(&self) -> &[u32] {
         &self.ids
@@ -88,35 +98,55 @@ impl<'a> Sight<'a> {
 
     /// The plan points of a row of samples, infinite where the sky is seen; the same as those of [`Sight::hit`].
     pub fn plan_of_row(&self, row: usize, plan: &mut [Plan]) {
-        let sky = Plan::new(f64::INFINITY, f64::INFINITY);
+        self.points_of_row((0, row), plan);
+    }
+
+    /// The surface points of neighbours in a row from (column, row) on, infinite where the sky is seen; the same as those of
+    /// [`Sight::hit`].
+    pub fn world_of_row(&self, from: (usize, usize), points: &mut [World]) {
+        self.points_of_row(from, points);
+    }
+
+    fn points_of_row<P: From<World>>(&self, (first, row): (usize, usize), points: &mut [P]) {
+        let sky = || P::from(World::new(f64::INFINITY, f64::INFINITY, f64::INFINITY));
         if self.machine.is_some() {
-            for (column, to) in plan.iter_mut().enumerate() {
-                *to = self.hit(column, row).map_or(sky, |hit| hit.plan);
+            for (k, to) in points.iter_mut().enumerate() {
+                let point =
+                    self.hit(first + k, row).map(|hit| World::new(hit.plan.x, hit.plan.y, hit.height));
+                *to = point.map_or_else(sky, P::from);
             }
             return;
         }
         // Neighbours often see the same triangle: its plane is made once.
-        let columns = self.visible.lattice.columns;
-        let ids = &self.ids[row * columns..(row + 1) * columns];
+        let start = row * self.visible.lattice.columns + first;
+        let ids = &self.ids[start..start + points.len()];
         let mut column = 0;
         for run in ids.chunk_by(|a, b| a == b) {
-            let points = &mut plan[column..column + run.len()];
+            let points = &mut points[column..column + run.len()];
             let triangle = if run[0] == SKY { None } else { self.mesh.triangle(run[0]) };
             match triangle {
-                None => points.fill(sky),
-                Some(triangle) => self.plan_of_run((column, row), &TrianglePlane::new(&triangle), points),
+                None => points.fill_with(sky),
+                Some(triangle) => {
+                    self.points_of_run((first + column, row), &TrianglePlane::new(&triangle), points);
+                }
             }
             column += run.len();
         }
     }
 
-    /// The plan points of neighbours in a row that see one plane.
-    fn plan_of_run(&self, (column, row): (usize, usize), plane: &TrianglePlane, points: &mut [Plan]) {
+    /// The surface points of neighbours in a row that see one plane.
+    fn points_of_run<P: From<World>>(
+        &self,
+        (column, row): (usize, usize),
+        plane: &TrianglePlane,
+        points: &mut [P],
+    ) {
         let (frame, lattice) = (self.frame, &self.visible.lattice);
         let run = Run { frame, lattice, column, row, plane, points };
         if !pulp::Arch::new().dispatch(run) {
             for (k, to) in points.iter_mut().enumerate() {
-                *to = hit_plane(frame, &frame.ray(lattice.at(column + k, row)), plane).plan;
+                let hit = hit_plane(frame, &frame.ray(lattice.at(column + k, row)), plane);
+                *to = P::from(World::new(hit.plan.x, hit.plan.y, hit.height));
             }
         }
     }
@@ -127,18 +157,18 @@ impl<'a> Sight<'a> {
     }
 }
 
-/// The plan points of neighbours that see one plane, as [`super::hit()`] computes them; compiled for the widest vectors of the machine
-/// at hand. False: one of them is not precise enough in plain doubles.
-struct Run<'a> {
+/// The surface points of neighbours that see one plane, as [`super::hit()`] computes them; compiled for the widest vectors of
+/// the machine at hand. False: one of them is not precise enough in plain doubles.
+struct Run<'a, P> {
     frame: &'a ViewFrame,
     lattice: &'a Lattice,
     column: usize,
     row: usize,
     plane: &'a TrianglePlane,
-    points: &'a mut [Plan],
+    points: &'a mut [P],
 }
 
-impl pulp::WithSimd for Run<'_> {
+impl<P: From<World>> pulp::WithSimd for Run<'_, P> {
     type Output = bool;
 
     #[inline(always)]
@@ -147,8 +177,7 @@ impl pulp::WithSimd for Run<'_> {
         for (k, to) in self.points.iter_mut().enumerate() {
             let ray = self.frame.ray(self.lattice.at(self.column + k, self.row));
             let (t, is_sure) = self.plane.quick_hit_parameter(&ray);
-            let at = ray.from + (ray.through - ray.from) * t;
-            *to = at.plan();
+            *to = P::from(ray.from + (ray.through - ray.from) * t);
             all_sure &= is_sure;
         }
         all_sure

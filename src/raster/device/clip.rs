@@ -68,12 +68,14 @@ impl<T: Real> Volume<T> {
         self.distance(plane, corner) >= T::of(0.0)
     }
 
-    /// Calls `emit` with the triangles of what remains of one.
-    pub(super) fn clip(&self, triangle: &[Clip<T>; 3], mut emit: impl FnMut([Clip<T>; 3])) {
+    /// Calls `emit` with the triangles of what remains of one; `is_clamped`: the near and the far plane clip nothing.
+    pub(super) fn clip(&self, triangle: &[Clip<T>; 3], is_clamped: bool, mut emit: impl FnMut([Clip<T>; 3])) {
         if !triangle.iter().flatten().all(|v| v.get().is_finite()) {
             return;
         }
-        let inside = Plane::ALL.map(|plane| triangle.iter().filter(|&&c| self.is_inside(plane, c)).count());
+        let is_off = |plane: Plane| is_clamped && matches!(plane, Plane::Near | Plane::Far);
+        let inside = Plane::ALL
+            .map(|plane| triangle.iter().filter(|&&c| is_off(plane) || self.is_inside(plane, c)).count());
         if inside.contains(&0) {
             return;
         }
@@ -81,7 +83,7 @@ impl<T: Real> Volume<T> {
             return emit(*triangle);
         }
         let mut polygon = triangle.to_vec();
-        for plane in Plane::ALL {
+        for plane in Plane::ALL.into_iter().filter(|plane| !is_off(*plane)) {
             polygon = self.cut(plane, &polygon);
         }
         for k in 2..polygon.len() {

@@ -77,7 +77,7 @@ impl<T: Real> Pipeline<T> {
                 continue;
             };
             let corners = corners.map(|p| self.clip_from_world.times(homogeneous(p)));
-            self.volume.clip(&corners, |triangle| {
+            self.volume.clip(&corners, false, |triangle| {
                 let primitive = Primitive { id, corners: triangle.map(|c| self.screen_from_clip(c)) };
                 if primitive.window(lattice).is_some() {
                     out.push(primitive);
@@ -85,6 +85,37 @@ impl<T: Real> Pipeline<T> {
             });
         }
         out
+    }
+
+    /// Calls `visit` with what a triangle that leaves the depth buffer alone covers of a window of the lattice: column and
+    /// row, its facing (1: its corners run counter-clockwise as they are seen, else -1) and what it would store as depth.
+    /// `is_clamped`: neither the near nor the far plane clips it, its fragments' depths are clamped instead.
+    pub fn rasterize(
+        &self,
+        triangle: &[World; 3],
+        is_clamped: bool,
+        (lattice, window): (&Lattice, &Window),
+        visit: &mut dyn FnMut((usize, usize), i32, f32),
+    ) {
+        let corners = triangle.map(|p| self.clip_from_world.times(homogeneous(p)));
+        self.volume.clip(&corners, is_clamped, |triangle| {
+            let corners = triangle.map(|[x, y, z, w]| {
+                let [x, y, _] = self.screen_from_clip([x, y, z, w]);
+                [x, y, z / w]
+            });
+            let primitive = Primitive { id: 0, corners };
+            let mut store = |at, facing, depth| visit(at, facing, self.depth.store(depth));
+            if self.subpixel_bits > 0 {
+                scan::visit::<T, i128>(&primitive, (lattice, window), &mut store);
+            } else {
+                scan::visit::<T, T>(&primitive, (lattice, window), &mut store);
+            }
+        });
+    }
+
+    /// The depth buffer.
+    pub fn depth(&self) -> DepthBuffer {
+        self.depth
     }
 
     /// Perspective division, viewport transform and snapping; depth stays as the division left it, within 0..=1.

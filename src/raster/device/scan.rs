@@ -91,6 +91,26 @@ pub(super) fn draw<'p, T: Real + 'p, N: Coordinate>(
     }
 }
 
+/// Calls `visit` with the column, the row, the facing (1: the corners run counter-clockwise on the screen, else -1) and the depth,
+/// which may lie beyond 0..=1, of each sample of a window that a primitive covers.
+pub(super) fn visit<T: Real, N: Coordinate>(
+    primitive: &Primitive<T>,
+    (lattice, window): (&Lattice, &Window),
+    visit: &mut dyn FnMut((usize, usize), i32, T),
+) {
+    let Some(part) = primitive.window(lattice).map(|all| all.shared_with(window)) else { return };
+    let Some(edges) = Edges::<T, N>::new(primitive) else { return };
+    let xs = positions::<N>(&part.columns, lattice.x, lattice.step);
+    let ys = positions::<N>(&part.rows, lattice.y, lattice.step);
+    for (row, y) in part.rows.zip(ys) {
+        for (column, x) in part.columns.clone().zip(&xs) {
+            if let Some(depth) = edges.depth_at([*x, y]) {
+                visit((column, row), edges.facing, depth);
+            }
+        }
+    }
+}
+
 /// Screen coordinates of some columns or rows.
 fn positions<N: Coordinate>(range: &Range<usize>, first: f64, step: f64) -> Vec<N> {
     range.clone().map(|k| N::of_pixels(first + k as f64 * step)).collect()
@@ -100,6 +120,8 @@ fn positions<N: Coordinate>(range: &Range<usize>, first: f64, step: f64) -> Vec<
 struct Edges<T, N> {
     corners: [[N; 2]; 3],
     depths: [T; 3],
+    /// -1: the corners were given in this order; 1: in the other one.
+    facing: i32,
 }
 
 impl<T: Real, N: Coordinate> Edges<T, N> {
@@ -108,14 +130,14 @@ impl<T: Real, N: Coordinate> Edges<T, N> {
         let [a, b, c] = primitive.corners;
         let place = |p: [T; 3]| [N::of_pixels(p[0].get()), N::of_pixels(p[1].get())];
         let (area, zero) = (edge(place(a), place(b), place(c)), N::of_pixels(0.0));
-        let [a, b, c] = if area > zero {
-            [a, b, c]
+        let ([a, b, c], facing) = if area > zero {
+            ([a, b, c], -1)
         } else if area < zero {
-            [a, c, b]
+            ([a, c, b], 1)
         } else {
             return None;
         };
-        Some(Self { corners: [place(a), place(b), place(c)], depths: [a[2], b[2], c[2]] })
+        Some(Self { corners: [place(a), place(b), place(c)], depths: [a[2], b[2], c[2]], facing })
     }
 
     /// The depth at a sample, `None` where the triangle does not cover it.

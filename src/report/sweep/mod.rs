@@ -4,6 +4,7 @@
 //! `drapery render --set`. To add a technique: a file with its [`Sweep`], and its line in [`of`].
 
 mod inverse_projection;
+mod stencil_volume;
 
 use crate::technique::Kind;
 
@@ -43,6 +44,7 @@ const MACHINES: Axis = &[
 pub fn of(kind: Kind) -> Sweep {
     match kind {
         Kind::InverseProjection => inverse_projection::SWEEP,
+        Kind::StencilVolume => stencil_volume::SWEEP,
     }
 }
 

@@ -2,8 +2,8 @@
 
 use super::spec::HeightEncoding;
 use crate::scene::{
-    BlendMode, BlendSpace, Cap, Corners, DepthFormat, Diagonal, OutlineMode, PointInPolygon, Precision, Rule,
-    Silhouette,
+    BlendMode, BlendSpace, Cap, Corners, Counting, DepthFormat, Diagonal, FarPlane, Grouping, OutlineMode,
+    Overflow, PointInPolygon, Precision, Rule, Silhouette, VolumeCaps, VolumeJoins,
 };
 
 /// A setting that is written as one of some words.
@@ -92,4 +92,10 @@ named! {
     Corners { "centres" => Centres, "true" => True }
     PointInPolygon { "edge-normals" => EdgeNormals, "winding" => Winding }
     Silhouette { "centre" => Centre, "smear" => Smear }
+    Counting { "automatic" => Automatic, "z-pass" => ZPass, "z-fail" => ZFail }
+    Overflow { "wrap" => Wrap, "saturate" => Saturate }
+    FarPlane { "clamp" => Clamp, "clip" => Clip }
+    VolumeCaps { "both" => Both, "bottom" => Bottom }
+    VolumeJoins { "none" => None, "style" => Style }
+    Grouping { "object" => Object, "color" => Color }
 }

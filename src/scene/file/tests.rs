@@ -60,6 +60,15 @@ samples = 5
 corners = "true"
 point_in_polygon = "winding"
 silhouette = "smear"
+[technique.stencil-volume]
+method = "z-fail"
+overflow = "saturate"
+far = "clip"
+caps = "bottom"
+joins = "style"
+grouping = "color"
+samples = 4
+object = 2
 [compositing]
 space = "linear"
 mode = "additive"
@@ -186,6 +195,7 @@ fn values_arrive_where_they_belong() {
     assert_eq!(scene.layers[1].name, "roads");
     assert_eq!(scene.layers[1].style.line.map(|line| line.width), Some(Width::Metres(12.0)));
     assert_eq!(scene.technique.inverse_projection.samples, 5);
+    assert_eq!((scene.technique.stencil_volume.samples, scene.technique.stencil_volume.object), (4, Some(2)));
     assert_eq!(scene.device.subpixel_bits, 8);
 }
 

@@ -9,7 +9,9 @@ use super::section::{Section, Taken};
 use super::spec::{DataFile, SceneFile};
 use super::tree::Node;
 use crate::error::Result;
-use crate::scene::{Color, Compositing, Device, ImageSettings, InverseProjection, TechniqueSettings};
+use crate::scene::{
+    Color, Compositing, Device, ImageSettings, InverseProjection, StencilVolume, TechniqueSettings,
+};
 use std::path::Path;
 
 pub(super) use camera::check_view;
@@ -75,7 +77,23 @@ fn device(section: &mut Section<'_>) -> Result<Device> {
 fn technique(section: &mut Section<'_>) -> Result<TechniqueSettings> {
     let node = section.take_or_empty("inverse-projection");
     let inverse_projection = Section::read(section.origin(), node, inverse_projection)?;
-    Ok(TechniqueSettings { inverse_projection })
+    let node = section.take_or_empty("stencil-volume");
+    let stencil_volume = Section::read(section.origin(), node, stencil_volume)?;
+    Ok(TechniqueSettings { inverse_projection, stencil_volume })
+}
+
+fn stencil_volume(section: &mut Section<'_>) -> Result<StencilVolume> {
+    let default = StencilVolume::default();
+    Ok(StencilVolume {
+        method: section.name("method")?.unwrap_or(default.method),
+        overflow: section.name("overflow")?.unwrap_or(default.overflow),
+        far: section.name("far")?.unwrap_or(default.far),
+        caps: section.name("caps")?.unwrap_or(default.caps),
+        joins: section.name("joins")?.unwrap_or(default.joins),
+        grouping: section.name("grouping")?.unwrap_or(default.grouping),
+        samples: section.integer("samples")?.unwrap_or(default.samples),
+        object: section.integer("object")?,
+    })
 }
 
 fn inverse_projection(section: &mut Section<'_>) -> Result<InverseProjection> {

@@ -6,6 +6,7 @@ mod terrain;
 use super::names::ProjectionName;
 use super::shape::{Range, Rule as Keys, Shape, TableShape, choice, key};
 use crate::scene::{BlendMode, BlendSpace, Corners, DepthFormat, PointInPolygon, Precision, Silhouette};
+use crate::scene::{Counting, FarPlane, Grouping, Overflow, VolumeCaps, VolumeJoins};
 use layer::LAYER;
 use terrain::TERRAIN;
 
@@ -78,7 +79,10 @@ static CAMERA: TableShape = TableShape {
 };
 
 static TECHNIQUE: TableShape = TableShape {
-    keys: &[key("inverse-projection", Shape::Table(&INVERSE_PROJECTION), "She 2016.")],
+    keys: &[
+        key("inverse-projection", Shape::Table(&INVERSE_PROJECTION), "She 2016."),
+        key("stencil-volume", Shape::Table(&STENCIL_VOLUME), "Schneider & Klein 2007."),
+    ],
     rules: &[],
 };
 
@@ -99,6 +103,40 @@ static INVERSE_PROJECTION: TableShape = TableShape {
             "silhouette",
             choice::<Silhouette>(),
             "What is done with a pixel whose quadrilateral has no meaning. Default: \"centre\".",
+        ),
+    ],
+    rules: &[],
+};
+
+static STENCIL_VOLUME: TableShape = TableShape {
+    keys: &[
+        key(
+            "method",
+            choice::<Counting>(),
+            "Towards which end of the line of sight faces are counted. Default: \"automatic\".",
+        ),
+        key("overflow", choice::<Overflow>(), "What the stencil does beyond its range. Default: \"wrap\"."),
+        key(
+            "far",
+            choice::<FarPlane>(),
+            "Whether near and far plane cut volumes or their depths are clamped. Default: \"clamp\".",
+        ),
+        key(
+            "caps",
+            choice::<VolumeCaps>(),
+            "\"bottom\" leaves the top caps out, which is wrong. Default: \"both\".",
+        ),
+        key(
+            "joins",
+            choice::<VolumeJoins>(),
+            "How the segments of a line meet; \"style\": as `join` and `cap` say. Default: \"none\".",
+        ),
+        key("grouping", choice::<Grouping>(), "What shares a mask. Default: \"object\"."),
+        key("samples", Shape::Integer(1, 16), "n: n x n samples a pixel. Default: 1."),
+        key(
+            "object",
+            Shape::Integer(0, u32::MAX as i64),
+            "The object whose counts the buffers show, from 0 in draw order. Default: all of them.",
         ),
     ],
     rules: &[],

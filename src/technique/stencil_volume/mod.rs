@@ -1,0 +1,132 @@
+//! Stencil volumes: M. Schneider, R. Klein (2007), "Efficient and accurate rendering of vector data on virtual landscapes",
+//! Journal of WSCG.
+//!
+//! Input: a [`Stage`]. Output: a picture whose features are masks that faces of polyhedra have counted:
+//! 1. extrusion: vector data becomes polyhedra between levels just below and above the terrain (`extrusion`, `stroke`, `heights`; 4.1);
+//! 2. the view: which method counts each polyhedron (`view`, 4.2.1);
+//! 3. counting: the faces' fragments before or behind the terrain go into the stencil (`face`, `block`, `stencil`; 3.1, 4.2.1);
+//! 4. the mask is applied through the polyhedra's boxes and zeroed on the way (`tile`, 4.2.2).
+//!
+//! With exact mathematics (the default device) the mask is the footprint: a sample is in it exactly when its surface
+//! point's plan point is. Where the paper is silent, see `extrusion`, `view` and `docs/semantics.md`.
+//!
+//! Refuses: scenes with widths in pixels (5: "available vector data is static"; a volume stands on a footprint that does not
+//! depend on the view), and outlines that are cut to their polygon where the stencil has one bit.
+
+mod block;
+mod extrusion;
+mod face;
+mod frame;
+mod heights;
+mod stencil;
+mod stroke;
+#[cfg(test)]
+mod tests;
+mod tile;
+mod view;
+
+use super::{Frame, FrameOptions, Prepared, Stage};
+use crate::error::{Error, Result};
+use crate::scene::file::Named;
+use crate::scene::{Layer, OutlineMode, Width};
+use extrusion::Extrusion;
+
+/// The most samples of a picture: each takes 20 bytes while a frame is drawn.
+const MOST_SAMPLES: usize = 1 << 27;
+
+/// The technique with its volumes built.
+#[derive(Debug)]
+pub struct Prepare<'s> {
+    stage: &'s Stage,
+    extrusion: Extrusion,
+}
+
+impl<'s> Prepare<'s> {
+    /// Extrudes the scene's layers.
+    ///
+    /// # Errors
+    /// When the technique does not draw such a scene, or there is too much in it.
+    pub fn new(stage: &'s Stage) -> Result<Self> {
+        applies(stage)?;
+        let settings = &stage.scene.technique.stencil_volume;
+        let extrusion = Extrusion::new(&stage.scene.layers, &stage.mesh, settings);
+        if extrusion.corners.len() > u32::MAX as usize / 2 {
+            return Err(Error::new("more corners of volumes than this program can number")
+                .help("give the terrain a `window`"));
+        }
+        if let Some(object) = settings.object.filter(|o| *o as usize >= extrusion.objects.len()) {
+            return Err(Error::new(format!(
+                "stencil-volume has {} objects, there is no object {object}",
+                extrusion.objects.len()
+            ))
+            .help(
+                "objects are counted from 0 in draw order: fills, outlines and lines, feature by feature",
+            ));
+        }
+        Ok(Self { stage, extrusion })
+    }
+}
+
+/// Whether the technique can draw the scene.
+///
+/// # Errors
+/// The reason why it cannot.
+pub fn applies(stage: &Stage) -> Result<()> {
+    let in_pixels = |width: Width| matches!(width, Width::Pixels(_));
+    let is_dynamic = |layer: &&Layer| {
+        layer.style.line.is_some_and(|l| in_pixels(l.width))
+            || layer.style.outline.is_some_and(|o| in_pixels(o.line.width))
+    };
+    if let Some(layer) = stage.scene.layers.iter().find(is_dynamic) {
+        return Err(Error::new(format!(
+            "stencil-volume extrudes footprints that do not depend on the view, layer `{}` has width_px",
+            layer.name
+        ))
+        .help("give the layer width_m, or leave the technique out"));
+    }
+    let n = stage.scene.technique.stencil_volume.samples as usize;
+    let samples = stage.view.width() * stage.view.height() * n * n;
+    if samples > MOST_SAMPLES {
+        return Err(Error::new(format!(
+            "stencil-volume has no room for {samples} samples: at most 2^27 in all"
+        ))
+        .help("use fewer samples a pixel, or a smaller image"));
+    }
+    let is_cut = |layer: &&Layer| layer.style.outline.is_some_and(|o| o.mode != OutlineMode::Normal);
+    match stage.scene.layers.iter().find(is_cut) {
+        Some(layer) if stage.scene.device.stencil_bits < 2 => Err(Error::new(format!(
+            "the outline of layer `{}` needs a second bit of the stencil, to be cut to its polygon",
+            layer.name
+        ))
+        .help("use device.stencil_bits = 8, or mode = \"normal\"")),
+        _ => Ok(()),
+    }
+}
+
+impl Prepared for Prepare<'_> {
+    fn frame(&self, options: &FrameOptions) -> Result<Frame> {
+        Ok(frame::draw(self.stage, &self.extrusion, options))
+    }
+
+    fn structure_bytes(&self) -> usize {
+        self.extrusion.bytes()
+    }
+
+    fn parameters(&self) -> Vec<(&'static str, String)> {
+        let settings = &self.stage.scene.technique.stencil_volume;
+        vec![
+            ("method", settings.method.word().into()),
+            ("overflow", settings.overflow.word().into()),
+            ("far", settings.far.word().into()),
+            ("caps", settings.caps.word().into()),
+            ("joins", settings.joins.word().into()),
+            ("grouping", settings.grouping.word().into()),
+            ("samples", settings.samples.to_string()),
+            ("object", settings.object.map_or_else(|| "all".into(), |object| object.to_string())),
+        ]
+    }
+
+    fn buffer_names(&self) -> &'static [&'static str] {
+        &["depth", "triangle", "plan", "color", "stencil", "stencil-front", "stencil-back", "overdraw"]
+    }
+}

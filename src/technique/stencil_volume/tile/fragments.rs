@@ -1,0 +1,158 @@
+//! The fragments of a face in a tile: by the filter and the exact predicates, or by the imitated machine.
+
+use super::super::block::{BEFORE, BEHIND, COLUMNS, NONE, OPEN, ROWS};
+use super::super::face::{Face, Fragment, Outline};
+use super::super::stencil::Method;
+use super::super::view::Entry;
+use super::{Tile, Way};
+use crate::predicate;
+use crate::raster::device::Window;
+use crate::space::{Lens, Ray};
+use crate::terrain::SKY;
+
+/// Takes the fragments of a face.
+pub(super) type Visit<'v, 'a> = dyn FnMut(&mut Tile<'a>, (usize, usize), Fragment) + 'v;
+
+impl<'a> Tile<'a> {
+    /// Calls `visit` with each fragment of a face that is no volume's own (a box's).
+    pub(super) fn for_each_fragment(&mut self, outline: &Outline, entry: &Entry, visit: &mut Visit<'_, 'a>) {
+        if self.drawing.way == Way::Machine {
+            return self.visit_on_machine(outline, visit);
+        }
+        let face = self.setup().face(*outline, self.drawing.is_cut(entry.volume));
+        if let Some(face) = face {
+            self.visit_face(&face, visit);
+        }
+    }
+
+    /// Calls `visit` with each fragment of a face, exactly.
+    pub(super) fn visit_face(&mut self, face: &Face, visit: &mut Visit<'_, 'a>) {
+        let mut states = [NONE; COLUMNS];
+        for y in face.rows.0 / ROWS..=face.rows.1 / ROWS {
+            for x in face.columns.0 / COLUMNS..=face.columns.1 / COLUMNS {
+                let block = y * self.blocks_a_row + x;
+                let Some((from, to)) = self.blocks[block].rows_of(face, self.view.first) else { continue };
+                for r in from..=to {
+                    self.blocks[block].classify(face, self.view.first, r, &mut states);
+                    for (lane, state) in states.into_iter().enumerate() {
+                        let at = (block, r * COLUMNS + lane);
+                        let fragment = match state {
+                            NONE => None,
+                            OPEN => self.decide(face, at),
+                            state => {
+                                face.facing.map(|facing| Fragment { facing, is_behind: state == BEHIND })
+                            }
+                        };
+                        if let Some(fragment) = fragment {
+                            visit(self, at, fragment);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Decides exactly how a sample's line of sight crosses a face.
+    #[cold]
+    fn decide(&mut self, face: &Face, at: (usize, usize)) -> Option<Fragment> {
+        self.counts.exact_decisions += 1;
+        let (c, r) = self.sample(at);
+        let ray = self.view.ray(c, r);
+        let id = self.drawing.sight.triangle(self.view.column + c, self.view.row + r);
+        let ground = if id == SKY { None } else { self.drawing.stage.mesh.triangle(id) };
+        let seen = match self.view.frame.lens() {
+            Lens::Central { .. } => face.facing,
+            Lens::Parallel { .. } => None,
+        };
+        let fragment = face.outline.decide(&ray, ground.as_ref(), seen)?;
+        self.is_unclipped(face, &ray).then_some(fragment)
+    }
+
+    /// Whether the near and the far plane leave a fragment of a face standing.
+    fn is_unclipped(&self, face: &Face, ray: &Ray) -> bool {
+        if !self.drawing.clips() {
+            return true;
+        }
+        let frame = &self.view.frame;
+        let [a, b, c, ..] = *face.outline.corners() else { return true };
+        predicate::is_hit_beyond(frame, ray, &[a, b, c], frame.near())
+            && (frame.far().is_infinite() || !predicate::is_hit_beyond(frame, ray, &[a, b, c], frame.far()))
+    }
+
+    /// Calls `visit` with each fragment of a face that the imitated machine draws.
+    pub(super) fn visit_on_machine(&mut self, outline: &Outline, visit: &mut Visit<'_, 'a>) {
+        let drawing = self.drawing;
+        let Some(machine) = drawing.sight.machine() else { return };
+        let (column, row) = (self.view.column, self.view.row);
+        let window = Window { columns: column..column + self.view.width, rows: row..row + self.view.height };
+        let corners = outline.corners();
+        for k in 2..corners.len() {
+            let triangle = [corners[0], corners[k - 1], corners[k]];
+            let place = (drawing.sight.lattice(), &window);
+            machine.rasterize(&triangle, !drawing.clips(), place, &mut |(c, r), facing, depth| {
+                let stored = drawing.sight.stored(c, r).unwrap_or(depth);
+                let is_behind = !machine.passes(depth, stored);
+                let at = self.index(c - column, r - row);
+                visit(self, at, Fragment { facing, is_behind });
+            });
+        }
+    }
+
+    /// Decides and counts the samples of a row that the filter left open.
+    #[cold]
+    fn settle(&mut self, face: &Face, (block, r): (usize, usize), method: Method, states: &[i32; COLUMNS]) {
+        for (lane, _) in states.iter().enumerate().filter(|(_, state)| **state == OPEN) {
+            let at = (block, r * COLUMNS + lane);
+            if let Some(fragment) = self.decide(face, at) {
+                self.counts.fragments += 1;
+                self.stencil.counts[block][at.1] += method.step(fragment);
+            }
+        }
+    }
+}
+
+/// Counts the faces of a volume in some blocks, compiled for the widest vectors of the machine at hand.
+pub(super) struct Sparse<'t, 'a, 'f> {
+    pub(super) tile: &'t mut Tile<'a>,
+    pub(super) faces: &'f [Face],
+    pub(super) method: Method,
+    pub(super) blocks: &'f [usize],
+}
+
+impl pulp::WithSimd for Sparse<'_, '_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) {
+        let Self { tile, faces, method, blocks } = self;
+        let first = tile.view.first;
+        let mut covered = [0; COLUMNS];
+        for &block in blocks {
+            tile.stencil.touched[block] = true;
+            for face in faces {
+                let Some((from, to)) = tile.blocks[block].rows_of(face, first) else { continue };
+                let step = |state, is_behind| match face.facing {
+                    Some(facing) => (state, method.step(Fragment { facing, is_behind })),
+                    None => (state, 0),
+                };
+                let [(_, behind), (_, before)] = [step(BEHIND, true), step(BEFORE, false)];
+                for r in from..=to {
+                    let mut states = [NONE; COLUMNS];
+                    let any_open = tile.blocks[block].classify(face, first, r, &mut states);
+                    let mut steps = [0; COLUMNS];
+                    for lane in 0..COLUMNS {
+                        let state = states[lane];
+                        let forward = if state == BEFORE { before } else { 0 };
+                        steps[lane] = if state == BEHIND { behind } else { forward };
+                        covered[lane] += i32::from((state == BEHIND) | (state == BEFORE));
+                    }
+                    tile.stencil.add(block, r, &steps);
+                    if any_open {
+                        tile.settle(face, (block, r), method, &states);
+                    }
+                }
+            }
+        }
+        tile.counts.fragments += covered.iter().map(|v| *v as u64).sum::<u64>();
+    }
+}
