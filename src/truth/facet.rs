@@ -30,7 +30,9 @@ pub(super) struct TileRays {
     plain: PlainRays,
     near: f64,
     far: f64,
-    frame: ViewFrame,
+    /// The tile's corner on the screen.
+    pub(super) corner: [f64; 2],
+    pub(super) frame: ViewFrame,
 }
 
 /// The same rays in plain doubles.
@@ -67,7 +69,7 @@ impl TileRays {
         let steps = [right.times(pixel), up.times(-pixel)];
         let plain = PlainRays::new(from, along, &steps, span);
         let (near, far) = (frame.near(), frame.far());
-        Self { is_central, from, along, steps, span, plain, near, far, frame: *frame }
+        Self { is_central, from, along, steps, span, plain, near, far, corner, frame: *frame }
     }
 
     /// A constant vector's product with the rays' directions.

@@ -113,6 +113,8 @@ struct Work<'a> {
     /// Nearest first.
     leaves: Vec<Leaf>,
     facets: Vec<Facet>,
+    /// A box of the tile around each facet, small enough that going through many is quick.
+    boxes: Vec<Reach>,
     /// The tile's pixels that are in the picture.
     size: [usize; 2],
     pieces: Pieces,
@@ -200,6 +202,47 @@ const BLOCK: usize = 8;
 /// Triangles that a block's first look takes; each further look takes twice as many.
 const FIRST_LOOK: usize = 512;
 
+/// A box of a tile: west, north, east, south.
+#[derive(Debug, Clone, Copy)]
+struct Reach([f32; 4]);
+
+impl Reach {
+    /// All of the tile.
+    const ALL: Self = Self([f32::NEG_INFINITY, f32::NEG_INFINITY, f32::INFINITY, f32::INFINITY]);
+
+    /// A box around a triangle, with a margin far above the rounding.
+    fn of(corners: &[World; 3], rays: &TileRays) -> Self {
+        let (frame, tile) = (&rays.frame, rays.corner);
+        let mut all = Self([f32::INFINITY, f32::INFINITY, f32::NEG_INFINITY, f32::NEG_INFINITY]);
+        for corner in corners {
+            let size = corner.to_vec().abs().max_element() + frame.eye().to_vec().abs().max_element();
+            let is_clear = frame.depth(*corner) > NEAR_SHARE * size || !rays.is_central;
+            let Some(at) = frame.screen_from_world(*corner).filter(|_| is_clear) else {
+                return Self::ALL;
+            };
+            let (x, y) = ((at.x - tile[0]) as f32, (at.y - tile[1]) as f32);
+            let margin = LEAF_MARGIN as f32 + 1e-6 * (x.abs() + y.abs());
+            all.0[0] = math::min_f32(x - margin, all.0[0]);
+            all.0[1] = math::min_f32(y - margin, all.0[1]);
+            all.0[2] = math::max_f32(x + margin, all.0[2]);
+            all.0[3] = math::max_f32(y + margin, all.0[3]);
+        }
+        all
+    }
+
+    /// A square of a pixel, or of pixels: its corners are multiples of an eighth.
+    fn of_square([x, y]: [f64; 2], side: f64) -> Self {
+        Self([x as f32, y as f32, (x + side) as f32, (y + side) as f32])
+    }
+
+    #[inline(always)]
+    fn meets(&self, other: &Self) -> bool {
+        let ([w, n, e, s], [a, b, c, d]) = (self.0, other.0);
+        // No short circuit: four comparisons cost less than a branch.
+        (w <= c) & (a <= e) & (n <= d) & (b <= s)
+    }
+}
+
 /// A block of pixels at work.
 struct Block<'a> {
     /// Its first pixel.
@@ -221,9 +264,10 @@ fn covers(facet: &Facet, corner: [f64; 2], side: f64) -> bool {
 }
 
 /// Those of some facets that a square may see: not beside it, and not behind one that covers all of it.
-fn narrowed(facets: &[Facet], from: &[u32], corner: [f64; 2], side: f64) -> Vec<u32> {
-    let mut near: Vec<u32> =
-        from.iter().copied().filter(|&k| may_cover(&facets[k as usize], corner, side)).collect();
+fn narrowed((facets, boxes): (&[Facet], &[Reach]), from: &[u32], corner: [f64; 2], side: f64) -> Vec<u32> {
+    let square = Reach::of_square(corner, side);
+    let is_near = |k: usize| boxes[k].meets(&square) && may_cover(&facets[k], corner, side);
+    let mut near: Vec<u32> = from.iter().copied().filter(|&k| is_near(k as usize)).collect();
     let mut cover = f64::NEG_INFINITY;
     for &k in &near {
         let facet = &facets[k as usize];
@@ -258,7 +302,8 @@ impl<'a> Work<'a> {
             tally: Tally::default(),
         };
         let (pieces, sight, refinery) = (Pieces::default(), Sight::default(), Refinery::default());
-        Self { setting, mesh, rays, leaves, facets: Vec::new(), size, pieces, sight, refinery, out }
+        let (facets, boxes) = (Vec::new(), Vec::new());
+        Self { setting, mesh, rays, leaves, facets, boxes, size, pieces, sight, refinery, out }
     }
 
     /// Does the pixels of a block: opens leaves, nearest first, until each pixel is covered before the next one.
@@ -305,6 +350,8 @@ impl<'a> Work<'a> {
             }
             Mesh::Tin(tin) => tin.leaf(node).for_each(offer),
         }
+        let fresh = &self.facets[first as usize..];
+        self.boxes.extend(fresh.iter().map(|facet| Reach::of(&facet.corners, &self.rays)));
         let facets = first..self.facets.len() as u32;
         self.leaves[leaf].facets = Some(facets.clone());
         facets
@@ -317,7 +364,7 @@ impl<'a> Work<'a> {
         if !is_open || at[0] >= self.size[0] || at[1] >= self.size[1] {
             return;
         }
-        let near = narrowed(&self.facets, from, [at[0] as f64, at[1] as f64], side as f64);
+        let near = narrowed((&self.facets, &self.boxes), from, [at[0] as f64, at[1] as f64], side as f64);
         if side == 1 {
             block.open[y][x] = !self.pixel(at, &near, block.rest);
             return;
@@ -369,7 +416,12 @@ impl<'a> Work<'a> {
         let half = side / 2.0;
         for (dx, dy) in [(0.0, 0.0), (half, 0.0), (0.0, half), (half, half)] {
             let corner = [corner[0] + dx, corner[1] + dy];
-            let few = narrowed(&self.facets, near, [pixel[0] + corner[0], pixel[1] + corner[1]], half);
+            let few = narrowed(
+                (&self.facets, &self.boxes),
+                near,
+                [pixel[0] + corner[0], pixel[1] + corner[1]],
+                half,
+            );
             self.square(pixel, corner, half, &few);
         }
     }

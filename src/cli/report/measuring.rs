@@ -22,6 +22,9 @@ const SAMPLES: [usize; 7] = [1, 2, 4, 8, 16, 32, 64];
 /// the machine.)
 const MOST_SAMPLES: usize = 1 << 28;
 
+/// Widths of the truth that are tried besides the reference's own, where they are narrower.
+const WIDTHS: [f64; 2] = [1e-4, 1e-6];
+
 /// A scene's numbers and pictures.
 pub(super) struct Measured {
     pub(super) report: SceneReport,
@@ -47,33 +50,19 @@ impl<'a> Measuring<'a> {
         Ok(Self { input, stage, certified, repeat, bar, runs: Vec::new(), exhibits: Vec::new() })
     }
 
-    /// The truth as a run: its error is what its estimate may be off.
+    /// The truth as a run, and narrower ones: what certainty costs.
     pub(super) fn truth(&mut self) -> Result<()> {
-        let certified = &self.certified;
-        let image = certified.truth.image();
-        let halves = report::half_widths(&certified.truth)?;
-        let nothing = Image::new(halves.width(), halves.height(), 4, vec![0.0; halves.values().len()])?;
-        let doubt = Difference::of(&Expected::exactly(nothing), &halves)
-            .map_err(|what| Error::internal(format!("the truth's widths: {what}")))?;
-        let run = Run {
-            technique: TRUTH.into(),
-            varied: Vec::new(),
-            is_own: false,
-            line: None,
-            parameters: certified.parameters(),
-            device: device_words(&Device::default()),
-            prepare_ms: Times::of(Vec::new()),
-            frame_ms: certified.times,
-            structure_bytes: certified.truth.structure_bytes,
-            counts: certified.counts(),
-            error: Errors::of(&doubt.metrics(0.0), None),
-            is_rounded: false,
-            image_hash: image.hash(),
-            on_front: false,
-        };
+        let (run, doubt) = truth_run(&self.certified, Vec::new())?;
+        let image = self.certified.truth.image();
         let caption = "the right picture · its heat map: half the width of each interval".to_owned();
         self.exhibits.push(Exhibit::new((TRUTH.to_owned(), caption), &image, &doubt)?);
         self.runs.push(run);
+        let budget = self.certified.budget;
+        for width in WIDTHS.into_iter().filter(|width| *width < budget.width) {
+            let narrower = Budget { width, ..budget };
+            let certified = Certified::of(&self.stage, &narrower, self.repeat, self.bar)?;
+            self.runs.push(truth_run(&certified, vec![format!("width={width}")])?.0);
+        }
         Ok(())
     }
 
@@ -223,4 +212,29 @@ fn tries(variations: Vec<Variation>, input: &SceneInput) -> Result<Vec<Try>> {
         all.push(one);
     }
     Ok(all)
+}
+
+/// A truth as a run: its error is what its estimate may be off, the half widths that are returned with it.
+fn truth_run(certified: &Certified, varied: Vec<String>) -> Result<(Run, Difference)> {
+    let halves = report::half_widths(&certified.truth)?;
+    let nothing = Image::new(halves.width(), halves.height(), 4, vec![0.0; halves.values().len()])?;
+    let doubt = Difference::of(&Expected::exactly(nothing), &halves)
+        .map_err(|what| Error::internal(format!("the truth's widths: {what}")))?;
+    let run = Run {
+        technique: TRUTH.into(),
+        varied,
+        is_own: false,
+        line: None,
+        parameters: certified.parameters(),
+        device: device_words(&Device::default()),
+        prepare_ms: Times::of(Vec::new()),
+        frame_ms: certified.times,
+        structure_bytes: certified.truth.structure_bytes,
+        counts: certified.counts(),
+        error: Errors::of(&doubt.metrics(0.0), None),
+        is_rounded: false,
+        image_hash: certified.truth.image().hash(),
+        on_front: false,
+    };
+    Ok((run, doubt))
 }

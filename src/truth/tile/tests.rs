@@ -413,7 +413,7 @@ fn violations(seed: u64, count: usize) -> Vec<String> {
         let mut work = Work::new(&setting, &mesh, &frame, ([0, 0], [12, 9]));
         let all: Vec<u32> = (0..work.leaves.len()).flat_map(|leaf| work.facets_of(leaf)).collect();
         for (x, y) in (0..9).flat_map(|y| (0..12).map(move |x| (x, y))) {
-            let near = narrowed(&work.facets, &all, [x as f64, y as f64], 1.0);
+            let near = narrowed((&work.facets, &work.boxes), &all, [x as f64, y as f64], 1.0);
             assert!(work.pixel([x, y], &near, &[]));
             let of_size = |shape: &&Polygon| work.pieces.area(**shape) >= SPECK;
             let sky = work.sight.sky.iter().filter(of_size).map(|shape| (*shape, None, Vec::new()));
