@@ -36,11 +36,20 @@ pub fn sort_by_key<T: Send, K: Ord>(values: &mut [T], key: impl Fn(&T) -> K + Sy
     values.par_sort_by_key(key);
 }
 
+/// More threads than this only wait for one another.
+const MOST_THREADS: usize = 1024;
+
 /// Runs `f` with `threads` threads (0: as many as the machine has).
 ///
 /// # Errors
-/// When the machine refuses the threads.
+/// When there are more than any machine has cores for, or the machine refuses them.
 pub fn with_threads<U: Send>(threads: usize, f: impl FnOnce() -> U + Send) -> Result<U> {
+    if threads > MOST_THREADS {
+        return Err(Error::new(format!(
+            "{threads} threads are more than the {MOST_THREADS} that can be used"
+        ))
+        .help("leave --threads out: there are then as many as the machine has cores"));
+    }
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(|e| {
         Error::new(format!("cannot start {threads} threads: {e}")).help("use a smaller --threads")
     })?;

@@ -1,8 +1,11 @@
 //! Stencil volumes (Schneider & Klein 2007) on scenes whose answer is known, and the failures that the paper warns of, made on purpose.
 
 use drapery::buffer::Values;
+use drapery::compare::{Difference, Image, Metrics};
+use drapery::report;
 use drapery::scene::file::{Override, SceneFile};
 use drapery::technique::{self, Frame, FrameOptions, Kind, Stage};
+use drapery::truth::{self, Budget};
 
 /// A scene of 96 x 64 pixels over a terrain, with these layers and other keys.
 fn scene(terrain: &str, camera: &str, more: &str) -> String {
@@ -394,4 +397,63 @@ fn every_buffer_has_the_bits_of_the_last_version_in_every_build() {
     let changes = ["technique.stencil-volume.joins=\"style\"", "technique.stencil-volume.samples=2"];
     let all = hashes(&hills(), &changes, 128, 2).join("\n");
     assert_eq!(&blake3::hash(all.as_bytes()).to_hex()[..16], "21c124269971f22b");
+}
+
+/// How far a frame is from the truth, and the black share of a column's height in the truth and in the frame.
+fn against_the_truth(text: &str, changes: &[&str]) -> (Metrics, [f64; 2]) {
+    let white = [changes, &["image.background=#ffffff"]].concat();
+    let stage = stage(text, &white);
+    let truth = truth::certify(&stage.scene, &stage.mesh, &stage.view, &Budget::default(), &|_| {});
+    let frame = frame(text, &white, &[]);
+    let image = Image::from_rgba8(&frame.image).unwrap();
+    let metrics = Difference::of(&report::expected(&truth).unwrap(), &image).unwrap().metrics(0.0);
+    let [width, height] = [image.width(), image.height()];
+    let black = |red: &dyn Fn(usize, usize) -> f64| {
+        let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+        pixels.map(|(x, y)| 1.0 - red(x, y)).sum::<f64>() / width as f64
+    };
+    let is = black(&|x, y| truth.estimate.at(x, y)[0]);
+    let drawn = black(&|x, y| image.values()[4 * (y * width + x)]);
+    (metrics, [is, drawn])
+}
+
+#[test]
+fn thin_distant_lines_are_dashes_with_one_sample_and_samples_mend_them() {
+    // She, Fig. 12a: a line thinner than a pixel is hit where a sample happens to lie on it.
+    let text = scene(
+        "kind = \"plane\", posts = [3, 3], cell_m = 20000.0",
+        "eye = [0, 0, 100], target = [0, 1000, 100], fov_y_deg = 60",
+        "[[layer]]\nfeatures = [ { line = [[-3000, 800], [3000, 1200]] } ]\nline = { color = \"#000000\", width_m = 10.0 }",
+    );
+    let with = |n: u32| against_the_truth(&text, &[&format!("technique.stencil-volume.samples={n}")]);
+    let (one, [right, drawn]) = with(1);
+    // All or nothing: a hit is a whole pixel, though the line covers a twentieth of it.
+    assert!(one.max > 0.9 && right < 0.2, "{} {right}", one.max);
+    assert!(drawn < 3.0 * right, "the dashes are about as black as the line: {drawn}, {right}");
+    let mut before = one.rmse;
+    for n in [2, 4, 8] {
+        let (more, _) = with(n);
+        assert!(more.rmse < 0.75 * before, "{n}: {} after {before}", more.rmse);
+        before = more.rmse;
+    }
+}
+
+#[test]
+fn a_contour_line_smears_on_a_steep_slope_as_its_definition_says() {
+    // Hard case 9: the width in plan stays, so that on the surface it is 1 / cos(slope) times as wide.
+    for slope in [45, 80, 85] {
+        let height = 400.0 * drapery::math::tan(f64::from(slope).to_radians());
+        let camera =
+            format!("eye = [0, -300, {}], target = [0, 0, {height}], fov_y_deg = 20", height + 100.0);
+        let ramp = format!("kind = \"ramp\", posts = [3, 3], cell_m = 400.0, slope_deg = {slope}");
+        let text = scene(
+            &ramp,
+            &camera,
+            "[[layer]]\nfeatures = [ { line = [[-390, 0], [390, 0]] } ]\nline = { color = \"#000000\", width_m = 4.0 }",
+        );
+        let (metrics, [right, drawn]) = against_the_truth(&text, &["technique.stencil-volume.samples=8"]);
+        assert!(right > 0.1, "{slope} degrees: {right}");
+        assert!((drawn - right).abs() < 0.05 * right + 0.05, "{slope} degrees: {drawn} and {right}");
+        assert!(metrics.max < 0.3, "{slope} degrees: {}", metrics.max);
+    }
 }

@@ -1,7 +1,7 @@
 //! What footprints are made of: half planes, convex shapes, discs.
 
 use crate::interval::Ball;
-use crate::space::Plan;
+use crate::space::{Plan, PlanBox};
 
 /// The most half planes of a [`Convex`].
 pub const MOST_SIDES: usize = 4;
@@ -18,10 +18,19 @@ pub struct HalfPlane {
 }
 
 impl HalfPlane {
-    /// The other side.
-    #[must_use]
-    pub fn opposite(&self) -> Self {
-        Self { at: self.at, normal: self.normal.map(|n| -n), offset: -self.offset }
+    /// Whether no point of a box is in it, surely.
+    pub fn excludes(&self, plan: &PlanBox) -> bool {
+        let [x, y] = self.normal;
+        let dx = if x.mid > 0.0 { plan.max.x } else { plan.min.x } - self.at.x;
+        let dy = if y.mid > 0.0 { plan.max.y } else { plan.min.y } - self.at.y;
+        let most = x.mid * dx + y.mid * dy + self.offset.mid;
+        let reach = |low: f64, high: f64, at: f64| (low - at).abs() + (high - at).abs();
+        let (wide, tall) =
+            (reach(plan.min.x, plan.max.x, self.at.x), reach(plan.min.y, plan.max.y, self.at.y));
+        let doubt = x.radius * wide + y.radius * tall + self.offset.radius;
+        let rounding =
+            16.0 * f64::EPSILON * (x.mid.abs() * wide + y.mid.abs() * tall + self.offset.mid.abs());
+        most + doubt + rounding < 0.0
     }
 }
 
@@ -78,4 +87,29 @@ pub enum Primitive {
     },
     /// Points that may be of the item's stroke: a join on the verge of its miter limit.
     Perhaps(Convex),
+}
+
+impl Primitive {
+    /// An edge's line, and the lines across it at its ends: the edge lies on their inner sides.
+    pub fn edge_sides(from: Plan, to: Plan) -> [HalfPlane; 3] {
+        let x = Ball::exact(to.x) - Ball::exact(from.x);
+        let y = Ball::exact(to.y) - Ball::exact(from.y);
+        let side = |at, normal| HalfPlane { at, normal, offset: Ball::ZERO };
+        [side(from, [-y, x]), side(from, [x, y]), side(to, [-x, -y])]
+    }
+
+    /// Whether it surely has nothing to do with a box: none of its points are there, and no edge crosses it.
+    pub fn misses(&self, plan: &PlanBox) -> bool {
+        match self {
+            Self::Edge { from, to } => {
+                let [along, start, end] = Self::edge_sides(*from, *to);
+                let other = HalfPlane { normal: along.normal.map(|n| -n), ..along };
+                [along, other, start, end].iter().any(|side| side.excludes(plan))
+            }
+            Self::Convex(shape) | Self::Perhaps(shape) => {
+                shape.sides().iter().any(|side| side.excludes(plan))
+            }
+            Self::Near { .. } => false,
+        }
+    }
 }

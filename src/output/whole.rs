@@ -5,7 +5,8 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-/// Writes a file beside its place and renames it, so that no reader ever sees a part of it.
+/// Writes a file beside its place and renames it, so that no reader ever sees a part of it. (A device or a pipe, which has no
+/// place, is written to.)
 ///
 /// ```
 /// use std::io::Write;
@@ -19,8 +20,17 @@ use std::path::{Path, PathBuf};
 /// When the file cannot be made or `write` fails; says which file. What was there before is still there then.
 pub fn write_whole(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
     let refuse = |error: io::Error| Error::new(format!("this file cannot be written: {error}")).in_file(path);
-    let (beside, file) = create_beside(path).map_err(refuse)?;
-    fill(file, write).and_then(|()| fs::rename(&beside, path)).map_err(|error| {
+    // What a link leads to is replaced, not the link; a device or a pipe is written to.
+    let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    if fs::metadata(&target).is_ok_and(|found| !found.is_file() && !found.is_dir()) {
+        return OpenOptions::new()
+            .write(true)
+            .open(&target)
+            .and_then(|file| fill(file, write))
+            .map_err(refuse);
+    }
+    let (beside, file) = create_beside(&target).map_err(refuse)?;
+    fill(file, write).and_then(|()| fs::rename(&beside, &target)).map_err(|error| {
         // The error is told already; a temporary file that cannot even be removed adds nothing.
         let _ = fs::remove_file(&beside);
         refuse(error)
@@ -64,6 +74,20 @@ mod tests {
         assert!(result.unwrap_err().to_string().contains("a.txt: this file cannot be written: no more"));
         assert_eq!(fs::read_to_string(&path).unwrap(), "before");
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_keeps_leading_to_what_was_written_and_a_device_stays_one() {
+        let folder = tempfile::tempdir().unwrap();
+        let (link, target) = (folder.path().join("link"), folder.path().join("target"));
+        fs::write(&target, "before").unwrap();
+        std::os::unix::fs::symlink(&target, &link).unwrap();
+        write_whole(&link, |w| w.write_all(b"after")).unwrap();
+        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+        assert_eq!(fs::read_to_string(&target).unwrap(), "after");
+        write_whole(Path::new("/dev/null"), |w| w.write_all(b"gone")).unwrap();
+        assert!(!fs::metadata("/dev/null").unwrap().is_file());
     }
 
     #[test]

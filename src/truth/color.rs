@@ -100,6 +100,10 @@ impl Mean {
             low[c] = clamped(low[c] - slop);
             high[c] = clamped(high[c] + slop);
         }
+        if high[3] < NO_ALPHA {
+            // As good as nothing is there, and nothing has no colour.
+            return [[0.0; 4], [0.0, 0.0, 0.0, clamped(high[3] + ENCODING)], [0.0; 4]];
+        }
         let (mut lo, mut hi) = ([0.0; 4], [0.0; 4]);
         for c in 0..4 {
             // The encoded straight colour grows with the channel and falls as the alpha grows.
@@ -107,9 +111,8 @@ impl Mean {
             hi[c] = match c {
                 3 => straight(compositor, high[3], high[3], 3),
                 _ if low[3] > 0.0 => straight(compositor, high[c], low[3], c),
-                // No alpha at all has no colour (0); any alpha may have any.
-                _ if high[3] > 0.0 => 1.0,
-                _ => 0.0,
+                // Perhaps there is nothing there, or some of any colour.
+                _ => 1.0,
             };
         }
         let estimate = compositor.encoded(Paint(middle));
@@ -123,6 +126,9 @@ impl Mean {
     }
 }
 
+/// An alpha that is surely below this is none: far below any code value's, far above what rounding leaves.
+const NO_ALPHA: f64 = 1e-9;
+
 /// What the roundings of sums, of the transfer function and of the division to straight alpha can amount to.
 const ENCODING: f64 = 1e-14;
 
@@ -135,4 +141,31 @@ fn straight(compositor: &Compositor, value: f64, alpha: f64, channel: usize) -> 
     let mut paint = [0.0, 0.0, 0.0, alpha];
     paint[channel] = value;
     compositor.encoded(Paint(paint))[channel]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Compositing;
+
+    #[test]
+    fn a_pixel_without_alpha_has_no_colour_and_one_that_may_have_none_may_have_any() {
+        let compositor = Compositor::new(Compositing::default());
+        let mut mean = Mean::NOTHING;
+        mean.add(&PaintRange::exact(Paint::CLEAR), 1.0);
+        let [low, high, estimate] = mean.colors(&compositor, 1e-14);
+        assert_eq!((low, estimate, high[0]), ([0.0; 4], [0.0; 4], 0.0));
+        let [low, high, _] = mean.colors(&compositor, 1e-6);
+        assert_eq!((low[0], high[0]), (0.0, 1.0));
+    }
+
+    #[test]
+    fn bounds_of_paint_stay_around_what_is_drawn_over_it() {
+        let half = Paint([0.5, 0.0, 0.0, 0.5]);
+        let open = PaintRange { low: [0.0, 0.2, 0.4, 1.0], high: [0.2, 0.4, 0.4, 1.0] };
+        let over = open.under(half, BlendMode::Over);
+        assert_eq!((over.low, over.high), ([0.5, 0.1, 0.2, 1.0], [0.6, 0.2, 0.2, 1.0]));
+        let more = open.under(half, BlendMode::Additive);
+        assert_eq!((more.low, more.high), ([0.5, 0.2, 0.4, 1.0], [0.7, 0.4, 0.4, 1.0]));
+    }
 }

@@ -282,7 +282,7 @@ impl Refinery {
         let mut fresh = std::mem::take(&mut self.fresh);
         fresh.clear();
         for run in parts.chunk_by(|a, b| a.item == b.item) {
-            let state = self.shapes_near(pixel, (ground, points), run, parts.len() > MOST_PARTS);
+            let state = self.shapes_near(pixel, (ground, points, plan), run, parts.len() > MOST_PARTS);
             fresh.push(state);
         }
         let near = fresh.len();
@@ -306,7 +306,7 @@ impl Refinery {
     fn shapes_near(
         &mut self,
         pixel: &Pixel,
-        (ground, points): (&Ground, &[[f64; 2]]),
+        (ground, points, plan): (&Ground, &[[f64; 2]], &PlanBox),
         parts: &[Part],
         is_crowd: bool,
     ) -> State {
@@ -317,7 +317,7 @@ impl Refinery {
             pixel.setting.footprints.primitives(*part, &mut self.primitives);
             for primitive in &self.primitives {
                 let is_edge = matches!(primitive, Primitive::Edge { .. });
-                if stroke == Known::In && !is_edge {
+                if (stroke == Known::In && !is_edge) || primitive.misses(plan) {
                     continue;
                 }
                 let shape = ground.shape(primitive);

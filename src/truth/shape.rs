@@ -119,10 +119,8 @@ impl Ground<'_> {
     }
 
     fn edge(&self, from: Plan, to: Plan) -> Shape {
-        let x = Ball::exact(to.x) - Ball::exact(from.x);
-        let y = Ball::exact(to.y) - Ball::exact(from.y);
-        let side = |at, normal| self.line(&HalfPlane { at, normal, offset: Ball::ZERO });
-        Shape::Edge { along: side(from, [-y, x]), ends: [side(from, [x, y]), side(to, [-x, -y])] }
+        let [along, start, end] = Primitive::edge_sides(from, to).map(|side| self.line(&side));
+        Shape::Edge { along, ends: [start, end] }
     }
 }
 
