@@ -8,7 +8,8 @@
 //!   tile.rs     a tile's triangles, by the terrain's hierarchy; squares down to pixels
 //!   facet.rs    a triangle on the tile: sides, nearness, its map to the plan, with bounds of their errors (form.rs)
 //!   visible.rs  the pixel cut into convex fragments that see one triangle (polygon.rs), and sky
-//!   refine.rs   fragments cut along footprints' borders (shape.rs) until little is unknown; colours between bounds (color.rs)
+//!   refine.rs   fragments cut along footprints' borders (shape.rs) until little is unknown of which items hold them
+//!               (knowledge.rs); colours between bounds (color.rs)
 //! ```
 //!
 //! How it is certified: a border that is straight in the plan is straight on the screen within one triangle. Its line is computed
@@ -20,6 +21,7 @@
 mod color;
 mod facet;
 mod form;
+mod knowledge;
 mod polygon;
 mod refine;
 mod setting;

@@ -4,11 +4,11 @@
 //! tell. The piece with the most unknown in it is cut first: along a primitive's line, so that the two halves know more.
 
 use super::color::{Mean, PaintRange};
-use super::facet::{Facet, TileRays};
 use super::form::Line;
-use super::polygon::{Halves, Pieces, Polygon, ROUNDING, middle};
+use super::knowledge::{Known, Pixel, State, first_state, known, polygon_at};
+use super::polygon::{Halves, Pieces, Polygon, ROUNDING};
 use super::setting::Setting;
-use super::shape::{Ground, Shape, Verdict, distance};
+use super::shape::{Ground, Shape, Verdict};
 use super::visible::{Fragment, SPECK, Sight};
 use super::{ItemCoverage, PixelCoverage};
 use crate::footprint::{Part, Primitive};
@@ -42,35 +42,6 @@ pub(super) struct Refinery {
     pub(super) pieces: u64,
     /// Pieces of this pixel.
     count: u64,
-}
-
-/// Three-valued.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Known {
-    In,
-    Out,
-    Open,
-}
-
-/// What a piece knows of an item.
-#[derive(Debug, Clone, Copy)]
-struct State {
-    item: u32,
-    polygon: Known,
-    stroke: Known,
-    /// The shapes that can still tell, in `lists`.
-    first: u32,
-    count: u32,
-}
-
-impl State {
-    fn known(&self) -> Known {
-        match (self.polygon, self.stroke) {
-            (Known::Out, _) | (_, Known::Out) => Known::Out,
-            (Known::In, Known::In) => Known::In,
-            _ => Known::Open,
-        }
-    }
 }
 
 /// A convex piece of a pixel that sees one triangle.
@@ -119,23 +90,6 @@ impl PartialEq for Piece {
     }
 }
 impl Eq for Piece {}
-
-/// What stays the same for a pixel.
-#[derive(Clone, Copy)]
-pub(super) struct Pixel<'a> {
-    pub(super) setting: &'a Setting<'a>,
-    pub(super) rays: &'a TileRays,
-    pub(super) facets: &'a [Facet],
-    /// Its corner in the tile.
-    pub(super) corner: [f64; 2],
-}
-
-impl<'a> Pixel<'a> {
-    fn ground(&self, facet: u32) -> Ground<'a> {
-        let size = self.setting.pixel_size;
-        Ground { rays: self.rays, facet: &self.facets[facet as usize], pixel: self.corner, size }
-    }
-}
 
 impl Refinery {
     /// The colour of a pixel that sees this: lower bounds, upper bounds, estimate.
@@ -456,60 +410,4 @@ fn composed(setting: &Setting, base: PaintRange, states: &[State]) -> PaintRange
         let over = below.under(setting.paints[state.item as usize], setting.mode);
         if state.known() == Known::In { over } else { over.hull(&below) }
     })
-}
-
-/// What a fragment knows of an item at first; its stroke is open if the item has one.
-fn first_state(
-    pixel: &Pixel,
-    (ground, points): (&Ground, &[[f64; 2]]),
-    item: u32,
-    has_edges: bool,
-    (first, count): (u32, u32),
-) -> State {
-    let what = &pixel.setting.footprints.items()[item as usize];
-    let polygon = match what.wants_polygon() {
-        None => Known::In,
-        Some(_) if has_edges => Known::Open,
-        // No edge is near: the polygon holds all of the fragment, or none.
-        Some(wanted) => match ground.hit(middle(points)) {
-            hit if hit.error < f64::INFINITY => {
-                known(pixel.setting.footprints.polygon_holds(item, hit.plan) == wanted)
-            }
-            _ => Known::Open,
-        },
-    };
-    let stroke = if what.wants_stroke() { Known::Open } else { Known::In };
-    State { item, polygon, stroke, first, count }
-}
-
-fn known(is_in: bool) -> Known {
-    if is_in { Known::In } else { Known::Out }
-}
-
-/// Whether a piece that no edge of an item's polygon crosses lies where the item wants it, decided exactly at a point of it.
-fn polygon_at(pixel: &Pixel, ground: &Ground, points: &[[f64; 2]], item: u32) -> Known {
-    let footprints = pixel.setting.footprints;
-    let hit = ground.hit(middle(points));
-    let rounding = 64.0 * f64::EPSILON * hit.plan.to_vec().abs().max_element();
-    let reach = 2.0 * hit.error + rounding;
-    if reach == f64::INFINITY {
-        return Known::Open;
-    }
-    // The point is known up to `reach`: no edge may be that near.
-    let mut primitives = Vec::new();
-    let is_clear = footprints.parts_near(&PlanBox::around([hit.plan]).grown(reach), |part| {
-        primitives.clear();
-        if part.item == item {
-            footprints.primitives(part, &mut primitives);
-        }
-        primitives.iter().all(|primitive| match primitive {
-            Primitive::Edge { from, to } => distance(*from, *to, hit.plan) > reach,
-            _ => true,
-        })
-    });
-    let wanted = footprints.items()[item as usize].wants_polygon();
-    match wanted.filter(|_| is_clear) {
-        Some(wanted) => known(footprints.polygon_holds(item, hit.plan) == wanted),
-        None => Known::Open,
-    }
 }

@@ -1,8 +1,9 @@
 //! The triangles of a tile, and the tile's pixels.
 
 use super::facet::{Facet, TileRays};
+use super::knowledge::Pixel;
 use super::polygon::{self, Pieces};
-use super::refine::{Pixel, Refinery};
+use super::refine::Refinery;
 use super::setting::Setting;
 use super::visible::Sight;
 use super::{Centre, PixelCoverage, Tally};

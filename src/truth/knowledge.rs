@@ -1,0 +1,110 @@
+//! What a piece of a pixel knows of an item: whether it lies in it, or what could still tell.
+
+use super::facet::{Facet, TileRays};
+use super::polygon::middle;
+use super::setting::Setting;
+use super::shape::{Ground, distance};
+use crate::footprint::Primitive;
+use crate::space::PlanBox;
+
+/// Three-valued.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Known {
+    In,
+    Out,
+    Open,
+}
+
+/// What a piece knows of an item.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct State {
+    pub(super) item: u32,
+    pub(super) polygon: Known,
+    pub(super) stroke: Known,
+    /// The shapes that can still tell, in `lists`.
+    pub(super) first: u32,
+    pub(super) count: u32,
+}
+
+impl State {
+    pub(super) fn known(&self) -> Known {
+        match (self.polygon, self.stroke) {
+            (Known::Out, _) | (_, Known::Out) => Known::Out,
+            (Known::In, Known::In) => Known::In,
+            _ => Known::Open,
+        }
+    }
+}
+
+/// What stays the same for a pixel.
+#[derive(Clone, Copy)]
+pub(super) struct Pixel<'a> {
+    pub(super) setting: &'a Setting<'a>,
+    pub(super) rays: &'a TileRays,
+    pub(super) facets: &'a [Facet],
+    /// Its corner in the tile.
+    pub(super) corner: [f64; 2],
+}
+
+impl<'a> Pixel<'a> {
+    pub(super) fn ground(&self, facet: u32) -> Ground<'a> {
+        let size = self.setting.pixel_size;
+        Ground { rays: self.rays, facet: &self.facets[facet as usize], pixel: self.corner, size }
+    }
+}
+
+/// What a fragment knows of an item at first; its stroke is open if the item has one.
+pub(super) fn first_state(
+    pixel: &Pixel,
+    (ground, points): (&Ground, &[[f64; 2]]),
+    item: u32,
+    has_edges: bool,
+    (first, count): (u32, u32),
+) -> State {
+    let what = &pixel.setting.footprints.items()[item as usize];
+    let polygon = match what.wants_polygon() {
+        None => Known::In,
+        Some(_) if has_edges => Known::Open,
+        // No edge is near: the polygon holds all of the fragment, or none.
+        Some(wanted) => match ground.hit(middle(points)) {
+            hit if hit.error < f64::INFINITY => {
+                known(pixel.setting.footprints.polygon_holds(item, hit.plan) == wanted)
+            }
+            _ => Known::Open,
+        },
+    };
+    let stroke = if what.wants_stroke() { Known::Open } else { Known::In };
+    State { item, polygon, stroke, first, count }
+}
+
+pub(super) fn known(is_in: bool) -> Known {
+    if is_in { Known::In } else { Known::Out }
+}
+
+/// Whether a piece that no edge of an item's polygon crosses lies where the item wants it, decided exactly at a point of it.
+pub(super) fn polygon_at(pixel: &Pixel, ground: &Ground, points: &[[f64; 2]], item: u32) -> Known {
+    let footprints = pixel.setting.footprints;
+    let hit = ground.hit(middle(points));
+    let rounding = 64.0 * f64::EPSILON * hit.plan.to_vec().abs().max_element();
+    let reach = 2.0 * hit.error + rounding;
+    if reach == f64::INFINITY {
+        return Known::Open;
+    }
+    // The point is known up to `reach`: no edge may be that near.
+    let mut primitives = Vec::new();
+    let is_clear = footprints.parts_near(&PlanBox::around([hit.plan]).grown(reach), |part| {
+        primitives.clear();
+        if part.item == item {
+            footprints.primitives(part, &mut primitives);
+        }
+        primitives.iter().all(|primitive| match primitive {
+            Primitive::Edge { from, to } => distance(*from, *to, hit.plan) > reach,
+            _ => true,
+        })
+    });
+    let wanted = footprints.items()[item as usize].wants_polygon();
+    match wanted.filter(|_| is_clear) {
+        Some(wanted) => known(footprints.polygon_holds(item, hit.plan) == wanted),
+        None => Known::Open,
+    }
+}
