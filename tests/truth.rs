@@ -298,6 +298,33 @@ fn case_41_red_over_blue_is_composed_in_layer_order() {
     }
 }
 
+#[test]
+fn the_coverage_of_each_feature_is_known_below_an_opaque_one_too() {
+    let square = |half: f64| [(-half, -half), (half, -half), (half, half), (-half, half)];
+    let (small, large) = (square(2.25), square(3.5));
+    let scene =
+        map(8, vec![polygon(&[&small], Rule::EvenOdd, BLACK), polygon(&[&large], Rule::EvenOdd, BLACK)]);
+    let mesh = Mesh::new(flat(), scene.diagonal).unwrap();
+    let view = scene.camera.view(&scene.image).unwrap();
+    let budget = Budget { coverage: true, ..Budget::new(1e-6, 14).unwrap() };
+    let truth = certify(&scene, &mesh, &view, &budget, &|_| {});
+    let coverage = truth.coverage.as_ref().unwrap();
+    for (item, area) in [(0, 4.5 * 4.5), (1, 49.0)] {
+        let of = coverage.values().iter().flat_map(|pixel| &pixel.items).filter(|c| c.item == item);
+        let (low, high) = of.fold((0.0, 0.0), |sum, c| (sum.0 + c.low, sum.1 + c.high));
+        let others: f64 = coverage.values().iter().map(|pixel| pixel.others).sum();
+        assert!(
+            low <= area && area <= high + others && high + others - low < 1e-4,
+            "{item}: [{low}, {high}]"
+        );
+    }
+    assert_eq!(truth.items()[1].layer, 1);
+    // A corner of the small square: a quarter of a quarter pixel is in it, all of the pixel in the large one.
+    let corner = coverage.at(1, 1);
+    let small = corner.items.iter().find(|c| c.item == 0).unwrap();
+    assert!((small.low - 0.0625).abs() < 1e-9 && (small.high - 0.0625).abs() < 1e-9, "{small:?}");
+}
+
 /// A hilly scene with everything in it; `k` picks what is special.
 fn varied(k: usize) -> (Scene, Surface) {
     let ring: &[(f64, f64)] = &[(-30.0, -22.0), (26.0, -31.0), (35.0, 18.0), (-4.0, 8.0), (-22.0, 33.0)];
