@@ -119,7 +119,7 @@ fn a_report_has_all_its_files_and_a_row_for_every_setting() {
 
     let runs = runs(&place.text("report/report.json"));
     let of = |name: &str| runs.iter().filter(|run| run["technique"] == name).count();
-    assert_eq!((of("truth"), of("supersampling")), (1, 7));
+    assert_eq!((of("truth"), of("supersampling")), (3, 7), "the truth at its own and two narrower widths");
     for kind in Kind::ALL {
         // The scene's own settings are on a line, and in one row.
         let tried = sweep::of(kind).variations().len();
@@ -159,8 +159,9 @@ fn more_samples_are_nearer_to_the_truth_and_the_best_is_on_the_front() {
     let rmse = |run: &Value| run["error"]["rmse"].as_f64().unwrap();
     let errors: Vec<f64> = runs.iter().filter(|r| r["technique"] == "supersampling").map(rmse).collect();
     assert!(errors[0] > 4.0 * errors[2] && errors[2] > 4.0 * errors[4], "{errors:?}");
-    let best = runs.iter().min_by(|a, b| rmse(a).total_cmp(&rmse(b))).unwrap();
-    assert_eq!(best["on_front"], true);
+    // Of several that are as right (narrow truths of a simple scene) the fastest is on the front.
+    let best = runs.iter().map(rmse).fold(f64::INFINITY, drapery::math::min);
+    assert!(runs.iter().any(|run| rmse(run) == best && run["on_front"] == true));
 }
 
 #[test]

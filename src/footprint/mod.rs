@@ -13,13 +13,9 @@ mod stroke;
 pub use box_tree::BoxTree;
 pub use primitive::{Convex, HalfPlane, MOST_SIDES, Primitive, Sides};
 
-use crate::scene::{Color, Feature, Layer, Line, OutlineMode, Rule, Shape, Width};
+use crate::scene::{Color, Feature, Layer, Line, OutlineMode, Rule, SAME_VERTEX, Shape, Width};
 use crate::space::{Lens, Plan, PlanBox, ViewFrame};
 use area::Area;
-
-/// Vertices of a stroke nearer to each other than this are one vertex, metres: far below any width that can be seen, far above
-/// the rounding of plan coordinates, so that a duplicate written with an error has no direction of its own.
-pub const SAME_VERTEX: f64 = 1e-9;
 
 /// A set of plan points of one colour.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -299,7 +295,7 @@ impl Building {
         let is_closed = match ends {
             // A line that ends where it begins is a ring (a loop of Taibo 4.2): joined there, without caps.
             StrokeEnds::AsWritten => returns && distinct > 3,
-            StrokeEnds::Closed => distinct > 2,
+            StrokeEnds::Closed => distinct > 1,
         };
         if is_closed && returns {
             self.points.pop();

@@ -10,7 +10,10 @@ mod settings;
 mod stencil;
 
 pub use camera::{Camera, Projection};
-pub use layer::{Cap, Feature, Fill, Join, Layer, Line, Outline, OutlineMode, Rule, Shape, Style, Width};
+pub use layer::{
+    Cap, Feature, Fill, Join, Layer, Line, Outline, OutlineMode, Rule, SAME_VERTEX, Shape, Style, Width,
+    distinct_vertices,
+};
 pub use settings::{
     BlendMode, BlendSpace, Color, Compositing, Corners, DepthFormat, Device, ImageSettings,
     InverseProjection, PointInPolygon, Precision, Silhouette, TechniqueSettings,

@@ -4,7 +4,7 @@
 //! (Fig. 4d); every edge keeps the side that faces away from the line (Fig. 4e). The paper draws no round caps or joins ("in order to
 //! eradicate heavy loss in performance"), so a layer's `join` and `cap` are not asked, but for `square` caps.
 
-use crate::scene::{Cap, Feature, Layer, Line, OutlineMode, Rule, Shape, Width};
+use crate::scene::{Cap, Feature, Layer, Line, OutlineMode, Rule, Shape, Width, distinct_vertices};
 use crate::space::Plan;
 use glam::DVec2;
 
@@ -115,7 +115,7 @@ impl Areas {
 
     /// Expands an open polyline (Fig. 4a to 4e); one that is closed has no caps.
     fn add_line(&mut self, points: &[Plan], line: &Line) {
-        let points = without_repeats(points);
+        let points = distinct_vertices(points);
         if points.len() > 3 && points.first() == points.last() {
             return self.add_loop(&points[..points.len() - 1], line);
         }
@@ -131,7 +131,7 @@ impl Areas {
 
     /// Expands a closed ring: one chain on each side, no caps.
     fn add_loop(&mut self, ring: &[Plan], line: &Line) {
-        let mut points = without_repeats(ring);
+        let mut points = distinct_vertices(ring);
         while points.len() > 1 && points.first() == points.last() {
             points.pop();
         }
@@ -150,12 +150,6 @@ fn half_width(line: &Line) -> Option<f64> {
         Width::Metres(width) => Some(width / 2.0),
         Width::Pixels(_) => None,
     }
-}
-
-fn without_repeats(points: &[Plan]) -> Vec<Plan> {
-    let mut points = points.to_vec();
-    points.dedup();
-    points
 }
 
 /// The polyline with square caps as longer end segments; `None` when it has no length.

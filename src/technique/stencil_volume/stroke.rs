@@ -7,7 +7,7 @@
 
 use crate::math;
 use crate::predicate::orient2d;
-use crate::scene::{Cap, Join, Line, VolumeJoins, Width};
+use crate::scene::{Cap, Join, Line, VolumeJoins, Width, distinct_vertices};
 use crate::space::Plan;
 use glam::DVec2;
 
@@ -37,7 +37,7 @@ impl Stroke {
 
     /// The pieces of an open polyline, or of a ring when its ends are one point.
     pub fn open(&self, points: &[Plan], emit: &mut Emit) {
-        let points = without_repeats(points);
+        let points = distinct_vertices(points);
         if points.len() > 3 && points.first() == points.last() {
             return self.chain(&points, true, emit);
         }
@@ -49,9 +49,13 @@ impl Stroke {
 
     /// The pieces of a ring that is stored without its closing vertex.
     pub fn closed(&self, ring: &[Plan], emit: &mut Emit) {
-        let mut points = without_repeats(ring);
-        points.extend(ring.first());
-        points.dedup();
+        let mut points = distinct_vertices(ring);
+        if points.len() > 1 && points.first() == points.last() {
+            points.pop();
+        }
+        if points.len() > 1 {
+            points.extend_from_within(..1);
+        }
         if let [only] = points[..] {
             return self.dot(only, emit);
         }
@@ -74,6 +78,9 @@ impl Stroke {
             points.windows(3).for_each(|p| self.join([p[0], p[1], p[2]], emit));
             if let (true, [first, second, .., before, _]) = (is_closed, points) {
                 self.join([*before, *first, *second], emit);
+            }
+            if let (true, [first, second, _]) = (is_closed, points) {
+                self.join([*second, *first, *second], emit);
             }
             if let (false, Cap::Round, [first, .., end]) = (is_closed, self.cap, points) {
                 self.disc(*first, emit);
@@ -142,12 +149,6 @@ fn convex(ring: &[Plan], emit: &mut Emit) {
 
 fn at(ring: &[Plan], k: usize) -> Plan {
     ring[k % ring.len()]
-}
-
-fn without_repeats(points: &[Plan]) -> Vec<Plan> {
-    let mut points = points.to_vec();
-    points.dedup();
-    points
 }
 
 #[cfg(test)]

@@ -163,6 +163,7 @@ impl<'a> Viewer<'a> {
     /// The columns and rows of the lattice around a volume's picture; `None`: it has none.
     fn window(&self, extrusion: &Extrusion, volume: &Volume) -> Option<[u32; 4]> {
         let lattice = self.lattice;
+        let is_central = matches!(self.frame.lens(), crate::space::Lens::Central { .. });
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         let mut behind = 0;
         let mut count = 0;
@@ -171,7 +172,9 @@ impl<'a> Viewer<'a> {
             let d = p - self.frame.eye();
             let h = self.frame.homogeneous(d) + self.frame.homogeneous_eye();
             // What lies nearer to the eye's plane than this has no place on the screen that doubles could tell.
-            if h.z <= 1e-9 * (d.abs().element_sum() + self.frame.eye().to_vec().abs().max_element()) {
+            if is_central
+                && h.z <= 1e-9 * (d.abs().element_sum() + self.frame.eye().to_vec().abs().max_element())
+            {
                 behind += 1;
                 return;
             }
