@@ -3,7 +3,9 @@
 //! std's `sin`, `exp`, ... call the C library, whose results differ between machines; std's `min` and `max` may
 //! return either zero for `(-0, +0)`. Everything that can decide a pixel goes through here; `clippy.toml` refuses the rest.
 
-pub use libm::{asin, asinh, atan, atan2, atanh, cos, cosh, exp, log as ln, pow, sin, sinh, tan, tanh};
+pub use libm::{
+    asin, asinh, atan, atan2, atanh, cos, cosh, erf, exp, log as ln, log2, pow, sin, sinh, tan, tanh,
+};
 
 /// The smaller of two numbers; `b` where they compare equal or either is NaN.
 #[inline(always)]

@@ -4,12 +4,17 @@
 //! itself; [`mod@file`] checks what a person wrote and `source` checks what the files hold.
 
 mod camera;
+mod clipmap;
 pub mod file;
 mod layer;
 mod settings;
 mod stencil;
 
 pub use camera::{Camera, Projection};
+pub use clipmap::{
+    Clipmap, Joints, LineFilter, LinePrimitives, OffsetForm, Overlaps, PixelWidth, PolygonRaster, Solution,
+    TILE_TEXELS, TexelFormat, TextureFilter, WideLines,
+};
 pub use layer::{
     Cap, Feature, Fill, Join, Layer, Line, Outline, OutlineMode, Rule, SAME_VERTEX, Shape, Style, Width,
     distinct_vertices,

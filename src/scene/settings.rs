@@ -1,6 +1,6 @@
 //! The settings of a scene that need no data: image, compositing, device, technique parameters.
 
-use super::StencilVolume;
+use super::{Clipmap, StencilVolume};
 
 /// A colour with straight alpha, encoded (sRGB-style) values 0..=1 of red, green, blue, alpha.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -73,6 +73,8 @@ pub struct Device {
     pub stencil_bits: u32,
     /// The widest line primitive.
     pub max_line_width_px: f64,
+    /// Fractional bits of a texture filter's weights; 0: exact.
+    pub filter_bits: u32,
 }
 
 impl Default for Device {
@@ -83,6 +85,7 @@ impl Default for Device {
             depth: DepthFormat::F32Reversed,
             stencil_bits: 8,
             max_line_width_px: 10.0,
+            filter_bits: 0,
         }
     }
 }
@@ -124,6 +127,8 @@ pub enum DepthFormat {
 /// Parameters of the techniques.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct TechniqueSettings {
+    /// Taibo et al. 2014.
+    pub clipmap: Clipmap,
     /// She 2016.
     pub inverse_projection: InverseProjection,
     /// Schneider & Klein 2007.

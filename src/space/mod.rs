@@ -149,6 +149,11 @@ point_2d! {
     /// The 2D vector plane: metres east and north, relative to the scene's origin.
     Plan
 }
+point_2d! {
+    /// A level of a texture over the plan: texels, (0, 0) the north-west corner, x east, y south; texel (i, j) has its centre at
+    /// (i + 1/2, j + 1/2).
+    Texel
+}
 point_3d! {
     /// Plan and height in metres, z up, relative to the scene's origin (heights are absolute).
     World

@@ -4,6 +4,7 @@
 //! prepared once (structures that do not depend on the camera) and then draws frames; neither step looks at a clock,
 //! at the number of threads or at another technique. Refuses: scenes that the technique's paper does not cover, with the reason.
 
+pub mod clipmap;
 pub mod inverse_projection;
 pub mod stencil_volume;
 

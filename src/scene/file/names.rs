@@ -2,8 +2,10 @@
 
 use super::spec::HeightEncoding;
 use crate::scene::{
-    BlendMode, BlendSpace, Cap, Corners, Counting, DepthFormat, Diagonal, FarPlane, Grouping, OutlineMode,
-    Overflow, PointInPolygon, Precision, Rule, Silhouette, VolumeCaps, VolumeJoins,
+    BlendMode, BlendSpace, Cap, Corners, Counting, DepthFormat, Diagonal, FarPlane, Grouping, Joints,
+    LineFilter, LinePrimitives, OffsetForm, OutlineMode, Overflow, Overlaps, PixelWidth, PointInPolygon,
+    PolygonRaster, Precision, Rule, Silhouette, Solution, TexelFormat, TextureFilter, VolumeCaps,
+    VolumeJoins, WideLines,
 };
 
 /// A setting that is written as one of some words.
@@ -98,4 +100,23 @@ named! {
     VolumeCaps { "both" => Both, "bottom" => Bottom }
     VolumeJoins { "none" => None, "style" => Style }
     Grouping { "object" => Object, "color" => Color }
+    TexelFormat { "f32" => F32, "unorm8" => Unorm8 }
+    Solution {
+        "1-lines" => Lines, "2-polygons" => Polygons, "3a-both" => Both, "3b-wireframe" => Wireframe,
+        "4a-adjacency" => Adjacency, "4b-offsets" => Offsets
+    }
+    Joints {
+        "algorithm-1" => Combined, "method-1" => Isolated, "method-2" => Corner, "method-3a-strip" => BevelStrip,
+        "method-3a-quads" => BevelQuads, "method-3b" => BevelInner, "style" => Style
+    }
+    LinePrimitives { "plain" => Plain, "coverage" => Coverage, "prefiltered" => Prefiltered }
+    LineFilter { "disc" => Disc, "cone" => Cone, "gaussian" => Gaussian }
+    WideLines { "clamp" => Clamp, "discard" => Discard }
+    PolygonRaster { "aliased" => Aliased, "tiny-skia" => TinySkia, "exact" => Exact }
+    Overlaps { "blend" => Blend, "once" => Once }
+    OffsetForm { "rectangular" => Rectangular, "polar" => Polar }
+    PixelWidth { "distance" => Distance, "texels" => Texels }
+    TextureFilter {
+        "nearest" => Nearest, "bilinear" => Bilinear, "trilinear" => Trilinear, "anisotropic" => Anisotropic
+    }
 }

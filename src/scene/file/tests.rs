@@ -55,6 +55,26 @@ line = { color = "#ff7f00", width_px = 3 }
 [[layer]]
 generate = { kind = "mosaic", class = [0, 3], holes = 0.2 }
 fill = { color = "#112233" }
+[technique.clipmap]
+virtual_size = 4096
+clip_size = 512
+center = [10, 20.5]
+cache_mib = 64
+texel = "unorm8"
+solution = "3b-wireframe"
+joints = "method-3a-strip"
+angle_deg = 60
+threshold_texels = 2
+lines = "prefiltered"
+line_filter = "cone"
+wide_lines = "clamp"
+polygons = "exact"
+overlaps = "once"
+offsets = "polar"
+pixel_width = "texels"
+filter = "trilinear"
+anisotropy = 16
+level_bias = -0.5
 [technique.inverse-projection]
 samples = 5
 corners = "true"
@@ -78,6 +98,7 @@ subpixel_bits = 8
 depth = "unorm24"
 stencil_bits = 4
 max_line_width_px = 7.5
+filter_bits = 8
 "##,
     r#"
 schema = 1

@@ -2,6 +2,7 @@
 
 mod camera;
 mod layer;
+mod technique;
 mod terrain;
 
 use super::place::Origin;
@@ -9,9 +10,7 @@ use super::section::{Section, Taken};
 use super::spec::{DataFile, SceneFile};
 use super::tree::Node;
 use crate::error::Result;
-use crate::scene::{
-    Color, Compositing, Device, ImageSettings, InverseProjection, StencilVolume, TechniqueSettings,
-};
+use crate::scene::{Color, Compositing, Device, ImageSettings};
 use std::path::Path;
 
 pub(super) use camera::check_view;
@@ -35,7 +34,7 @@ pub(super) fn scene(origin: &Origin<'_>, root: Node) -> Result<SceneFile> {
             layers: layer::layers(root)?,
             compositing: Section::read(origin, child(root, "compositing"), compositing)?,
             device: Section::read(origin, child(root, "device"), device)?,
-            technique: Section::read(origin, child(root, "technique"), technique)?,
+            technique: Section::read(origin, child(root, "technique"), technique::technique)?,
             // Of the whole tree, which is being taken apart here.
             hash: String::new(),
         })
@@ -71,38 +70,7 @@ fn device(section: &mut Section<'_>) -> Result<Device> {
         depth: section.name("depth")?.unwrap_or(exact.depth),
         stencil_bits: section.integer("stencil_bits")?.unwrap_or(exact.stencil_bits),
         max_line_width_px: section.number("max_line_width_px")?.unwrap_or(exact.max_line_width_px),
-    })
-}
-
-fn technique(section: &mut Section<'_>) -> Result<TechniqueSettings> {
-    let node = section.take_or_empty("inverse-projection");
-    let inverse_projection = Section::read(section.origin(), node, inverse_projection)?;
-    let node = section.take_or_empty("stencil-volume");
-    let stencil_volume = Section::read(section.origin(), node, stencil_volume)?;
-    Ok(TechniqueSettings { inverse_projection, stencil_volume })
-}
-
-fn stencil_volume(section: &mut Section<'_>) -> Result<StencilVolume> {
-    let default = StencilVolume::default();
-    Ok(StencilVolume {
-        method: section.name("method")?.unwrap_or(default.method),
-        overflow: section.name("overflow")?.unwrap_or(default.overflow),
-        far: section.name("far")?.unwrap_or(default.far),
-        caps: section.name("caps")?.unwrap_or(default.caps),
-        joins: section.name("joins")?.unwrap_or(default.joins),
-        grouping: section.name("grouping")?.unwrap_or(default.grouping),
-        samples: section.integer("samples")?.unwrap_or(default.samples),
-        object: section.integer("object")?,
-    })
-}
-
-fn inverse_projection(section: &mut Section<'_>) -> Result<InverseProjection> {
-    let default = InverseProjection::default();
-    Ok(InverseProjection {
-        samples: section.integer("samples")?.unwrap_or(default.samples),
-        corners: section.name("corners")?.unwrap_or(default.corners),
-        point_in_polygon: section.name("point_in_polygon")?.unwrap_or(default.point_in_polygon),
-        silhouette: section.name("silhouette")?.unwrap_or(default.silhouette),
+        filter_bits: section.integer("filter_bits")?.unwrap_or(exact.filter_bits),
     })
 }
 

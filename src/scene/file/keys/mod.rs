@@ -1,13 +1,15 @@
 //! Every key of the scene file, said once: the check, the JSON Schema and the suggestions all read it here.
 
+mod clipmap;
 mod layer;
+mod technique;
 mod terrain;
 
 use super::names::ProjectionName;
 use super::shape::{Range, Rule as Keys, Shape, TableShape, choice, key};
-use crate::scene::{BlendMode, BlendSpace, Corners, DepthFormat, PointInPolygon, Precision, Silhouette};
-use crate::scene::{Counting, FarPlane, Grouping, Overflow, VolumeCaps, VolumeJoins};
+use crate::scene::{BlendMode, BlendSpace, DepthFormat, Precision};
 use layer::LAYER;
+use technique::TECHNIQUE;
 use terrain::TERRAIN;
 
 /// The number of the scene file's format that this program reads.
@@ -78,70 +80,6 @@ static CAMERA: TableShape = TableShape {
     rules: &[Keys::AtMostOne(&["eye", "eye_geo"]), Keys::AtMostOne(&["target", "target_geo"])],
 };
 
-static TECHNIQUE: TableShape = TableShape {
-    keys: &[
-        key("inverse-projection", Shape::Table(&INVERSE_PROJECTION), "She 2016."),
-        key("stencil-volume", Shape::Table(&STENCIL_VOLUME), "Schneider & Klein 2007."),
-    ],
-    rules: &[],
-};
-
-static INVERSE_PROJECTION: TableShape = TableShape {
-    keys: &[
-        key("samples", Shape::Integer(1, 64), "n: n x n samples in each P pixel. Default: 3."),
-        key(
-            "corners",
-            choice::<Corners>(),
-            "Which points make a pixel's quadrilateral. Default: \"centres\".",
-        ),
-        key(
-            "point_in_polygon",
-            choice::<PointInPolygon>(),
-            "How a sample is judged. Default: \"edge-normals\".",
-        ),
-        key(
-            "silhouette",
-            choice::<Silhouette>(),
-            "What is done with a pixel whose quadrilateral has no meaning. Default: \"centre\".",
-        ),
-    ],
-    rules: &[],
-};
-
-static STENCIL_VOLUME: TableShape = TableShape {
-    keys: &[
-        key(
-            "method",
-            choice::<Counting>(),
-            "Towards which end of the line of sight faces are counted. Default: \"automatic\".",
-        ),
-        key("overflow", choice::<Overflow>(), "What the stencil does beyond its range. Default: \"wrap\"."),
-        key(
-            "far",
-            choice::<FarPlane>(),
-            "Whether near and far plane cut volumes or their depths are clamped. Default: \"clamp\".",
-        ),
-        key(
-            "caps",
-            choice::<VolumeCaps>(),
-            "\"bottom\" leaves the top caps out, which is wrong. Default: \"both\".",
-        ),
-        key(
-            "joins",
-            choice::<VolumeJoins>(),
-            "How the segments of a line meet; \"style\": as `join` and `cap` say. Default: \"none\".",
-        ),
-        key("grouping", choice::<Grouping>(), "What shares a mask. Default: \"object\"."),
-        key("samples", Shape::Integer(1, 16), "n: n x n samples a pixel. Default: 1."),
-        key(
-            "object",
-            Shape::Integer(0, u32::MAX as i64),
-            "The object whose counts the buffers show, from 0 in draw order. Default: all of them.",
-        ),
-    ],
-    rules: &[],
-};
-
 static COMPOSITING: TableShape = TableShape {
     keys: &[
         key("space", choice::<BlendSpace>(), "The values that are blended. Default: \"encoded\"."),
@@ -160,7 +98,16 @@ static DEVICE: TableShape = TableShape {
         ),
         key("depth", choice::<DepthFormat>(), "What the depth buffer holds. Default: \"f32-reversed\"."),
         key("stencil_bits", Shape::Integer(1, 16), "Bits of the stencil buffer. Default: 8."),
-        key("max_line_width_px", POSITIVE, "The widest line primitive. Default: 10."),
+        key(
+            "max_line_width_px",
+            POSITIVE,
+            "The widest line primitive, in texels where it draws a texture. Default: 10.",
+        ),
+        key(
+            "filter_bits",
+            Shape::Integer(0, 16),
+            "Fractional bits of a texture filter's weights, 8 on most; 0: exact. Default: 0.",
+        ),
     ],
     rules: &[],
 };

@@ -1,0 +1,3 @@
+//! Clipmap.
+
+pub mod raster;

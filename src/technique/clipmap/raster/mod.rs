@@ -1,0 +1,358 @@
+//! Rasterizing a tile of the texture.
+//!
+//! Input: rings, strips of vertex pairs and segments in the texels of a level, each item with its paint. Output: a tile's texels. Three
+//! ways for polygons: texel centres ([`centres`]), tiny-skia ([`smooth`]), exact areas ([`exact`], [`winding`], [`pieces`]); three for
+//! line primitives ([`line`], [`prefilter`]). With all but tiny-skia a tile has the bits of the same part of a larger tile. Refuses: nothing;
+//! what lies outside the tile has no part in it.
+
+mod canvas;
+mod centres;
+mod exact;
+mod fixed;
+mod line;
+mod mask;
+mod pieces;
+mod prefilter;
+mod smooth;
+#[cfg(test)]
+mod tests;
+mod weight;
+mod winding;
+
+pub use canvas::Ink;
+
+use crate::scene::{LineFilter, LinePrimitives, Overlaps, PolygonRaster, Rule, TexelFormat};
+use crate::space::Texel;
+use canvas::Canvas;
+use centres::Centres;
+use exact::{Accumulator, Rings, RowCoverage};
+use line::Segment;
+use mask::Mask;
+use prefilter::Table;
+use smooth::Smooth;
+use weight::Weight;
+use winding::Texel as Winding;
+
+/// Two vertices of a tessellated line: the offsets of one of its vertices to both sides.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pair {
+    /// To the left of the line's direction.
+    pub left: Texel,
+    /// To the right.
+    pub right: Texel,
+}
+
+/// How a strip draws two pairs whose quadrilateral is folded.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Folded {
+    /// As two triangles of a triangle strip (Fig. 8a).
+    Triangles,
+    /// As one polygon of a strip of quadrilaterals (Fig. 8b).
+    Polygon,
+}
+
+/// A tile's place in its level.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct TilePlace {
+    /// Column and row of its first texel.
+    pub origin: (i64, i64),
+    /// Columns and rows.
+    pub size: (usize, usize),
+}
+
+/// How tiles are rasterized.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RasterSettings {
+    /// Polygons.
+    pub polygons: PolygonRaster,
+    /// Line primitives.
+    pub lines: LinePrimitives,
+    /// What prefiltered lines are filtered with.
+    pub line_filter: LineFilter,
+    /// What happens where an item covers a texel twice.
+    pub overlaps: Overlaps,
+    /// What a texel holds.
+    pub texel: TexelFormat,
+}
+
+/// A polygon, or the polygon that an outline is cut to.
+#[derive(Debug, Clone, Copy)]
+pub struct Area<'a> {
+    /// Its rings; the last vertex is followed by the first.
+    pub rings: &'a [&'a [Texel]],
+    /// What is inside.
+    pub rule: Rule,
+    /// Whether its winding numbers are known to be 0 and 1 (rings turn counter-clockwise on the map around what is inside).
+    pub is_simple: bool,
+}
+
+/// What a stroke is cut to.
+#[derive(Debug, Clone, Copy)]
+pub struct Cut<'a> {
+    /// A polygon.
+    pub area: Area<'a>,
+    /// Whether its inside is kept, or its outside.
+    pub keeps_inside: bool,
+}
+
+/// Draws a tile, item after item.
+#[derive(Debug)]
+pub struct TileRaster {
+    settings: RasterSettings,
+    canvas: Canvas,
+    /// Fills and the polygons of lines.
+    polygons: Polygons,
+    /// The polygon that a stroke is cut to.
+    cut: Polygons,
+    /// The rectangles of smooth line primitives.
+    rectangles: Accumulator,
+    /// The texels of other line primitives.
+    mask: Mask,
+    place: TilePlace,
+    table: Option<(f64, Table)>,
+    rows: Rows,
+    ring: Vec<Texel>,
+}
+
+/// Rows that are used again.
+#[derive(Debug, Default)]
+struct Rows {
+    stroke: RowCoverage,
+    cut: RowCoverage,
+    winding: Winding,
+}
+
+/// What a stroke's coverage comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Source {
+    Polygons,
+    Rectangles,
+    Mask,
+}
+
+impl TileRaster {
+    /// An empty tile.
+    pub fn new(place: TilePlace, settings: RasterSettings) -> Self {
+        Self {
+            settings,
+            canvas: Canvas::new(place.size, settings.texel),
+            polygons: Polygons::new(place, settings.polygons),
+            cut: Polygons::new(place, settings.polygons),
+            rectangles: Accumulator::new(place.origin, place.size),
+            mask: Mask::new(place.size),
+            place,
+            table: None,
+            rows: Rows::default(),
+            ring: Vec::new(),
+        }
+    }
+
+    /// The texels: premultiplied paint, rows from the north.
+    pub fn texels(&self) -> &[[f32; 4]] {
+        self.canvas.texels()
+    }
+
+    /// The texels, of a tile that is drawn no further.
+    pub fn into_texels(self) -> Vec<[f32; 4]> {
+        self.canvas.into_texels()
+    }
+
+    /// Fills a polygon.
+    pub fn fill(&mut self, area: &Area, ink: &Ink) {
+        self.polygons.polygon(area);
+        for row in self.polygons.rows() {
+            if self.polygons.take_row(row, Weight::Rule(area.rule), &mut self.rows.stroke) {
+                self.canvas.blend(row, &self.rows.stroke, ink);
+            }
+        }
+    }
+
+    /// Fills the strips of a tessellated line, all of them one item.
+    pub fn strips<'p>(
+        &mut self,
+        strips: impl Iterator<Item = &'p [Pair]>,
+        folded: Folded,
+        cut: Option<&Cut>,
+        ink: &Ink,
+    ) {
+        self.polygons.start(Rings::Pieces);
+        for strip in strips {
+            pieces::of_strip(strip, folded, &mut self.ring, &mut |ring| self.polygons.ring(ring));
+        }
+        self.blend_stroke(Source::Polygons, cut, ink);
+    }
+
+    /// Draws segments as line primitives of a width in texels, all of them one item.
+    pub fn segments(
+        &mut self,
+        segments: impl Iterator<Item = [Texel; 2]>,
+        width: f64,
+        cut: Option<&Cut>,
+        ink: &Ink,
+    ) {
+        let source = match self.settings.lines {
+            LinePrimitives::Coverage => Source::Rectangles,
+            LinePrimitives::Plain | LinePrimitives::Prefiltered => Source::Mask,
+        };
+        let is_each_blended = self.settings.overlaps == Overlaps::Blend;
+        self.rectangles.start(Rings::Pieces);
+        for segment in segments {
+            self.segment(segment, width);
+            if is_each_blended {
+                self.blend_stroke(source, cut, ink);
+                self.rectangles.start(Rings::Pieces);
+            }
+        }
+        if !is_each_blended {
+            self.blend_stroke(source, cut, ink);
+        }
+    }
+
+    fn segment(&mut self, [from, to]: [Texel; 2], width: f64) {
+        let segment = Segment { from, to, origin: self.place.origin };
+        match self.settings.lines {
+            LinePrimitives::Plain => line::plain(&segment, width, &mut self.mask),
+            LinePrimitives::Coverage => {
+                let Some(along) = (to - from).try_normalize() else { return };
+                let aside = along.perp() * (0.5 * width);
+                // y points south: counter-clockwise on the map.
+                self.rectangles.ring(&[from + aside, to + aside, to + -aside, from + -aside]);
+            }
+            LinePrimitives::Prefiltered => {
+                let table = match &mut self.table {
+                    Some((known, table)) if *known == width => table,
+                    other => &mut other.insert((width, Table::new(self.settings.line_filter, width))).1,
+                };
+                line::prefiltered(&segment, table, &mut self.mask);
+            }
+        }
+    }
+
+    /// Blends the stroke that has been collected.
+    fn blend_stroke(&mut self, source: Source, cut: Option<&Cut>, ink: &Ink) {
+        let weight = match self.settings.overlaps {
+            Overlaps::Once => Weight::UNION,
+            Overlaps::Blend => Weight::Layers { alpha: (!ink.adds()).then(|| ink.alpha()) },
+        };
+        if let Some(cut) = cut {
+            self.cut.polygon(&cut.area);
+        }
+        let rows = match source {
+            Source::Polygons => self.polygons.rows(),
+            Source::Rectangles => self.rectangles.rows(),
+            Source::Mask => self.mask.rows(),
+        };
+        for row in rows {
+            let stroke = &mut self.rows.stroke;
+            let has_part = match source {
+                Source::Polygons => self.polygons.take_row(row, weight, stroke),
+                Source::Rectangles => self.rectangles.take_row(row, weight, stroke),
+                Source::Mask => self.mask.take_row(row, stroke),
+            };
+            if !has_part {
+                continue;
+            }
+            if let Some(cut) = cut {
+                self.cut_row(row, source, weight, cut);
+            }
+            self.canvas.blend(row, &self.rows.stroke, ink);
+        }
+    }
+
+    /// Cuts a row of a stroke to what is inside or outside of a polygon.
+    fn cut_row(&mut self, row: usize, source: Source, weight: Weight, cut: &Cut) {
+        let Rows { stroke, cut: inside, winding } = &mut self.rows;
+        let rule = cut.area.rule;
+        if !self.cut.take_row(row, Weight::Rule(rule), inside) {
+            inside.coverage.clear();
+        }
+        let pieces = match (source, &mut self.polygons) {
+            (Source::Polygons, Polygons::Exact(pieces)) => Some(pieces),
+            (Source::Rectangles, _) => Some(&mut self.rectangles),
+            _ => None,
+        };
+        let area = match &mut self.cut {
+            Polygons::Exact(area) => Some(area),
+            _ => None,
+        };
+        let mut both = pieces.zip(area);
+        for (k, share) in stroke.coverage.iter_mut().enumerate() {
+            let column = stroke.first + k;
+            let covered = column.checked_sub(inside.first).and_then(|k| inside.coverage.get(k));
+            let covered = covered.copied().unwrap_or(0.0);
+            let is_partial = *share != 0.0 && *share != 1.0 && covered > 0.0 && covered < 1.0;
+            match &mut both {
+                // Only together do they say what they share.
+                Some((pieces, area)) if is_partial => {
+                    winding.clear([0, 0]);
+                    pieces.gather(row, column, [1, 0], winding);
+                    area.gather(row, column, [0, 1], winding);
+                    let mut sum = 0.0;
+                    winding.areas(&mut |[stroke, polygon], area| {
+                        if rule.contains(polygon) == cut.keeps_inside {
+                            sum += weight.of(stroke) * area;
+                        }
+                    });
+                    *share = sum as f32;
+                }
+                _ => *share *= if cut.keeps_inside { covered } else { 1.0 - covered },
+            }
+        }
+    }
+}
+
+/// Polygons, by one of three ways.
+#[derive(Debug)]
+enum Polygons {
+    Aliased(Centres),
+    Smooth(Smooth),
+    Exact(Accumulator),
+}
+
+impl Polygons {
+    fn new(TilePlace { origin, size }: TilePlace, way: PolygonRaster) -> Self {
+        match way {
+            PolygonRaster::Aliased => Self::Aliased(Centres::new(origin, size)),
+            PolygonRaster::TinySkia => Self::Smooth(Smooth::new(origin, size)),
+            PolygonRaster::Exact => Self::Exact(Accumulator::new(origin, size)),
+        }
+    }
+
+    fn start(&mut self, rings: Rings) {
+        match self {
+            Self::Aliased(centres) => centres.start(),
+            Self::Smooth(smooth) => smooth.start(),
+            Self::Exact(accumulator) => accumulator.start(rings),
+        }
+    }
+
+    fn ring(&mut self, ring: &[Texel]) {
+        match self {
+            Self::Aliased(centres) => centres.ring(ring),
+            Self::Smooth(smooth) => smooth.ring(ring),
+            Self::Exact(accumulator) => accumulator.ring(ring),
+        }
+    }
+
+    /// Starts an item that is a polygon.
+    fn polygon(&mut self, area: &Area) {
+        self.start(if area.is_simple { Rings::Simple } else { Rings::Any });
+        area.rings.iter().for_each(|ring| self.ring(ring));
+    }
+
+    fn rows(&self) -> std::ops::Range<usize> {
+        match self {
+            Self::Aliased(centres) => centres.rows(),
+            Self::Smooth(smooth) => smooth.rows(),
+            Self::Exact(accumulator) => accumulator.rows(),
+        }
+    }
+
+    fn take_row(&mut self, row: usize, weight: Weight, out: &mut RowCoverage) -> bool {
+        match self {
+            Self::Aliased(centres) => centres.take_row(row, weight, out),
+            Self::Smooth(smooth) => smooth.take_row(row, weight, out),
+            Self::Exact(accumulator) => accumulator.take_row(row, weight, out),
+        }
+    }
+}
