@@ -1,8 +1,10 @@
 //! The texels of a tile, and blending into them.
 
-use super::exact::RowCoverage;
+use super::exact::{Accumulator, FOUR, RowCoverage, Runs};
+use super::weight::Weight;
 use crate::resolve::Paint;
 use crate::scene::{BlendMode, TexelFormat};
+use std::ops::Range;
 
 /// A paint as texels are blended with it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,64 +32,144 @@ impl Ink {
 }
 
 /// A tile's texels: premultiplied paint of the working space, rows from the north.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub(super) struct Canvas {
     width: usize,
+    /// Texels of a row with those that fill it to a multiple of four.
+    stride: usize,
     texels: Vec<[f32; 4]>,
     format: TexelFormat,
+    arch: pulp::Arch,
 }
 
 impl Canvas {
     /// An empty tile.
     pub(super) fn new((width, height): (usize, usize), format: TexelFormat) -> Self {
-        Self { width, texels: vec![[0.0; 4]; width * height], format }
+        let stride = width.next_multiple_of(FOUR);
+        Self { width, stride, texels: vec![[0.0; 4]; stride * height], format, arch: pulp::Arch::new() }
     }
 
-    /// All texels, rows from the north.
-    pub(super) fn texels(&self) -> &[[f32; 4]] {
-        &self.texels
+    /// A row of texels.
+    pub(super) fn row(&self, row: usize) -> &[[f32; 4]] {
+        &self.texels[row * self.stride..][..self.width]
     }
 
-    /// The texels.
-    pub(super) fn into_texels(self) -> Vec<[f32; 4]> {
-        self.texels
+    /// Empties all texels.
+    pub(super) fn clear(&mut self) {
+        self.texels.fill([0.0; 4]);
     }
 
     /// Blends ink into a row, as much of it as is covered.
     pub(super) fn blend(&mut self, row: usize, coverage: &RowCoverage, ink: &Ink) {
-        let texels = &mut self.texels[row * self.width..(row + 1) * self.width];
-        let texels = &mut texels[coverage.first..coverage.first + coverage.coverage.len()];
-        let is_opaque = ink.color[3] >= 1.0 && ink.mode == BlendMode::Over;
+        let texels = &mut self.texels[row * self.stride + coverage.first..];
         for (texel, &share) in texels.iter_mut().zip(&coverage.coverage) {
-            if share == 1.0 && is_opaque {
-                *texel = ink.color;
-            } else if share > 0.0 {
-                *texel = blended(*texel, ink, share);
-                if self.format == TexelFormat::Unorm8 {
-                    *texel = texel.map(rounded);
-                }
+            *texel = blended(*texel, ink, share, self.format);
+        }
+    }
+
+    /// Blends ink wherever an item lies.
+    pub(super) fn blend_item(&mut self, item: &mut Accumulator, weight: Weight, ink: &Ink) {
+        if ink.mode == BlendMode::Over && self.format == TexelFormat::F32 {
+            let arch = self.arch;
+            return arch.dispatch(OverItem { canvas: self, item, weight, color: ink.color });
+        }
+        for row in item.rows() {
+            let texels = &mut self.texels[row * self.stride..][..self.stride];
+            item.take_row(row, weight, &mut Blend { texels, ink, format: self.format });
+        }
+    }
+}
+
+/// Blends ink into a row in any way.
+struct Blend<'a> {
+    texels: &'a mut [[f32; 4]],
+    ink: &'a Ink,
+    format: TexelFormat,
+}
+
+impl Runs for Blend<'_> {
+    fn alike(&mut self, columns: Range<usize>, coverage: f32) {
+        for texel in &mut self.texels[columns] {
+            *texel = blended(*texel, self.ink, coverage, self.format);
+        }
+    }
+
+    fn four(&mut self, first: usize, coverage: &[f32; FOUR]) {
+        for (texel, share) in self.texels[first..first + FOUR].iter_mut().zip(coverage) {
+            *texel = blended(*texel, self.ink, *share, self.format);
+        }
+    }
+}
+
+/// Blends an item over a tile; compiled for the widest vectors of the machine at hand, the bits are the same with any.
+struct OverItem<'a> {
+    canvas: &'a mut Canvas,
+    item: &'a mut Accumulator,
+    weight: Weight,
+    color: [f32; 4],
+}
+
+impl pulp::WithSimd for OverItem<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) {
+        let Self { canvas, item, weight, color } = self;
+        for row in item.rows() {
+            let texels = &mut canvas.texels[row * canvas.stride..][..canvas.stride];
+            item.take_row(row, weight, &mut Over { texels, color });
+        }
+    }
+}
+
+/// Blends ink over a row.
+struct Over<'a> {
+    texels: &'a mut [[f32; 4]],
+    color: [f32; 4],
+}
+
+impl Runs for Over<'_> {
+    #[inline(always)]
+    fn alike(&mut self, columns: Range<usize>, coverage: f32) {
+        let texels = &mut self.texels[columns];
+        if coverage == 1.0 && self.color[3] == 1.0 {
+            texels.fill(self.color);
+        } else {
+            for texel in texels {
+                *texel = over(*texel, &self.color, coverage);
             }
         }
-        if is_opaque && self.format == TexelFormat::Unorm8 {
-            texels.iter_mut().for_each(|texel| *texel = texel.map(rounded));
+    }
+
+    #[inline(always)]
+    fn four(&mut self, first: usize, coverage: &[f32; FOUR]) {
+        let numbers = self.texels[first..first + FOUR].as_flattened_mut();
+        for k in 0..4 * FOUR {
+            let share = coverage[k / 4];
+            numbers[k] = self.color[k % 4] * share + numbers[k] * (1.0 - self.color[3] * share);
         }
     }
 }
 
 #[inline(always)]
-fn blended(below: [f32; 4], ink: &Ink, share: f32) -> [f32; 4] {
-    let source = ink.color.map(|v| v * share);
-    match ink.mode {
-        BlendMode::Over => {
-            let keep = 1.0 - source[3];
-            std::array::from_fn(|k| source[k] + below[k] * keep)
-        }
-        BlendMode::Additive => std::array::from_fn(|k| crate::math::min_f32(below[k] + source[k], 1.0)),
-    }
+fn over(below: [f32; 4], color: &[f32; 4], share: f32) -> [f32; 4] {
+    // None of an ink changes nothing, all of an opaque one leaves nothing below: no case needs a branch.
+    let keep = 1.0 - color[3] * share;
+    std::array::from_fn(|k| color[k] * share + below[k] * keep)
 }
 
-/// The nearest of 256 code values.
+/// A texel with ink on it.
 #[inline(always)]
-fn rounded(v: f32) -> f32 {
-    (v * 255.0 + 0.5).floor() / 255.0
+fn blended(below: [f32; 4], ink: &Ink, share: f32, format: TexelFormat) -> [f32; 4] {
+    let above = match ink.mode {
+        BlendMode::Over => over(below, &ink.color, share),
+        BlendMode::Additive => {
+            std::array::from_fn(|k| crate::math::min_f32(below[k] + ink.color[k] * share, 1.0))
+        }
+    };
+    match format {
+        TexelFormat::F32 => above,
+        // A cast rounds towards zero.
+        TexelFormat::Unorm8 => above.map(|v| f32::from((v * 255.0 + 0.5) as u8) / 255.0),
+    }
 }

@@ -39,6 +39,12 @@ impl Centres {
         }
     }
 
+    /// Moves to another tile of the same size.
+    pub(super) fn move_to(&mut self, origin: (i64, i64)) {
+        self.start();
+        self.origin = origin;
+    }
+
     /// Starts an item; what is left of the one before is forgotten.
     pub(super) fn start(&mut self) {
         for row in self.rows.0..self.rows.1 {
@@ -59,8 +65,8 @@ impl Centres {
 
     /// Adds a ring.
     pub(super) fn ring(&mut self, ring: &[Texel]) {
-        let mut near = std::mem::take(&mut self.ring);
-        without_far(ring, FARTHEST, &mut near);
+        let mut room = std::mem::take(&mut self.ring);
+        let near = without_far(ring, FARTHEST, &mut room);
         for k in 0..near.len() {
             let (from, to) = (near[k], near[(k + 1) % near.len()]);
             if from.y < to.y {
@@ -69,7 +75,7 @@ impl Centres {
                 self.edge(to, from, -1);
             }
         }
-        self.ring = near;
+        self.ring = room;
     }
 
     /// An edge from its northern end to its southern.

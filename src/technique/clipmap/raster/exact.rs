@@ -3,12 +3,15 @@
 //! Edges leave signed areas in an accumulator of whole numbers, summed along each row: one pass over the edges, whatever
 //! their order, with the same bits in any tile. The sum is the area where winding numbers are 0 and 1. Where an item may overlap
 //! itself (several pieces of a stroke, several edges of a polygon that is not simple meet a texel) its winding numbers are told apart
-//! exactly instead ([`super::winding`]).
+//! exactly instead ([`super::winding`]). Of a row only the blocks of texels are looked at that an edge meets; between them nothing
+//! changes.
 
 use super::fixed::{BITS, Edge, FARTHEST, Fixed, ONE, without_far};
+use super::lanes::{LANES, Line, texel_of};
 use super::weight::Weight;
 use super::winding::{Fragment, Texel as Winding, Windings};
 use crate::space::Texel;
+use std::ops::Range;
 
 /// What the rings of an item are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,7 +33,22 @@ pub(super) struct RowCoverage {
     pub(super) coverage: Vec<f32>,
 }
 
-/// Columns that something may have a part in: `first..=last`, -1 for all that is west of the tile, its width for all east.
+/// Takes the covered texels of a row from the west to the east.
+///
+/// Not a closure: what is compiled for wide vectors must be part of what calls it, which only functions can be told.
+pub(super) trait Runs {
+    /// Columns that are covered alike.
+    fn alike(&mut self, columns: Range<usize>, coverage: f32);
+
+    /// Four columns from one that is a multiple of four; the last may lie beyond the tile.
+    fn four(&mut self, first: usize, coverage: &[f32; FOUR]);
+}
+
+/// Texels of a vector.
+pub(super) const FOUR: usize = 1 << FOUR_BITS;
+const FOUR_BITS: u32 = 2;
+
+/// Columns that a piece has a part in: `first..=last`, -1 for all that is west of the tile, its width for all east.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Span {
     first: i32,
@@ -54,54 +72,98 @@ struct Piece {
     rows: (u32, u32),
 }
 
-/// A tile's accumulator.
+/// What a piece has a part in, in one row.
+#[derive(Debug, Clone, Copy)]
+struct Interval {
+    span: Span,
+    /// The next one of the row.
+    next: u32,
+}
+
+/// The end of a row's intervals.
+const NONE: u32 = u32::MAX;
+
+/// A tile's accumulator. Sums of areas hold winding numbers below 2^15 in magnitude; beyond, a polygon that is not simple may be taken
+/// for its outside.
 #[derive(Debug)]
 pub(super) struct Accumulator {
     width: i32,
     height: usize,
     origin: (i64, i64),
     rings: Rings,
+    /// Cells of a row: its texels, to whole blocks, and two that edges in the last one leave something to.
     stride: usize,
+    /// A block has 2^shift texels, a row at most 64 blocks.
+    shift: u32,
     /// Differences of covered areas along rows, in units of 2^-16 texel.
     areas: Vec<i32>,
-    /// Differences of the number of pieces along rows, or the number of edges in a texel.
-    crowd: Vec<i32>,
-    /// What the item may have a part in, a row each.
-    spans: Vec<Span>,
-    /// The same of the piece at hand.
-    piece_spans: Vec<Span>,
+    /// The blocks of each row that an edge has met; those beyond the tile mean nothing.
+    touched: Vec<u64>,
+    /// The blocks of the tile.
+    blocks: u64,
+    /// How many edges of a polygon of any kind meet each texel.
+    crowd: Vec<u16>,
+    /// Rows that the item may have a part in.
     rows: (usize, usize),
-    edges: Vec<Edge>,
+    /// The parts of the piece at hand, a row each.
+    spans: Vec<Span>,
+    /// The parts of all pieces: where each row's list begins.
+    intervals_of_rows: Vec<u32>,
+    intervals: Vec<Interval>,
+    /// Columns of the row at hand in which pieces may overlap.
+    overlaps: Vec<(i32, i32)>,
+    edges: Vec<[Fixed; 2]>,
     pieces: Vec<Piece>,
     /// The pieces of each row, once they are asked for.
     pieces_of_rows: Vec<Vec<u32>>,
     are_pieces_sorted: bool,
-    ring: Vec<Texel>,
+    /// Whether the edges of a simple polygon are asked for.
+    keeps_edges: bool,
+    room: Vec<Texel>,
     texel: Winding,
+    arch: pulp::Arch,
 }
 
 impl Accumulator {
-    /// An accumulator of a tile whose first texel is `origin`.
-    pub(super) fn new(origin: (i64, i64), (width, height): (usize, usize)) -> Self {
-        let stride = width + 2;
+    /// An accumulator of a tile whose first texel is `origin`; with `keeps_edges`, [`Accumulator::gather`] has those of simple polygons
+    /// too.
+    pub(super) fn new(origin: (i64, i64), (width, height): (usize, usize), keeps_edges: bool) -> Self {
+        let mut shift = FOUR_BITS;
+        while width > 64 << shift {
+            shift += 1;
+        }
+        let stride = width.next_multiple_of(1 << shift) + 2;
         Self {
             width: width as i32,
             height,
             origin,
             rings: Rings::Simple,
             stride,
+            shift,
             areas: vec![0; stride * height],
-            crowd: vec![0; stride * height],
-            spans: vec![Span::EMPTY; height],
-            piece_spans: vec![Span::EMPTY; height],
+            touched: vec![0; height],
+            blocks: u64::MAX >> (64 - width.div_ceil(1 << shift)),
+            crowd: Vec::new(),
             rows: (height, 0),
+            spans: vec![Span::EMPTY; height],
+            intervals_of_rows: vec![NONE; height],
+            intervals: Vec::new(),
+            overlaps: Vec::new(),
             edges: Vec::new(),
             pieces: Vec::new(),
             pieces_of_rows: vec![Vec::new(); height],
             are_pieces_sorted: false,
-            ring: Vec::new(),
+            keeps_edges,
+            room: Vec::new(),
             texel: Winding::default(),
+            arch: pulp::Arch::new(),
         }
+    }
+
+    /// Moves to another tile of the same size.
+    pub(super) fn move_to(&mut self, origin: (i64, i64)) {
+        self.start(self.rings);
+        self.origin = origin;
     }
 
     /// Starts an item; what is left of the one before is forgotten.
@@ -111,55 +173,78 @@ impl Accumulator {
         }
         self.rings = rings;
         self.rows = (self.height, 0);
+        self.intervals.clear();
         self.edges.clear();
         self.pieces.clear();
         self.are_pieces_sorted = false;
+        if rings == Rings::Any && self.crowd.is_empty() {
+            self.crowd = vec![0; self.areas.len()];
+        }
     }
 
+    /// Empties a row that has not been taken.
     fn forget_row(&mut self, row: usize) {
-        if self.spans[row] != Span::EMPTY {
+        self.intervals_of_rows[row] = NONE;
+        if std::mem::take(&mut self.touched[row]) != 0 {
             let cells = row * self.stride..(row + 1) * self.stride;
             self.areas[cells.clone()].fill(0);
-            self.crowd[cells].fill(0);
-            self.spans[row] = Span::EMPTY;
+            if self.rings == Rings::Any {
+                self.crowd[cells].fill(0);
+            }
         }
     }
 
     /// The rows that the item may have a part in.
-    pub(super) fn rows(&self) -> std::ops::Range<usize> {
+    pub(super) fn rows(&self) -> Range<usize> {
         self.rows.0..self.rows.1
+    }
+
+    /// Whether nothing is left of an item whose rows have all been taken.
+    #[cfg(test)]
+    pub(super) fn is_empty(&self) -> bool {
+        let width = self.width as usize;
+        self.areas.chunks(self.stride).all(|row| row[..width].iter().all(|area| *area == 0))
+            && self.crowd.chunks(self.stride).all(|row| row[..width].iter().all(|edges| *edges == 0))
+            && self.touched.iter().all(|blocks| *blocks == 0)
+            && self.spans.iter().all(|span| *span == Span::EMPTY)
+            && self.intervals_of_rows.iter().all(|first| *first == NONE)
     }
 
     /// Adds a ring.
     pub(super) fn ring(&mut self, ring: &[Texel]) {
-        let mut near = std::mem::take(&mut self.ring);
-        without_far(ring, FARTHEST, &mut near);
-        let start = self.edges.len();
-        let mut rows = (self.height, 0);
-        if let Some(&last) = near.last() {
-            let mut from = Fixed::new(last, self.origin);
-            for &at in &near {
-                let to = Fixed::new(at, self.origin);
-                self.edge(from, to, &mut rows);
-                from = to;
-            }
+        let arch = self.arch;
+        let mut room = std::mem::take(&mut self.room);
+        let ring = without_far(ring, FARTHEST, &mut room);
+        if self.may_touch(ring) {
+            arch.dispatch(AddRing { to: self, ring });
         }
-        self.ring = near;
-        self.end_ring(start, rows);
+        self.room = room;
     }
 
-    /// A piece is complete: counts it where it may be.
+    /// Whether a ring's box meets the tile: a closed ring changes nothing outside it.
+    fn may_touch(&self, ring: &[Texel]) -> bool {
+        let size = (f64::from(self.width), self.height as f64);
+        let (west, north) = (self.origin.0 as f64 - 1.0, self.origin.1 as f64 - 1.0);
+        let (east, south) = (west + size.0 + 2.0, north + size.1 + 2.0);
+        let (mut is_west, mut is_east, mut is_north, mut is_south) = (true, true, true, true);
+        for p in ring {
+            is_west &= p.x < west;
+            is_east &= p.x > east;
+            is_north &= p.y < north;
+            is_south &= p.y > south;
+        }
+        !(is_west | is_east | is_north | is_south)
+    }
+
+    /// A piece is complete: lists where it has a part.
+    #[inline(always)]
     fn end_ring(&mut self, start: usize, rows: (usize, usize)) {
         for row in rows.0..rows.1 {
-            let span = std::mem::replace(&mut self.piece_spans[row], Span::EMPTY);
-            if span == Span::EMPTY {
-                continue;
-            }
-            self.spans[row].include(span.first, span.last);
+            let span = std::mem::replace(&mut self.spans[row], Span::EMPTY);
+            // A ring that is closed beside the tile leaves nothing in it.
             if self.rings == Rings::Pieces && span.last >= 0 && span.first < self.width {
-                let counts = &mut self.crowd[row * self.stride..(row + 1) * self.stride];
-                counts[span.first.max(0) as usize] += 1;
-                counts[span.last.min(self.width - 1) as usize + 1] -= 1;
+                let next = std::mem::replace(&mut self.intervals_of_rows[row], self.intervals.len() as u32);
+                self.intervals.push(Interval { span, next });
             }
         }
         let edges = (start as u32, self.edges.len() as u32);
@@ -169,188 +254,297 @@ impl Accumulator {
         self.rows = (self.rows.0.min(rows.0), self.rows.1.max(rows.1));
     }
 
+    #[inline(always)]
     fn edge(&mut self, from: Fixed, to: Fixed, rows: &mut (usize, usize)) {
-        let Some(edge) = Edge::new(from, to) else {
+        // Most edges of a large item pass the tile by.
+        let (top, bottom) = if from.y < to.y { (from.y, to.y) } else { (to.y, from.y) };
+        let passed = texel_of(top).max(0)..(texel_of(bottom - 1) + 1).min(self.height as i64);
+        if top == bottom {
             return self.level_edge(from, to, rows);
-        };
-        let passed = edge.rows(self.height as i64);
+        }
         if passed.is_empty() {
             return;
         }
         rows.0 = rows.0.min(passed.start as usize);
         rows.1 = rows.1.max(passed.end as usize);
-        self.edges.push(edge);
+        if self.rings != Rings::Simple || self.keeps_edges {
+            self.edges.push([from, to]);
+        }
         let (west, east) = if from.x < to.x { (from.x, to.x) } else { (to.x, from.x) };
-        let is_east = west >= i64::from(self.width) << BITS;
-        if is_east || east < 0 {
-            // All of it on one side.
-            let column = if is_east { self.width } else { -1 };
-            for row in passed {
-                self.piece_spans[row as usize].include(column, column);
-                if !is_east {
-                    let (north, south) = (row << BITS, (row + 1) << BITS);
-                    let height = edge.bottom.y.min(south) - edge.top.y.max(north);
-                    self.areas[row as usize * self.stride] += edge.sign * height as i32;
+        let limit = i64::from(self.width) << BITS;
+        if west >= limit || east < 0 {
+            let column = if east < 0 { -1 } else { self.width };
+            return self.edge_beside((top, bottom), column, if from.y < to.y { 1 } else { -1 });
+        }
+        let Some(edge) = Edge::new(from, to) else { return };
+        if self.rings == Rings::Any {
+            self.count_edge(&edge, passed.clone());
+        }
+        let is_within = west >= 0 && east < limit && top >= 0 && bottom <= (self.height as i64) << BITS;
+        match (edge.is_steep(), is_within) {
+            (true, true) => self.steep_edge(&edge, passed),
+            (true, false) => self.steep_edge_across_border(&edge, passed),
+            (false, true) => self.shallow_edge(&edge, texel_of(west)..texel_of(east) + 1),
+            (false, false) => self.shallow_edge_across_border(&edge, (west, east)),
+        }
+    }
+
+    #[inline(always)]
+    fn steep_edge(&mut self, edge: &Edge, rows: Range<i64>) {
+        let line = Line::new(edge);
+        for first in rows.clone().step_by(LANES) {
+            let parts = line.steep_parts(first);
+            let count = ((rows.end - first) as usize).min(LANES);
+            let first = first as usize;
+            let cells = self.areas[first * self.stride..].chunks_exact_mut(self.stride);
+            let marks = self.touched[first..].iter_mut().zip(&mut self.spans[first..]);
+            for ((k, (touched, span)), cells) in (0..count).zip(marks).zip(cells) {
+                span.include(parts.column[k], parts.last[k]);
+                let column = parts.column[k] as usize;
+                *touched |= blocks_of_three(column, self.shift);
+                if let Some([a, b, c]) = cells.get_mut(column..column + 3) {
+                    change(a, parts.adds[0][k]);
+                    change(b, parts.adds[1][k]);
+                    change(c, parts.adds[2][k]);
                 }
             }
-            return;
         }
-        let mut at = edge.top;
-        if at.y < 0 {
-            at = Fixed { x: edge.x_at(0), y: 0 };
+    }
+
+    fn steep_edge_across_border(&mut self, edge: &Edge, rows: Range<i64>) {
+        let line = Line::new(edge);
+        for first in rows.clone().step_by(LANES) {
+            let parts = line.steep_parts(first);
+            for k in 0..((rows.end - first) as usize).min(LANES) {
+                let row = first as usize + k;
+                // Numbers of far columns would not fit: only on which side they are counts.
+                let part = edge.in_row(row as i64);
+                let (west, east) = (part.top.x.min(part.bottom.x), part.top.x.max(part.bottom.x));
+                let is_cut = east > (texel_of(west) + 1) << BITS;
+                let (column, last) = (self.column(west), self.column(west + if is_cut { ONE } else { 0 }));
+                self.spans[row].include(column, last);
+                let cells = &mut self.areas[row * self.stride..(row + 1) * self.stride];
+                let adds = parts.adds.map(|adds| adds[k]);
+                if column >= self.width {
+                    continue;
+                }
+                self.touched[row] |= blocks_of_three(column.max(0) as usize, self.shift);
+                if last < 0 {
+                    change(&mut cells[0], adds[0].wrapping_add(adds[1]).wrapping_add(adds[2]));
+                } else if column < 0 {
+                    // The western texel lies beside the tile, its neighbour in it.
+                    change(&mut cells[0], adds[0].wrapping_add(adds[1]));
+                    change(&mut cells[1], adds[2]);
+                } else {
+                    for (cell, add) in cells[column as usize..].iter_mut().zip(adds) {
+                        change(cell, add);
+                    }
+                }
+            }
         }
-        for row in passed {
-            let south = (row + 1) << BITS;
-            let next =
-                if edge.bottom.y <= south { edge.bottom } else { Fixed { x: edge.x_at(south), y: south } };
-            self.edge_in_row(row as usize, &edge, at, next);
-            at = next;
+    }
+
+    #[inline(always)]
+    fn shallow_edge(&mut self, edge: &Edge, columns: Range<i64>) {
+        let line = Line::new(edge);
+        for first in columns.clone().step_by(LANES) {
+            let parts = line.shallow_parts(first);
+            for k in 0..((columns.end - first) as usize).min(LANES) {
+                for half in 0..2 {
+                    let (row, column) = (parts.row[k] as usize + half, first as usize + k);
+                    self.add_shallow(row, column, parts.heights[half][k], parts.adds[half][k], edge.sign);
+                }
+            }
+        }
+    }
+
+    /// One of the two parts of a shallow edge in a column.
+    #[inline(always)]
+    fn add_shallow(&mut self, row: usize, column: usize, height: i32, here: i32, sign: i32) {
+        if height > 0 {
+            self.spans[row].include(column as i32, column as i32);
+            self.touched[row] |= blocks_of_three(column, self.shift);
+            let at = row * self.stride + column;
+            if let Some([cell, next]) = self.areas.get_mut(at..at + 2) {
+                change(cell, here);
+                change(next, sign * height - here);
+            }
+        }
+    }
+
+    fn shallow_edge_across_border(&mut self, edge: &Edge, (west, east): (i64, i64)) {
+        let line = Line::new(edge);
+        let (width, limit) = (i64::from(self.width), i64::from(self.width) << BITS);
+        if west < 0 {
+            let heights = if east <= 0 { (edge.top.y, edge.bottom.y) } else { line.heights_beside(0, true) };
+            self.edge_beside(heights, -1, edge.sign);
+        }
+        if east > limit {
+            let heights =
+                if west >= limit { (edge.top.y, edge.bottom.y) } else { line.heights_beside(limit, false) };
+            self.edge_beside(heights, self.width, edge.sign);
+        }
+        let columns = texel_of(west).max(0)..(texel_of(east) + 1).min(width);
+        for first in columns.clone().step_by(LANES) {
+            let parts = line.shallow_parts(first);
+            for k in 0..((columns.end - first) as usize).min(LANES) {
+                for half in 0..2 {
+                    let row = i64::from(parts.row[k]) + half as i64;
+                    if (0..self.height as i64).contains(&row) {
+                        let (height, here) = (parts.heights[half][k], parts.adds[half][k]);
+                        self.add_shallow(row as usize, first as usize + k, height, here, edge.sign);
+                    }
+                }
+            }
+        }
+    }
+
+    /// A part of an edge that lies beside the tile, between two heights.
+    fn edge_beside(&mut self, (north, south): (i64, i64), column: i32, sign: i32) {
+        let rows = texel_of(north).max(0)..(texel_of(south - 1) + 1).min(self.height as i64);
+        for row in rows {
+            let height = south.min((row + 1) << BITS) - north.max(row << BITS);
+            if height > 0 {
+                self.spans[row as usize].include(column, column);
+                if column < 0 {
+                    self.touched[row as usize] |= 1;
+                    change(&mut self.areas[row as usize * self.stride], sign * height as i32);
+                }
+            }
+        }
+    }
+
+    /// Counts an edge in the texels that it may touch.
+    fn count_edge(&mut self, edge: &Edge, rows: Range<i64>) {
+        for row in rows {
+            let part = edge.in_row(row);
+            self.count_columns(row as usize, part.top.x.min(part.bottom.x), part.top.x.max(part.bottom.x));
+        }
+    }
+
+    fn count_columns(&mut self, row: usize, west: i64, east: i64) {
+        for column in self.column(west).max(0)..=self.column(east).min(self.width - 1) {
+            let edges = &mut self.crowd[row * self.stride + column as usize];
+            *edges = edges.saturating_add(1);
+            self.touched[row] |= 1 << (column as u32 >> self.shift);
         }
     }
 
     /// A level edge has no area; it matters where edges in a texel are counted.
     fn level_edge(&mut self, from: Fixed, to: Fixed, rows: &mut (usize, usize)) {
-        let row = from.y >> BITS;
-        if self.rings != Rings::Any || row < 0 || row >= self.height as i64 {
-            return;
-        }
-        let (west, east) = if from.x < to.x { (from.x, to.x) } else { (to.x, from.x) };
-        let (first, last) = (self.column(west), self.column(east));
-        *rows = (rows.0.min(row as usize), rows.1.max(row as usize + 1));
-        self.piece_spans[row as usize].include(first, last);
-        for column in first.max(0)..=last.min(self.width - 1) {
-            self.crowd[row as usize * self.stride + column as usize] += 1;
+        let row = texel_of(from.y);
+        if self.rings == Rings::Any && row >= 0 && row < self.height as i64 {
+            self.count_columns(row as usize, from.x.min(to.x), from.x.max(to.x));
+            *rows = (rows.0.min(row as usize), rows.1.max(row as usize + 1));
         }
     }
 
     /// The column of an x, -1 for all west of the tile, its width for all east.
-    #[inline(always)]
     fn column(&self, x: i64) -> i32 {
-        if x < 0 {
-            -1
-        } else {
-            let column = x >> BITS;
-            if column < i64::from(self.width) { column as i32 } else { self.width }
-        }
+        texel_of(x).clamp(-1, i64::from(self.width)) as i32
     }
 
+    /// Gives the covered texels of a row; the row is used up.
     #[inline(always)]
-    fn edge_in_row(&mut self, row: usize, edge: &Edge, top: Fixed, bottom: Fixed) {
-        let (west, east) = if top.x < bottom.x { (top, bottom) } else { (bottom, top) };
-        let (first, last) = (self.column(west.x), self.column(east.x));
-        self.piece_spans[row].include(first, last);
-        if self.rings == Rings::Any {
-            for column in first.max(0)..=last.min(self.width - 1) {
-                self.crowd[row * self.stride + column as usize] += 1;
+    pub(super) fn take_row(&mut self, row: usize, weight: Weight, to: &mut impl Runs) {
+        let mut blocks = std::mem::take(&mut self.touched[row]) & self.blocks;
+        if self.rings == Rings::Pieces {
+            blocks |= self.take_overlaps(row);
+        }
+        let (mut area, mut next) = (0i32, 0);
+        while blocks != 0 {
+            // Between blocks that an edge meets nothing changes.
+            let block = blocks.trailing_zeros() as usize;
+            blocks &= blocks - 1;
+            if area != 0 && next < block {
+                to.alike(next << self.shift..block << self.shift, self.plain(area, weight));
             }
-        }
-        if first == last {
-            if first >= 0 && first < self.width {
-                let start = i64::from(first) << BITS;
-                self.cell(
-                    row,
-                    first as usize,
-                    edge.sign,
-                    bottom.y - top.y,
-                    (west.x - start) + (east.x - start),
-                );
-            } else if first < 0 {
-                self.areas[row * self.stride] += edge.sign * (bottom.y - top.y) as i32;
+            for four in block << self.shift >> FOUR_BITS..(block + 1) << self.shift >> FOUR_BITS {
+                let first = four << FOUR_BITS;
+                let cells = row * self.stride + first;
+                let mut areas = [0; FOUR];
+                if let Some(cells) = self.areas.get_mut(cells..cells + FOUR) {
+                    for k in 0..FOUR {
+                        area = area.wrapping_add(cells[k]);
+                        areas[k] = area;
+                        cells[k] = 0;
+                    }
+                }
+                let mut coverage = [0.0; FOUR];
+                for k in 0..FOUR {
+                    coverage[k] = self.plain(areas[k], weight);
+                }
+                if self.rings == Rings::Any || !self.overlaps.is_empty() {
+                    self.tell_apart(row, first, weight, &mut coverage);
+                }
+                to.four(first, &coverage);
             }
-            return;
+            next = block + 1;
         }
-        self.edge_in_cells(row, edge, (top.y, bottom.y), west, east);
-    }
-
-    /// An edge that crosses texels of a row, from the west to the east.
-    fn edge_in_cells(
-        &mut self,
-        row: usize,
-        edge: &Edge,
-        (north, south): (i64, i64),
-        west: Fixed,
-        east: Fixed,
-    ) {
-        let mut at = west;
-        let y_at = |x: i64| edge.y_at(x).clamp(north, south);
-        if at.x < 0 {
-            let y = y_at(0);
-            self.areas[row * self.stride] += edge.sign * (y - at.y).abs() as i32;
-            at = Fixed { x: 0, y };
+        let rest = next << self.shift..self.width as usize;
+        if area != 0 && !rest.is_empty() {
+            to.alike(rest, self.plain(area, weight));
         }
-        for column in at.x >> BITS..i64::from(self.width) {
-            let (start, end) = (column << BITS, (column + 1) << BITS);
-            let next = if end < east.x { Fixed { x: end, y: y_at(end) } } else { east };
-            self.cell(
-                row,
-                column as usize,
-                edge.sign,
-                (next.y - at.y).abs(),
-                (at.x - start) + (next.x - start),
-            );
-            if end >= east.x {
-                break;
-            }
-            at = next;
-        }
-    }
-
-    /// A part of an edge in one texel: its height, and the sum of its ends' distances from the western side.
-    #[inline(always)]
-    fn cell(&mut self, row: usize, column: usize, sign: i32, height: i64, doubled_x: i64) {
-        // East of the edge lies the trapezoid (1 - mean x) * height of this texel, and all of the height in those farther east.
-        let here = sign * ((height * (2 * ONE - doubled_x) + ONE) >> (BITS + 1)) as i32;
-        let at = row * self.stride + column;
-        self.areas[at] += here;
-        self.areas[at + 1] += sign * height as i32 - here;
+        self.overlaps.clear();
     }
 
     /// The coverage of a row; what the accumulator holds of it is used up. False where the item has no part in it.
-    pub(super) fn take_row(&mut self, row: usize, weight: Weight, out: &mut RowCoverage) -> bool {
+    pub(super) fn take_coverage(&mut self, row: usize, weight: Weight, out: &mut RowCoverage) -> bool {
         out.coverage.clear();
-        let Span { first, last } = self.spans[row];
-        let (first, last) = (first.max(0), last.min(self.width - 1));
-        if first > last {
-            self.forget_row(row);
-            return false;
-        }
-        out.first = first as usize;
-        let (mut area, mut pieces) = (0i32, 0i32);
-        let cells = row * self.stride..(row + 1) * self.stride;
-        // Sums run from the tile's western side: nothing stands before the first column.
-        let columns = first as usize..=last as usize;
-        for column in columns {
-            area = area.wrapping_add(self.areas[cells.start + column]);
-            let crowd = self.crowd[cells.start + column];
-            let many = match self.rings {
-                Rings::Simple => 0,
-                Rings::Any => crowd,
-                Rings::Pieces => {
-                    pieces += crowd;
-                    pieces
-                }
-            };
-            let coverage =
-                if many >= 2 { self.crowded(row, column, weight) } else { self.plain(area, weight) };
-            out.coverage.push(coverage);
-        }
-        self.forget_row(row);
-        true
+        self.take_row(row, weight, &mut Collect { width: self.width as usize, out });
+        !out.coverage.is_empty()
     }
 
-    /// The coverage of a texel that winding numbers k and k + 1 share, of which `area` is the mean.
+    /// The coverage of a texel in which winding numbers need not be told apart.
     #[inline(always)]
     fn plain(&self, area: i32, weight: Weight) -> f32 {
-        const UNIT: f32 = 1.0 / ONE as f32;
-        if self.rings != Rings::Any {
-            return area.clamp(0, ONE as i32) as f32 * UNIT;
+        match self.rings {
+            Rings::Simple | Rings::Pieces => covered(area),
+            Rings::Any => shared(area, weight),
         }
-        let (low, share) = (area >> BITS, (area & (ONE as i32 - 1)) as f32 * UNIT);
-        weight.of(low) as f32 * (1.0 - share) + weight.of(low + 1) as f32 * share
+    }
+
+    /// Finds where pieces may overlap in a row; the row's intervals are used up. Returns the blocks there.
+    #[inline(always)]
+    fn take_overlaps(&mut self, row: usize) -> u64 {
+        let mut at = std::mem::replace(&mut self.intervals_of_rows[row], NONE);
+        let mut blocks = 0;
+        while at != NONE {
+            let Interval { span, next } = self.intervals[at as usize];
+            let mut other = next;
+            while other != NONE {
+                let against = self.intervals[other as usize];
+                let first = span.first.max(against.span.first).max(0);
+                let last = span.last.min(against.span.last).min(self.width - 1);
+                if first <= last {
+                    self.overlaps.push((first, last));
+                    (first >> self.shift..=last >> self.shift).for_each(|block| blocks |= 1 << block);
+                }
+                other = against.next;
+            }
+            at = next;
+        }
+        blocks
+    }
+
+    /// Corrects the coverage of those of four texels in which winding numbers must be told apart.
+    #[inline(never)]
+    fn tell_apart(&mut self, row: usize, first: usize, weight: Weight, coverage: &mut [f32; FOUR]) {
+        for (k, coverage) in coverage.iter_mut().enumerate() {
+            let column = first + k;
+            let is_crowded = match self.rings {
+                Rings::Any => std::mem::take(&mut self.crowd[row * self.stride + column]) >= 2,
+                _ => self.overlaps.iter().any(|(low, high)| (*low..=*high).contains(&(column as i32))),
+            };
+            if is_crowded {
+                *coverage = self.crowded(row, column, weight);
+            }
+        }
     }
 
     /// The coverage of a texel in which winding numbers must be told apart.
     #[cold]
+    #[inline(never)]
     fn crowded(&mut self, row: usize, column: usize, weight: Weight) -> f32 {
         let mut texel = std::mem::take(&mut self.texel);
         texel.clear([0, 0]);
@@ -372,10 +566,8 @@ impl Accumulator {
             if self.rings == Rings::Pieces && !may_meet(edges, row, start.x) {
                 continue;
             }
-            for edge in edges {
-                if (edge.top.y < start.y + ONE) && (edge.bottom.y > start.y) {
-                    add_edge(edge, row, start, adds, texel);
-                }
+            for edge in in_row(edges, row) {
+                add_edge(&edge, row, start, adds, texel);
             }
         }
     }
@@ -395,11 +587,99 @@ impl Accumulator {
     }
 }
 
-/// Whether a piece's columns in a row reach around those of a texel: others count nothing there.
-fn may_meet(edges: &[Edge], row: usize, west: i64) -> bool {
+/// Adds a ring; compiled for the widest vectors of the machine at hand, the bits are the same with any.
+struct AddRing<'a> {
+    to: &'a mut Accumulator,
+    ring: &'a [Texel],
+}
+
+impl pulp::WithSimd for AddRing<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) {
+        let Self { to, ring } = self;
+        let start = to.edges.len();
+        let mut rows = (to.height, 0);
+        if let Some(&last) = ring.last() {
+            let mut from = Fixed::new(last, to.origin);
+            for &at in ring {
+                let next = Fixed::new(at, to.origin);
+                to.edge(from, next, &mut rows);
+                from = next;
+            }
+        }
+        to.end_ring(start, rows);
+    }
+}
+
+/// Collects the coverage of a row.
+struct Collect<'a> {
+    width: usize,
+    out: &'a mut RowCoverage,
+}
+
+impl Collect<'_> {
+    fn skip_to(&mut self, column: usize) {
+        if self.out.coverage.is_empty() {
+            self.out.first = column;
+        }
+        self.out.coverage.resize(column - self.out.first, 0.0);
+    }
+}
+
+impl Runs for Collect<'_> {
+    fn alike(&mut self, columns: Range<usize>, coverage: f32) {
+        self.skip_to(columns.start);
+        self.out.coverage.resize(columns.end - self.out.first, coverage);
+    }
+
+    fn four(&mut self, first: usize, coverage: &[f32; FOUR]) {
+        self.skip_to(first);
+        self.out.coverage.extend_from_slice(&coverage[..FOUR.min(self.width - first)]);
+    }
+}
+
+/// The blocks of a texel and its two eastern neighbours; what lies beyond the last block has none.
+#[inline(always)]
+fn blocks_of_three(column: usize, shift: u32) -> u64 {
+    let (first, last) = (column >> shift, (column + 2) >> shift);
+    (1u64 << first) | (((last - first) as u64) << first << 1)
+}
+
+/// A texel as a number of units of area.
+const UNIT: f32 = 1.0 / ONE as f32;
+
+/// Adds to a sum, which may run over as [`Accumulator`] says.
+#[inline(always)]
+fn change(cell: &mut i32, by: i32) {
+    *cell = cell.wrapping_add(by);
+}
+
+/// The coverage of a texel with winding numbers 0 and 1.
+#[inline(always)]
+fn covered(area: i32) -> f32 {
+    area.clamp(0, ONE as i32) as f32 * UNIT
+}
+
+/// The coverage of a texel that winding numbers k and k + 1 share, of which `area` is the mean.
+#[inline(always)]
+fn shared(area: i32, weight: Weight) -> f32 {
+    let (low, share) = (area >> BITS, (area & (ONE as i32 - 1)) as f32 * UNIT);
+    weight.of(low) as f32 * (1.0 - share) + weight.of(low + 1) as f32 * share
+}
+
+/// The edges of a piece that pass through a row.
+fn in_row(edges: &[[Fixed; 2]], row: usize) -> impl Iterator<Item = Edge> {
     let (north, south) = ((row as i64) << BITS, (row as i64 + 1) << BITS);
+    let edges = edges.iter().filter_map(|[from, to]| Edge::new(*from, *to));
+    edges.filter(move |e| e.top.y < south && e.bottom.y > north)
+}
+
+/// Whether a piece's columns in a row reach around those of a texel: others count nothing there.
+fn may_meet(edges: &[[Fixed; 2]], row: usize, west: i64) -> bool {
     let (mut least, mut most) = (i64::MAX, i64::MIN);
-    for edge in edges.iter().filter(|e| e.top.y < south && e.bottom.y > north) {
+    for edge in in_row(edges, row) {
         let part = edge.in_row(row as i64);
         least = least.min(part.top.x.min(part.bottom.x));
         most = most.max(part.top.x.max(part.bottom.x));

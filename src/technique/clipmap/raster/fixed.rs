@@ -46,6 +46,8 @@ pub(super) struct Edge {
     pub(super) sign: i32,
     /// x over y.
     slope: f64,
+    /// y over x; of no use where it is not finite, nor needed there.
+    inverse: f64,
 }
 
 impl Edge {
@@ -56,8 +58,20 @@ impl Edge {
             true => (from, to, 1),
             false => (to, from, -1),
         };
-        let height = bottom.y - top.y;
-        (height > 0).then(|| Self { top, bottom, sign, slope: (bottom.x - top.x) as f64 / height as f64 })
+        let (width, height) = ((bottom.x - top.x) as f64, (bottom.y - top.y) as f64);
+        (height > 0.0).then(|| Self { top, bottom, sign, slope: width / height, inverse: height / width })
+    }
+
+    /// x over y and y over x.
+    #[inline(always)]
+    pub(super) fn slopes(&self) -> (f64, f64) {
+        (self.slope, self.inverse)
+    }
+
+    /// Whether it meets at most two texels of a row (otherwise, at most two of a column).
+    #[inline(always)]
+    pub(super) fn is_steep(&self) -> bool {
+        (self.bottom.x - self.top.x).abs() <= self.bottom.y - self.top.y
     }
 
     /// Where it crosses a height between its ends. The same in every tile: the product does not depend on the origin, and the
@@ -70,16 +84,7 @@ impl Edge {
     /// At which height it crosses a meridian between its ends; the caller keeps it within a row.
     #[inline(always)]
     pub(super) fn y_at(&self, x: i64) -> i64 {
-        let inverse = (self.bottom.y - self.top.y) as f64 / (self.bottom.x - self.top.x) as f64;
-        self.top.y + nearest((x - self.top.x) as f64 * inverse)
-    }
-
-    /// The rows below `height` that it passes through; empty where it does not.
-    #[inline(always)]
-    pub(super) fn rows(&self, height: i64) -> std::ops::Range<i64> {
-        let first = if self.top.y > 0 { self.top.y >> BITS } else { 0 };
-        let last = (self.bottom.y - 1) >> BITS;
-        first..if last < height { last + 1 } else { height }
+        self.top.y + nearest((x - self.top.x) as f64 * self.inverse)
     }
 
     /// Its part in a row that it passes through.
@@ -102,13 +107,12 @@ pub(super) struct Piece {
 
 /// A ring without what lies farther than `reach` from the texture's corner on either axis: coordinates beyond are moved to the
 /// limit, edges across it are cut there first. Within nothing changes.
-pub(super) fn without_far(ring: &[Texel], reach: f64, out: &mut Vec<Texel>) {
-    out.clear();
-    let is_near = |p: &Texel| p.x.abs() <= reach && p.y.abs() <= reach;
-    if ring.iter().all(is_near) {
-        out.extend_from_slice(ring);
-        return;
+pub(super) fn without_far<'r>(ring: &'r [Texel], reach: f64, out: &'r mut Vec<Texel>) -> &'r [Texel] {
+    let is_near = |p: &Texel| (p.x.abs() <= reach) & (p.y.abs() <= reach);
+    if ring.iter().fold(true, |all, p| all & is_near(p)) {
+        return ring;
     }
+    out.clear();
     for (k, &from) in ring.iter().enumerate() {
         let to = ring[(k + 1) % ring.len()];
         out.push(from);
@@ -130,6 +134,7 @@ pub(super) fn without_far(ring: &[Texel], reach: f64, out: &mut Vec<Texel>) {
     for p in out.iter_mut() {
         *p = Texel::new(p.x.clamp(-reach, reach), p.y.clamp(-reach, reach));
     }
+    out
 }
 
 #[cfg(test)]
@@ -165,8 +170,8 @@ mod tests {
     #[test]
     fn a_ring_is_cut_where_it_leaves_for_infinity() {
         let ring = [Texel::new(0.0, 0.0), Texel::new(1e30, 1e30), Texel::new(-1e30, 1e30)];
-        let mut out = Vec::new();
-        without_far(&ring, FARTHEST, &mut out);
+        let mut room = Vec::new();
+        let out = without_far(&ring, FARTHEST, &mut room);
         assert!(out.iter().all(|p| p.x.abs() <= FARTHEST && p.y.abs() <= FARTHEST));
         let on_diagonal = |p: &Texel| p.x == FARTHEST && (p.y - FARTHEST).abs() < 1.0;
         assert!(out[1..].iter().any(on_diagonal), "{out:?}");

@@ -9,6 +9,7 @@ mod canvas;
 mod centres;
 mod exact;
 mod fixed;
+mod lanes;
 mod line;
 mod mask;
 mod pieces;
@@ -136,9 +137,9 @@ impl TileRaster {
         Self {
             settings,
             canvas: Canvas::new(place.size, settings.texel),
-            polygons: Polygons::new(place, settings.polygons),
-            cut: Polygons::new(place, settings.polygons),
-            rectangles: Accumulator::new(place.origin, place.size),
+            polygons: Polygons::new(place, settings.polygons, false),
+            cut: Polygons::new(place, settings.polygons, true),
+            rectangles: Accumulator::new(place.origin, place.size, false),
             mask: Mask::new(place.size),
             place,
             table: None,
@@ -147,24 +148,39 @@ impl TileRaster {
         }
     }
 
-    /// The texels: premultiplied paint, rows from the north.
-    pub fn texels(&self) -> &[[f32; 4]] {
-        self.canvas.texels()
+    /// A row of texels, from the north: premultiplied paint.
+    pub fn row(&self, row: usize) -> &[[f32; 4]] {
+        self.canvas.row(row)
     }
 
-    /// The texels, of a tile that is drawn no further.
-    pub fn into_texels(self) -> Vec<[f32; 4]> {
-        self.canvas.into_texels()
+    /// All texels, rows from the north.
+    pub fn texels(&self) -> Vec<[f32; 4]> {
+        (0..self.place.size.1).flat_map(|row| self.row(row)).copied().collect()
+    }
+
+    /// Starts another tile of the same size.
+    pub fn start(&mut self, origin: (i64, i64)) {
+        self.place.origin = origin;
+        self.canvas.clear();
+        self.polygons.move_to(origin);
+        self.cut.move_to(origin);
+        self.rectangles.move_to(origin);
+    }
+
+    /// Whether nothing is left of the items that were drawn.
+    #[cfg(test)]
+    fn is_idle(&self) -> bool {
+        let is_empty = |polygons: &Polygons| match polygons {
+            Polygons::Exact(accumulator) => accumulator.is_empty(),
+            Polygons::Aliased(_) | Polygons::Smooth(_) => true,
+        };
+        is_empty(&self.polygons) && self.rectangles.is_empty()
     }
 
     /// Fills a polygon.
     pub fn fill(&mut self, area: &Area, ink: &Ink) {
         self.polygons.polygon(area);
-        for row in self.polygons.rows() {
-            if self.polygons.take_row(row, Weight::Rule(area.rule), &mut self.rows.stroke) {
-                self.canvas.blend(row, &self.rows.stroke, ink);
-            }
-        }
+        self.blend_item(Source::Polygons, Weight::Rule(area.rule), None, ink);
     }
 
     /// Fills the strips of a tessellated line, all of them one item.
@@ -234,8 +250,20 @@ impl TileRaster {
             Overlaps::Once => Weight::UNION,
             Overlaps::Blend => Weight::Layers { alpha: (!ink.adds()).then(|| ink.alpha()) },
         };
-        if let Some(cut) = cut {
-            self.cut.polygon(&cut.area);
+        self.blend_item(source, weight, cut, ink);
+    }
+
+    /// Blends an item that has been collected.
+    fn blend_item(&mut self, source: Source, weight: Weight, cut: Option<&Cut>, ink: &Ink) {
+        let exact = match (source, &mut self.polygons) {
+            (Source::Polygons, Polygons::Exact(polygons)) => Some(polygons),
+            (Source::Rectangles, _) => Some(&mut self.rectangles),
+            _ => None,
+        };
+        match (exact, cut) {
+            (Some(item), None) => return self.canvas.blend_item(item, weight, ink),
+            (_, Some(cut)) => self.cut.polygon(&cut.area),
+            (None, None) => {}
         }
         let rows = match source {
             Source::Polygons => self.polygons.rows(),
@@ -246,7 +274,7 @@ impl TileRaster {
             let stroke = &mut self.rows.stroke;
             let has_part = match source {
                 Source::Polygons => self.polygons.take_row(row, weight, stroke),
-                Source::Rectangles => self.rectangles.take_row(row, weight, stroke),
+                Source::Rectangles => self.rectangles.take_coverage(row, weight, stroke),
                 Source::Mask => self.mask.take_row(row, stroke),
             };
             if !has_part {
@@ -310,11 +338,19 @@ enum Polygons {
 }
 
 impl Polygons {
-    fn new(TilePlace { origin, size }: TilePlace, way: PolygonRaster) -> Self {
+    fn new(TilePlace { origin, size }: TilePlace, way: PolygonRaster, keeps_edges: bool) -> Self {
         match way {
             PolygonRaster::Aliased => Self::Aliased(Centres::new(origin, size)),
             PolygonRaster::TinySkia => Self::Smooth(Smooth::new(origin, size)),
-            PolygonRaster::Exact => Self::Exact(Accumulator::new(origin, size)),
+            PolygonRaster::Exact => Self::Exact(Accumulator::new(origin, size, keeps_edges)),
+        }
+    }
+
+    fn move_to(&mut self, origin: (i64, i64)) {
+        match self {
+            Self::Aliased(centres) => centres.move_to(origin),
+            Self::Smooth(smooth) => smooth.move_to(origin),
+            Self::Exact(accumulator) => accumulator.move_to(origin),
         }
     }
 
@@ -352,7 +388,7 @@ impl Polygons {
         match self {
             Self::Aliased(centres) => centres.take_row(row, weight, out),
             Self::Smooth(smooth) => smooth.take_row(row, weight, out),
-            Self::Exact(accumulator) => accumulator.take_row(row, weight, out),
+            Self::Exact(accumulator) => accumulator.take_coverage(row, weight, out),
         }
     }
 }

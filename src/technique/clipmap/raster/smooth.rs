@@ -33,6 +33,12 @@ impl Smooth {
         Self { origin, size, path, bounds: EMPTY, mask: None, ring: Vec::new(), near: Vec::new() }
     }
 
+    /// Moves to another tile of the same size.
+    pub(super) fn move_to(&mut self, origin: (i64, i64)) {
+        self.start();
+        self.origin = origin;
+    }
+
     /// Starts an item.
     pub(super) fn start(&mut self) {
         self.path.clear();
@@ -51,8 +57,8 @@ impl Smooth {
         let local = |p: &Texel| Texel::new(p.x - self.origin.0 as f64, p.y - self.origin.1 as f64);
         self.ring.clear();
         self.ring.extend(ring.iter().map(local));
-        without_far(&self.ring, REACH, &mut self.near);
-        for (k, p) in self.near.iter().enumerate() {
+        let near = without_far(&self.ring, REACH, &mut self.near);
+        for (k, p) in near.iter().enumerate() {
             let (x, y) = (p.x as f32, p.y as f32);
             if k == 0 {
                 self.path.move_to(x, y)
@@ -67,7 +73,7 @@ impl Smooth {
                 crate::math::max(p.y, south),
             ];
         }
-        if !self.near.is_empty() {
+        if !near.is_empty() {
             self.path.close();
         }
     }
