@@ -13,6 +13,7 @@ use glam::DVec2;
 
 /// East, west, south, north: bits of a set of directions.
 const DIRECTIONS: [DVec2; 4] = [DVec2::X, DVec2::NEG_X, DVec2::Y, DVec2::NEG_Y];
+const ALL: u8 = 0b1111;
 
 /// Calls `piece` with each piece of a strip of pairs (left, right); y points south.
 pub(super) fn of_strip(
@@ -21,50 +22,49 @@ pub(super) fn of_strip(
     ring: &mut Vec<Texel>,
     piece: &mut dyn FnMut(&[Texel]),
 ) {
-    let mut start = 0;
-    // The directions along which all quadrilaterals since `start` run.
-    let mut common = 0u8;
+    let (mut start, mut common) = (0, ALL);
     for k in 1..pairs.len() {
-        let quad = &pairs[k - 1..=k];
-        if !is_counter_clockwise(quad) {
+        let (before, pair) = (&pairs[k - 1], &pairs[k]);
+        if !is_counter_clockwise(before, pair) {
             run(&pairs[start..k], common, ring, piece);
             match folded {
-                Folded::Triangles => triangles(quad, ring, piece),
-                Folded::Polygon => polygon(quad, ring, piece),
+                Folded::Triangles => triangles(before, pair, ring, piece),
+                Folded::Polygon => polygon(before, pair, ring, piece),
             }
-            (start, common) = (k, 0);
+            (start, common) = (k, ALL);
             continue;
         }
-        let own = directions(quad);
-        let still = if start + 1 == k { own } else { common & own };
-        if still == 0 && start + 1 < k {
+        let own = directions(before, pair);
+        if common & own == 0 && start + 1 < k {
             run(&pairs[start..k], common, ring, piece);
             (start, common) = (k - 1, own);
         } else {
-            common = still;
+            common &= own;
         }
     }
     run(&pairs[start..], common, ring, piece);
 }
 
-/// Whether a quadrilateral of a strip turns counter-clockwise on the map at each of its corners.
+/// Whether the quadrilateral between two pairs turns counter-clockwise on the map at each of its corners.
 #[inline(always)]
-fn is_counter_clockwise(quad: &[Pair]) -> bool {
-    let [a, b, c, d] = [quad[0].left, quad[0].right, quad[1].right, quad[1].left];
-    let (ab, bc, cd, da) = (b - a, c - b, d - c, a - d);
+fn is_counter_clockwise(from: &Pair, to: &Pair) -> bool {
+    let (start, end) = (from.right - from.left, to.left - to.right);
+    let (right, left) = (to.right - from.right, from.left - to.left);
     // y points south: what turns left on the map has a negative product.
-    (ab.perp_dot(bc) <= 0.0) & (bc.perp_dot(cd) <= 0.0) & (cd.perp_dot(da) <= 0.0) & (da.perp_dot(ab) <= 0.0)
+    (start.perp_dot(right) <= 0.0)
+        & (right.perp_dot(end) <= 0.0)
+        & (end.perp_dot(left) <= 0.0)
+        & (left.perp_dot(start) <= 0.0)
 }
 
 /// The directions along which neither side of a quadrilateral runs back.
 #[inline(always)]
-fn directions(quad: &[Pair]) -> u8 {
-    let (left, right) = (quad[1].left - quad[0].left, quad[1].right - quad[0].right);
+fn directions(from: &Pair, to: &Pair) -> u8 {
     let bit = |runs: bool, k: u8| u8::from(runs) << k;
-    bit((left.x >= 0.0) & (right.x >= 0.0), 0)
-        | bit((left.x <= 0.0) & (right.x <= 0.0), 1)
-        | bit((left.y >= 0.0) & (right.y >= 0.0), 2)
-        | bit((left.y <= 0.0) & (right.y <= 0.0), 3)
+    bit((to.left.x >= from.left.x) & (to.right.x >= from.right.x), 0)
+        | bit((to.left.x <= from.left.x) & (to.right.x <= from.right.x), 1)
+        | bit((to.left.y >= from.left.y) & (to.right.y >= from.right.y), 2)
+        | bit((to.left.y <= from.left.y) & (to.right.y <= from.right.y), 3)
 }
 
 /// A run of quadrilaterals as one piece, or as several where its ends lie side by side.
@@ -91,16 +91,16 @@ fn run(pairs: &[Pair], directions: u8, ring: &mut Vec<Texel>, piece: &mut dyn Fn
 }
 
 /// A quadrilateral that is folded or turned over, as the two triangles of a triangle strip (Fig. 8a).
-fn triangles(quad: &[Pair], ring: &mut Vec<Texel>, piece: &mut dyn FnMut(&[Texel])) {
-    let (a, b, c, d) = (quad[0].left, quad[0].right, quad[1].left, quad[1].right);
+fn triangles(from: &Pair, to: &Pair, ring: &mut Vec<Texel>, piece: &mut dyn FnMut(&[Texel])) {
+    let (a, b, c, d) = (from.left, from.right, to.left, to.right);
     triangle([a, b, c], ring, piece);
     triangle([b, d, c], ring, piece);
 }
 
 /// The same as the polygon that its four sides enclose (Fig. 8b): two triangles that meet in the crossing of two sides, or at a
 /// diagonal.
-fn polygon(quad: &[Pair], ring: &mut Vec<Texel>, piece: &mut dyn FnMut(&[Texel])) {
-    let corners = [quad[0].left, quad[0].right, quad[1].right, quad[1].left];
+fn polygon(from: &Pair, to: &Pair, ring: &mut Vec<Texel>, piece: &mut dyn FnMut(&[Texel])) {
+    let corners = [from.left, from.right, to.right, to.left];
     for k in 0..2 {
         let [a, b, c, d] = [0, 1, 2, 3].map(|n| corners[(n + k) % 4]);
         if let Some(knot) = crossing((a, b), (c, d)) {
