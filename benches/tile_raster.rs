@@ -27,7 +27,7 @@ const EXACT: RasterSettings = RasterSettings {
 struct Items {
     name: &'static str,
     segments: u64,
-    strips: Vec<Vec<Pair>>,
+    strips: Vec<Vec<Pair<Texel>>>,
     rings: Vec<Vec<Texel>>,
     /// The items of each tile.
     of_tiles: Vec<Vec<u32>>,
@@ -94,9 +94,9 @@ fn lines(name: &'static str, segments: usize, length: f64) -> Items {
             // y points south: left on the map is against the perpendicular.
             Pair { left: points[k] + -offset, right: points[k] + offset }
         };
-        (0..points.len()).map(pair).collect::<Vec<Pair>>()
+        (0..points.len()).map(pair).collect::<Vec<Pair<Texel>>>()
     };
-    let strips: Vec<Vec<Pair>> = (0..segments / 20).map(&mut line).collect();
+    let strips: Vec<Vec<Pair<Texel>>> = (0..segments / 20).map(&mut line).collect();
     let tiles = of_tiles(strips.iter().map(|s| s.iter().flat_map(|p| [p.left, p.right]).collect()));
     Items { name, segments: segments as u64, strips, rings: Vec::new(), of_tiles: tiles }
 }

@@ -1,3 +1,6 @@
 //! Clipmap.
 
 pub mod raster;
+#[cfg(test)]
+mod rational;
+pub mod tessellation;

@@ -22,6 +22,7 @@ mod winding;
 
 pub use canvas::Ink;
 
+use super::tessellation::Pair;
 use crate::scene::{LineFilter, LinePrimitives, Overlaps, PolygonRaster, Rule, TexelFormat};
 use crate::space::Texel;
 use canvas::Canvas;
@@ -33,15 +34,6 @@ use prefilter::Table;
 use smooth::Smooth;
 use weight::Weight;
 use winding::Texel as Winding;
-
-/// Two vertices of a tessellated line: the offsets of one of its vertices to both sides.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Pair {
-    /// To the left of the line's direction.
-    pub left: Texel,
-    /// To the right.
-    pub right: Texel,
-}
 
 /// How a strip draws two pairs whose quadrilateral is folded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -186,7 +178,7 @@ impl TileRaster {
     /// Fills the strips of a tessellated line, all of them one item.
     pub fn strips<'p>(
         &mut self,
-        strips: impl Iterator<Item = &'p [Pair]>,
+        strips: impl Iterator<Item = &'p [Pair<Texel>]>,
         folded: Folded,
         cut: Option<&Cut>,
         ink: &Ink,

@@ -6,9 +6,10 @@
 //! direction crosses each of its two sides at most once, so they are at most 1. Where its two ends lie side by side, that is not
 //! so, and it is cut again.)
 
-use super::{Folded, Pair};
+use super::Folded;
 use crate::math::{max, min};
 use crate::space::Texel;
+use crate::technique::clipmap::tessellation::Pair;
 use glam::DVec2;
 
 /// East, west, south, north: bits of a set of directions.
@@ -17,7 +18,7 @@ const ALL: u8 = 0b1111;
 
 /// Calls `piece` with each piece of a strip of pairs (left, right); y points south.
 pub(super) fn of_strip(
-    pairs: &[Pair],
+    pairs: &[Pair<Texel>],
     folded: Folded,
     ring: &mut Vec<Texel>,
     piece: &mut dyn FnMut(&[Texel]),
@@ -47,7 +48,7 @@ pub(super) fn of_strip(
 
 /// Whether the quadrilateral between two pairs turns counter-clockwise on the map at each of its corners.
 #[inline(always)]
-fn is_counter_clockwise(from: &Pair, to: &Pair) -> bool {
+fn is_counter_clockwise(from: &Pair<Texel>, to: &Pair<Texel>) -> bool {
     let (start, end) = (from.right - from.left, to.left - to.right);
     let (right, left) = (to.right - from.right, from.left - to.left);
     // y points south: what turns left on the map has a negative product.
@@ -59,7 +60,7 @@ fn is_counter_clockwise(from: &Pair, to: &Pair) -> bool {
 
 /// The directions along which neither side of a quadrilateral runs back.
 #[inline(always)]
-fn directions(from: &Pair, to: &Pair) -> u8 {
+fn directions(from: &Pair<Texel>, to: &Pair<Texel>) -> u8 {
     let bit = |runs: bool, k: u8| u8::from(runs) << k;
     bit((to.left.x >= from.left.x) & (to.right.x >= from.right.x), 0)
         | bit((to.left.x <= from.left.x) & (to.right.x <= from.right.x), 1)
@@ -68,7 +69,7 @@ fn directions(from: &Pair, to: &Pair) -> u8 {
 }
 
 /// A run of quadrilaterals as one piece, or as several where its ends lie side by side.
-fn run(pairs: &[Pair], directions: u8, ring: &mut Vec<Texel>, piece: &mut dyn FnMut(&[Texel])) {
+fn run(pairs: &[Pair<Texel>], directions: u8, ring: &mut Vec<Texel>, piece: &mut dyn FnMut(&[Texel])) {
     if pairs.len() < 2 {
         return;
     }
@@ -91,7 +92,7 @@ fn run(pairs: &[Pair], directions: u8, ring: &mut Vec<Texel>, piece: &mut dyn Fn
 }
 
 /// A quadrilateral that is folded or turned over, as the two triangles of a triangle strip (Fig. 8a).
-fn triangles(from: &Pair, to: &Pair, ring: &mut Vec<Texel>, piece: &mut dyn FnMut(&[Texel])) {
+fn triangles(from: &Pair<Texel>, to: &Pair<Texel>, ring: &mut Vec<Texel>, piece: &mut dyn FnMut(&[Texel])) {
     let (a, b, c, d) = (from.left, from.right, to.left, to.right);
     triangle([a, b, c], ring, piece);
     triangle([b, d, c], ring, piece);
@@ -99,7 +100,7 @@ fn triangles(from: &Pair, to: &Pair, ring: &mut Vec<Texel>, piece: &mut dyn FnMu
 
 /// The same as the polygon that its four sides enclose (Fig. 8b): two triangles that meet in the crossing of two sides, or at a
 /// diagonal.
-fn polygon(from: &Pair, to: &Pair, ring: &mut Vec<Texel>, piece: &mut dyn FnMut(&[Texel])) {
+fn polygon(from: &Pair<Texel>, to: &Pair<Texel>, ring: &mut Vec<Texel>, piece: &mut dyn FnMut(&[Texel])) {
     let corners = [from.left, from.right, to.right, to.left];
     for k in 0..2 {
         let [a, b, c, d] = [0, 1, 2, 3].map(|n| corners[(n + k) % 4]);
@@ -141,7 +142,7 @@ mod tests {
 
     fn pieces(pairs: &[[f64; 4]], folded: Folded) -> Vec<Vec<Texel>> {
         let pair = |&[a, b, c, d]: &[f64; 4]| Pair { left: Texel::new(a, b), right: Texel::new(c, d) };
-        let pairs: Vec<Pair> = pairs.iter().map(pair).collect();
+        let pairs: Vec<Pair<Texel>> = pairs.iter().map(pair).collect();
         let mut found = Vec::new();
         of_strip(&pairs, folded, &mut Vec::new(), &mut |ring| found.push(ring.to_vec()));
         found

@@ -3,7 +3,7 @@
 use super::*;
 use crate::resolve::Paint;
 use crate::scene::BlendMode;
-use dashu::rational::RBig;
+use crate::technique::clipmap::rational::union_area;
 use proptest::prelude::*;
 
 const EXACT: RasterSettings = RasterSettings {
@@ -41,6 +41,12 @@ fn drawn(size: usize, segments: &[[f64; 4]], width: f64, settings: RasterSetting
     let ends = segments.iter().map(|s| [Texel::new(s[0], s[1]), Texel::new(s[2], s[3])]);
     raster.segments(ends, width, None, &white());
     raster.texels().iter().map(|texel| texel[3]).collect()
+}
+
+/// The square of a texel: west, north, east, south.
+fn texel(column: usize, row: usize) -> [f64; 4] {
+    let (x, y) = (column as f64, row as f64);
+    [x, y, x + 1.0, y + 1.0]
 }
 
 /// The rectangle of a segment.
@@ -81,70 +87,6 @@ fn clipped_area(ring: &[[f64; 2]], column: usize, row: usize) -> f64 {
         a[0] * b[1] - a[1] * b[0]
     };
     0.5 * (0..ring.len()).map(cross).sum::<f64>().abs()
-}
-
-/// The area of a union of convex polygons in a texel, in rational arithmetic: slabs between all vertices and crossings of the
-/// texel's and the polygons' sides.
-fn union_area(shapes: &[Vec<[f64; 2]>], column: usize, row: usize) -> f64 {
-    let exact = |v: f64| RBig::try_from(v).unwrap();
-    let (west, north) = (exact(column as f64), exact(row as f64));
-    let (east, south) = (&west + RBig::ONE, &north + RBig::ONE);
-    let mut edges: Vec<[RBig; 4]> = vec![
-        [west.clone(), north.clone(), west.clone(), south.clone()],
-        [east.clone(), north.clone(), east.clone(), south.clone()],
-    ];
-    for shape in shapes {
-        for k in 0..shape.len() {
-            let (a, b) = (shape[k], shape[(k + 1) % shape.len()]);
-            edges.push([exact(a[0]), exact(a[1]), exact(b[0]), exact(b[1])]);
-        }
-    }
-    let mut heights = vec![north.clone(), south.clone()];
-    for (k, [ax, ay, bx, by]) in edges.iter().enumerate() {
-        heights.push(ay.clone());
-        for [cx, cy, dx, dy] in &edges[..k] {
-            let across = (bx - ax) * (dy - cy) - (by - ay) * (dx - cx);
-            if across != RBig::ZERO {
-                let t = ((cx - ax) * (dy - cy) - (cy - ay) * (dx - cx)) / across;
-                heights.push(ay + (by - ay) * t);
-            }
-        }
-    }
-    heights.retain(|y| *y >= north && *y <= south);
-    heights.sort();
-    heights.dedup();
-    let mut area = RBig::ZERO;
-    for pair in heights.windows(2) {
-        let middle = (&pair[0] + &pair[1]) / RBig::from(2);
-        let mut spans: Vec<(RBig, RBig)> = Vec::new();
-        for shape in shapes {
-            let mut hits = Vec::new();
-            for k in 0..shape.len() {
-                let [a, b] = [shape[k], shape[(k + 1) % shape.len()]].map(|p| [exact(p[0]), exact(p[1])]);
-                if (a[1] <= middle) != (b[1] <= middle) {
-                    hits.push(&a[0] + (&b[0] - &a[0]) * (&middle - &a[1]) / (&b[1] - &a[1]));
-                }
-            }
-            hits.sort();
-            if let [first, .., last] = &hits[..] {
-                let (low, high) = (first.max(&west).clone(), last.min(&east).clone());
-                if low < high {
-                    spans.push((low, high));
-                }
-            }
-        }
-        spans.sort();
-        let (mut length, mut end) = (RBig::ZERO, west.clone());
-        for (low, high) in spans {
-            let low = low.max(end.clone());
-            if high > low {
-                length += &high - &low;
-                end = high;
-            }
-        }
-        area += length * (&pair[1] - &pair[0]);
-    }
-    area.to_f64().value()
 }
 
 /// A bound of the errors that fixed-point coordinates leave in a texel.
@@ -219,7 +161,7 @@ proptest! {
         let coverage = drawn(3, &segments, width, EXACT);
         let shapes: Vec<Vec<[f64; 2]>> = segments.iter().map(|s| rectangle(*s, width)).collect();
         for (k, coverage) in coverage.iter().enumerate() {
-            let area = union_area(&shapes, k % 3, k / 3);
+            let area = union_area(&shapes, texel(k % 3, k / 3));
             prop_assert!((f64::from(*coverage) - area).abs() < FIXED, "{k}: {coverage} {area}");
         }
     }
@@ -300,7 +242,7 @@ fn draw_scene(raster: &mut TileRaster, base: f64) {
             1 => raster.segments(ring.windows(2).map(|p| [p[0], p[1]]), width, None, &ink),
             2 => {
                 let cut = Cut { area, keeps_inside: k % 8 == 2 };
-                let pairs: Vec<Pair> = ring
+                let pairs: Vec<Pair<Texel>> = ring
                     .windows(2)
                     .flat_map(|p| {
                         let aside = (p[1] - p[0]).normalize().perp() * -width;

@@ -1,0 +1,269 @@
+//! Lines -> strips of triangles (Taibo et al. 2014, section 4.2).
+//!
+//! Input: a polyline, open or a loop, its width, and how joints are made. Output: [`Strips`]: pairs of vertices, left and right of the
+//! line, in the order in which a triangle strip or a strip of quadrilaterals takes them. Each method has its name from the paper
+//! ([`joint`]); joins and caps of the layer's style, which the paper does not have, are ours ([`style`]). Refuses: lines without two
+//! distinct vertices, and widths and angles that are no such thing.
+
+mod joint;
+mod style;
+#[cfg(test)]
+mod tests;
+
+use crate::error::{Error, Result};
+use crate::scene::{Cap, Join, Joints};
+use crate::space::Plan;
+use glam::DVec2;
+use joint::Corner;
+
+/// Two vertices of a strip: a vertex of the line, moved to both sides.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pair<P> {
+    /// To the left of the line's direction.
+    pub left: P,
+    /// To the right.
+    pub right: P,
+}
+
+/// Strips of vertex pairs.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Strips {
+    pairs: Vec<Pair<Plan>>,
+    ends: Vec<u32>,
+}
+
+impl Strips {
+    /// Each strip's pairs: its vertices are first left, first right, second left, ...
+    pub fn iter(&self) -> impl Iterator<Item = &[Pair<Plan>]> {
+        let starts = std::iter::once(0).chain(self.ends.iter().copied());
+        starts.zip(&self.ends).map(|(start, end)| &self.pairs[start as usize..*end as usize])
+    }
+
+    /// The vertices of all strips, one strip after the other.
+    pub fn vertices(&self) -> impl Iterator<Item = Plan> {
+        self.pairs.iter().flat_map(|pair| [pair.left, pair.right])
+    }
+
+    /// Forgets all strips; their memory is used again.
+    pub fn clear(&mut self) {
+        self.pairs.clear();
+        self.ends.clear();
+    }
+
+    fn push(&mut self, left: Plan, right: Plan) {
+        self.pairs.push(Pair { left, right });
+    }
+
+    /// The strip ends here, if it has begun; one pair alone is none.
+    fn end(&mut self) {
+        let start = self.ends.last().copied().unwrap_or(0) as usize;
+        if self.pairs.len() < start + 2 {
+            self.pairs.truncate(start);
+        } else {
+            self.ends.push(self.pairs.len() as u32);
+        }
+    }
+}
+
+/// A polyline.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Polyline<'a> {
+    /// Its vertices, each another than the one before; of a loop, without the first again at the end.
+    pub vertices: &'a [Plan],
+    /// Whether the last vertex is joined to the first.
+    pub is_loop: bool,
+}
+
+/// How lines are tessellated.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rule {
+    joints: Joints,
+    /// Bevelled are joints whose angle has a greater cosine.
+    threshold: f64,
+    join: Join,
+    cap: Cap,
+}
+
+/// An angle this near to the threshold (in its cosine) is the threshold: far above the rounding of directions, so that right angles
+/// are right angles however a line is turned.
+const SAME_COSINE: f64 = 1e-9;
+
+/// How finely a round join or cap is cut, as a share of half the width: how far its sides stay within the circle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sagitta(pub f64);
+
+impl Sagitta {
+    /// Where it is not known how large the circle will be seen: a hundred sides.
+    pub const DEFAULT: Self = Self(1.0 / 2048.0);
+}
+
+impl Rule {
+    /// The rule of one of the paper's methods, or of a layer's style. Joints of an angle below `angle_deg` are bevelled, which matters to
+    /// Algorithm 1 alone.
+    ///
+    /// # Errors
+    /// When the angle is not between 0 and 180 degrees.
+    pub fn new(joints: Joints, angle_deg: f64, join: Join, cap: Cap) -> Result<Self> {
+        if !(angle_deg > 0.0 && angle_deg < 180.0) {
+            return Err(Error::new(format!("an angle threshold of {angle_deg} degrees"))
+                .help("use an angle between 0 and 180, usually close to 90 (Taibo 4.2.3)"));
+        }
+        let threshold = crate::math::cos(angle_deg.to_radians()) + SAME_COSINE;
+        Ok(Self { joints, threshold, join, cap })
+    }
+
+    /// Tessellates a whole polyline of a width in metres.
+    ///
+    /// # Errors
+    /// When it has not two distinct vertices, or the width is not finite and greater than 0.
+    pub fn tessellate(&self, line: &Polyline, width: f64, sagitta: Sagitta, out: &mut Strips) -> Result<()> {
+        let n = line.vertices.len();
+        let Some(first) = line.vertices.first() else {
+            return Err(Error::new("a line without vertices cannot be tessellated").help("leave it out"));
+        };
+        if line.vertices.iter().all(|p| p == first) {
+            let what = if n == 1 { "a line of one vertex" } else { "a line whose vertices are all the same" };
+            return Err(
+                Error::new(format!("{what} has no direction")).help("it is a dot: draw it by its cap")
+            );
+        }
+        if !(width > 0.0 && width.is_finite()) {
+            return Err(Error::new(format!("a line of a width of {width} m"))
+                .help("use a finite width greater than 0"));
+        }
+        if let Some(at) = line.vertices.iter().position(|p| !p.is_finite()) {
+            return Err(Error::new(format!("vertex {at} of a line is not finite")));
+        }
+        self.part(line, 0..line.segments(), 0.5 * width, sagitta, out);
+        Ok(())
+    }
+
+    /// Tessellates some segments of a polyline that has passed [`Rule::tessellate`]'s checks: its joints with what is before and after
+    /// them are made too, so that parts next to one another fit.
+    pub(super) fn part(
+        &self,
+        line: &Polyline,
+        segments: std::ops::Range<usize>,
+        half: f64,
+        sagitta: Sagitta,
+        out: &mut Strips,
+    ) {
+        if segments.is_empty() {
+            return;
+        }
+        let corner = |vertex: usize| line.corner(vertex, half);
+        let (from, to) = line.segment(segments.start);
+        match corner(segments.start) {
+            // Of the joint before the first segment, the pair that the segment starts with.
+            Some(corner) => self.start_from_joint(&corner, sagitta, out),
+            None => self.start(from, to, half, sagitta, out),
+        }
+        for segment in segments.clone() {
+            match corner(segment + 1) {
+                Some(corner) => self.joint(&corner, sagitta, out),
+                None => {
+                    let (from, to) = line.segment(segment);
+                    self.finish(from, to, half, sagitta, out);
+                }
+            }
+        }
+        out.end();
+    }
+
+    /// Adds a joint's pairs (Algorithm 1, "newvertices").
+    fn joint(&self, corner: &Corner, sagitta: Sagitta, out: &mut Strips) {
+        match self.joints {
+            Joints::Combined if corner.cosine() > self.threshold => corner.bevel_inner(out),
+            Joints::Combined | Joints::Corner => corner.intersections(out),
+            Joints::BevelInner => corner.bevel_inner(out),
+            Joints::BevelStrip | Joints::BevelQuads => corner.bevel(out),
+            Joints::Isolated => corner.isolated(out),
+            Joints::Style => style::joint(corner, self.join, sagitta, out),
+        }
+    }
+
+    /// Starts a strip with the last pair of a joint.
+    fn start_from_joint(&self, corner: &Corner, sagitta: Sagitta, out: &mut Strips) {
+        let (pairs, ends) = (out.pairs.len(), out.ends.len());
+        self.joint(corner, sagitta, out);
+        if let Some(last) = out.pairs.last().copied() {
+            out.pairs.truncate(pairs);
+            out.ends.truncate(ends);
+            out.pairs.push(last);
+        }
+    }
+
+    /// Starts an open line (method 1).
+    fn start(&self, from: Plan, to: Plan, half: f64, sagitta: Sagitta, out: &mut Strips) {
+        let aside = joint::offset(to - from, half);
+        if self.joints == Joints::Style {
+            style::start_cap(from, aside, self.cap, sagitta, out);
+        }
+        out.push(from + aside, from + -aside);
+    }
+
+    /// Ends an open line (method 1).
+    fn finish(&self, from: Plan, to: Plan, half: f64, sagitta: Sagitta, out: &mut Strips) {
+        let aside = joint::offset(to - from, half);
+        out.push(to + aside, to + -aside);
+        if self.joints == Joints::Style {
+            style::end_cap(to, aside, self.cap, sagitta, out);
+        }
+    }
+
+    /// The strips of a line of one vertex: a dot by its cap, which only a style has.
+    pub(super) fn dot(&self, at: Plan, half: f64, sagitta: Sagitta, out: &mut Strips) {
+        if self.joints == Joints::Style {
+            style::dot(at, half, self.cap, sagitta, out);
+        }
+    }
+
+    /// How far from a polyline's vertices its strips may reach, in half widths.
+    pub(super) fn reach(&self, line: &Polyline) -> f64 {
+        let has_corners = match self.joints {
+            Joints::Combined | Joints::Corner => true,
+            Joints::Style => matches!(self.join, Join::Miter { .. }),
+            Joints::Isolated | Joints::BevelStrip | Joints::BevelQuads | Joints::BevelInner => false,
+        };
+        // A square cap's corners.
+        let least = std::f64::consts::SQRT_2;
+        if !has_corners {
+            return least;
+        }
+        let corners = (0..line.vertices.len()).filter_map(|vertex| line.corner(vertex, 1.0));
+        let is_cut = |corner: &Corner| self.joints == Joints::Combined && corner.cosine() > self.threshold;
+        let ratios = corners.filter(|c| !is_cut(c)).filter_map(|c| c.intersection()).map(DVec2::length);
+        let farthest = ratios.fold(least, crate::math::max);
+        match (self.joints, self.join) {
+            (Joints::Style, Join::Miter { limit }) => {
+                crate::math::min(farthest, crate::math::max(limit, least))
+            }
+            _ => farthest,
+        }
+    }
+}
+
+impl Polyline<'_> {
+    /// How many segments it has.
+    pub(super) fn segments(&self) -> usize {
+        if self.is_loop { self.vertices.len() } else { self.vertices.len().saturating_sub(1) }
+    }
+
+    /// The ends of a segment.
+    fn segment(&self, segment: usize) -> (Plan, Plan) {
+        (self.vertices[segment], self.vertices[(segment + 1) % self.vertices.len()])
+    }
+
+    /// The corner at a vertex (those of a loop are counted round); `None` at the ends of an open line.
+    fn corner(&self, vertex: usize, half: f64) -> Option<Corner> {
+        let n = self.vertices.len();
+        let is_end = !self.is_loop && (vertex == 0 || vertex + 1 == n);
+        let at = |k: usize| self.vertices[k % n];
+        (!is_end).then(|| Corner::new([at(vertex + n - 1), at(vertex), at(vertex + 1)], half))
+    }
+}
+
+/// The displacement of a strip's vertices for a direction, unit length.
+fn unit(direction: DVec2) -> DVec2 {
+    direction / direction.length()
+}
