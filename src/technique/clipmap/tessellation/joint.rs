@@ -70,15 +70,15 @@ impl Corner {
     /// Method 2: both intersections; parallel lines that run back are bevelled.
     pub(super) fn intersections(&self, out: &mut Strips) {
         match self.intersection() {
-            Some(m) => out.push(self.at + m, self.at + -m),
+            Some(m) => out.push(self.at, m, -m),
             None => self.bevel(out),
         }
     }
 
     /// Method 3a: both segments' own vertices.
     pub(super) fn bevel(&self, out: &mut Strips) {
-        out.push(self.at + self.before, self.at + -self.before);
-        out.push(self.at + self.after, self.at + -self.after);
+        out.push(self.at, self.before, -self.before);
+        out.push(self.at, self.after, -self.after);
     }
 
     /// Method 3b: the inner intersection twice; where the inner boundaries do not meet, method 3a (4.2.3).
@@ -88,20 +88,18 @@ impl Corner {
             return self.bevel(out);
         };
         if self.turn > 0.0 {
-            let inner = self.at + m;
-            out.push(inner, self.at + -self.before);
-            out.push(inner, self.at + -self.after);
+            out.push(self.at, m, -self.before);
+            out.push(self.at, m, -self.after);
         } else {
-            let inner = self.at + -m;
-            out.push(self.at + self.before, inner);
-            out.push(self.at + self.after, inner);
+            out.push(self.at, self.before, -m);
+            out.push(self.at, self.after, -m);
         }
     }
 
     /// Method 1 for both segments: one strip ends, another begins (Fig. 5).
     pub(super) fn isolated(&self, out: &mut Strips) {
-        out.push(self.at + self.before, self.at + -self.before);
+        out.push(self.at, self.before, -self.before);
         out.end();
-        out.push(self.at + self.after, self.at + -self.after);
+        out.push(self.at, self.after, -self.after);
     }
 }

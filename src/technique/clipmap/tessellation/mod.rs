@@ -25,42 +25,61 @@ pub struct Pair<P> {
     pub right: P,
 }
 
+/// A vertex of a line with the offsets of a strip's two vertices there (what solution 4b stores).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OffsetVertex {
+    /// The line's vertex.
+    pub at: Plan,
+    /// From there to the left vertex, metres.
+    pub left: DVec2,
+    /// To the right one.
+    pub right: DVec2,
+}
+
+impl OffsetVertex {
+    /// The vertices, the offsets scaled.
+    #[inline]
+    pub fn pair(&self, scale: f64) -> Pair<Plan> {
+        Pair { left: self.at + self.left * scale, right: self.at + self.right * scale }
+    }
+}
+
 /// Strips of vertex pairs.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Strips {
-    pairs: Vec<Pair<Plan>>,
+    vertices: Vec<OffsetVertex>,
     ends: Vec<u32>,
 }
 
 impl Strips {
-    /// Each strip's pairs: its vertices are first left, first right, second left, ...
-    pub fn iter(&self) -> impl Iterator<Item = &[Pair<Plan>]> {
+    /// Each strip: its vertices are first left, first right, second left, ...
+    pub fn iter(&self) -> impl Iterator<Item = &[OffsetVertex]> {
         let starts = std::iter::once(0).chain(self.ends.iter().copied());
-        starts.zip(&self.ends).map(|(start, end)| &self.pairs[start as usize..*end as usize])
+        starts.zip(&self.ends).map(|(start, end)| &self.vertices[start as usize..*end as usize])
     }
 
     /// The vertices of all strips, one strip after the other.
     pub fn vertices(&self) -> impl Iterator<Item = Plan> {
-        self.pairs.iter().flat_map(|pair| [pair.left, pair.right])
+        self.vertices.iter().map(|v| v.pair(1.0)).flat_map(|pair| [pair.left, pair.right])
     }
 
     /// Forgets all strips; their memory is used again.
     pub fn clear(&mut self) {
-        self.pairs.clear();
+        self.vertices.clear();
         self.ends.clear();
     }
 
-    fn push(&mut self, left: Plan, right: Plan) {
-        self.pairs.push(Pair { left, right });
+    fn push(&mut self, at: Plan, left: DVec2, right: DVec2) {
+        self.vertices.push(OffsetVertex { at, left, right });
     }
 
     /// The strip ends here, if it has begun; one pair alone is none.
     fn end(&mut self) {
         let start = self.ends.last().copied().unwrap_or(0) as usize;
-        if self.pairs.len() < start + 2 {
-            self.pairs.truncate(start);
+        if self.vertices.len() < start + 2 {
+            self.vertices.truncate(start);
         } else {
-            self.ends.push(self.pairs.len() as u32);
+            self.ends.push(self.vertices.len() as u32);
         }
     }
 }
@@ -184,12 +203,12 @@ impl Rule {
 
     /// Starts a strip with the last pair of a joint.
     fn start_from_joint(&self, corner: &Corner, sagitta: Sagitta, out: &mut Strips) {
-        let (pairs, ends) = (out.pairs.len(), out.ends.len());
+        let (vertices, ends) = (out.vertices.len(), out.ends.len());
         self.joint(corner, sagitta, out);
-        if let Some(last) = out.pairs.last().copied() {
-            out.pairs.truncate(pairs);
+        if let Some(last) = out.vertices.last().copied() {
+            out.vertices.truncate(vertices);
             out.ends.truncate(ends);
-            out.pairs.push(last);
+            out.vertices.push(last);
         }
     }
 
@@ -199,13 +218,13 @@ impl Rule {
         if self.joints == Joints::Style {
             style::start_cap(from, aside, self.cap, sagitta, out);
         }
-        out.push(from + aside, from + -aside);
+        out.push(from, aside, -aside);
     }
 
     /// Ends an open line (method 1).
     fn finish(&self, from: Plan, to: Plan, half: f64, sagitta: Sagitta, out: &mut Strips) {
         let aside = joint::offset(to - from, half);
-        out.push(to + aside, to + -aside);
+        out.push(to, aside, -aside);
         if self.joints == Joints::Style {
             style::end_cap(to, aside, self.cap, sagitta, out);
         }

@@ -19,21 +19,20 @@ pub(super) fn joint(corner: &Corner, join: Join, sagitta: Sagitta, out: &mut Str
     let fits = corner.cut_off() <= 0.5 * shortest && (join != Join::Round || corner.half <= shortest);
     let through = corner.intersection().filter(|_| fits);
     let Some(m) = through else {
-        out.push(corner.at + corner.before, corner.at + -corner.before);
+        out.push(corner.at, corner.before, -corner.before);
         out.end();
         alone(corner, join, sagitta, out);
-        out.push(corner.at + corner.after, corner.at + -corner.after);
+        out.push(corner.at, corner.after, -corner.after);
         return;
     };
     if corner.turn == 0.0 || is_mitred(corner, join) {
-        return out.push(corner.at + m, corner.at + -m);
+        return out.push(corner.at, m, -m);
     }
     // Around the outside, always back to the inner corner.
     let is_left = corner.turn > 0.0;
-    let inner = corner.at + if is_left { m } else { -m };
     let mut pair = |aside: DVec2| match is_left {
-        true => out.push(inner, corner.at + -aside),
-        false => out.push(corner.at + aside, inner),
+        true => out.push(corner.at, m, -aside),
+        false => out.push(corner.at, aside, -m),
     };
     pair(corner.before);
     if join == Join::Round {
@@ -57,8 +56,8 @@ fn alone(corner: &Corner, join: Join, sagitta: Sagitta, out: &mut Strips) {
     }
     let outer = if corner.turn > 0.0 { -1.0 } else { 1.0 };
     let mut fan = |aside: DVec2| {
-        let (p, at) = (corner.at + aside, corner.at);
-        if outer < 0.0 { out.push(at, p) } else { out.push(p, at) }
+        let (left, right) = if outer < 0.0 { (DVec2::ZERO, aside) } else { (aside, DVec2::ZERO) };
+        out.push(corner.at, left, right);
     };
     fan(corner.before * outer);
     if let Some(m) = corner.intersection().filter(|_| is_mitred(corner, join)) {
@@ -102,10 +101,8 @@ pub(super) fn start_cap(at: Plan, aside: DVec2, cap: Cap, sagitta: Sagitta, out:
     let back = aside.perp();
     match cap {
         Cap::Butt => {}
-        Cap::Square => out.push(at + back + aside, at + back + -aside),
-        Cap::Round => {
-            half_disc(aside, back, sagitta, false, &mut |left, right| out.push(at + left, at + right))
-        }
+        Cap::Square => out.push(at, back + aside, back - aside),
+        Cap::Round => half_disc(aside, back, sagitta, false, &mut |left, right| out.push(at, left, right)),
     }
 }
 
@@ -114,10 +111,8 @@ pub(super) fn end_cap(at: Plan, aside: DVec2, cap: Cap, sagitta: Sagitta, out: &
     let ahead = -aside.perp();
     match cap {
         Cap::Butt => {}
-        Cap::Square => out.push(at + ahead + aside, at + ahead + -aside),
-        Cap::Round => {
-            half_disc(aside, ahead, sagitta, true, &mut |left, right| out.push(at + left, at + right))
-        }
+        Cap::Square => out.push(at, ahead + aside, ahead - aside),
+        Cap::Round => half_disc(aside, ahead, sagitta, true, &mut |left, right| out.push(at, left, right)),
     }
 }
 
@@ -138,9 +133,9 @@ fn half_disc(aside: DVec2, tip: DVec2, sagitta: Sagitta, to_tip: bool, pair: &mu
 
 fn disc(at: Plan, radius: f64, sagitta: Sagitta, out: &mut Strips) {
     let (aside, ahead) = (DVec2::new(0.0, radius), DVec2::new(radius, 0.0));
-    half_disc(aside, -ahead, sagitta, false, &mut |left, right| out.push(at + left, at + right));
-    out.push(at + aside, at + -aside);
-    half_disc(aside, ahead, sagitta, true, &mut |left, right| out.push(at + left, at + right));
+    half_disc(aside, -ahead, sagitta, false, &mut |left, right| out.push(at, left, right));
+    out.push(at, aside, -aside);
+    half_disc(aside, ahead, sagitta, true, &mut |left, right| out.push(at, left, right));
     out.end();
 }
 
@@ -150,8 +145,8 @@ pub(super) fn dot(at: Plan, half: f64, cap: Cap, sagitta: Sagitta, out: &mut Str
         Cap::Butt => {}
         Cap::Square => {
             let (aside, ahead) = (DVec2::new(0.0, half), DVec2::new(half, 0.0));
-            out.push(at + (aside - ahead), at + (-aside - ahead));
-            out.push(at + (aside + ahead), at + (ahead - aside));
+            out.push(at, aside - ahead, -aside - ahead);
+            out.push(at, aside + ahead, ahead - aside);
             out.end();
         }
         Cap::Round => disc(at, half, sagitta, out),

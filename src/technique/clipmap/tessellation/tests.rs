@@ -38,8 +38,8 @@ fn strips(rule: &Rule, points: &[[f64; 2]], is_loop: bool, width: f64) -> Strips
 /// Vertices to a hundredth, strip by strip.
 fn rounded(strips: &Strips) -> Vec<Vec<[f64; 2]>> {
     let near = |v: f64| (v * 100.0).round() / 100.0 + 0.0;
-    let of_pair = |pair: &Pair<Plan>| [pair.left, pair.right].map(|p| [near(p.x), near(p.y)]);
-    strips.iter().map(|strip| strip.iter().flat_map(of_pair).collect()).collect()
+    let of_pair = |pair: Pair<Plan>| [pair.left, pair.right].map(|p| [near(p.x), near(p.y)]);
+    strips.iter().map(|strip| strip.iter().flat_map(|v| of_pair(v.pair(1.0))).collect()).collect()
 }
 
 /// The triangles of all strips, each a convex shape.
@@ -48,7 +48,8 @@ fn triangles(strips: &Strips) -> Vec<Vec<[f64; 2]>> {
     for strip in strips.iter() {
         let vertices: Vec<[f64; 2]> = strip
             .iter()
-            .flat_map(|pair| [[pair.left.x, pair.left.y], [pair.right.x, pair.right.y]])
+            .map(|v| v.pair(1.0))
+            .flat_map(|p| [[p.left.x, p.left.y], [p.right.x, p.right.y]])
             .collect();
         all.extend(vertices.windows(3).map(<[[f64; 2]]>::to_vec).filter(|t| area(t) > 0.0));
     }
@@ -181,7 +182,7 @@ fn the_threshold_decides_between_methods_2_and_3b() {
     let bend = [[0.0, 0.0], [10.0, 0.0], [5.0, 75f64.sqrt()]];
     let pairs = |angle: f64| {
         let rule = Rule::new(Joints::Combined, angle, Join::Bevel, Cap::Butt).unwrap();
-        strips(&rule, &bend, false, 1.0).pairs.len()
+        strips(&rule, &bend, false, 1.0).vertices.len()
     };
     assert_eq!([59.0, 60.0, 61.0].map(pairs), [3, 3, 4], "an angle equal to the threshold is not below it");
 }
@@ -192,7 +193,7 @@ fn right_angles_are_mitred_however_the_line_is_turned() {
         let angle = f64::from(k) * 0.5f64.to_radians();
         let d = [crate::math::cos(angle) * 7.3, crate::math::sin(angle) * 7.3];
         let bend = [[0.0, 0.0], d, [d[0] - d[1], d[1] + d[0]]];
-        assert_eq!(strips(&rule(Joints::Combined), &bend, false, 1.0).pairs.len(), 3, "{k}");
+        assert_eq!(strips(&rule(Joints::Combined), &bend, false, 1.0).vertices.len(), 3, "{k}");
     }
 }
 
@@ -345,7 +346,7 @@ proptest! {
             for segment in 0..polyline.segments() {
                 rule.part(&polyline, segment..segment + 1, 0.3, Sagitta::DEFAULT, &mut parts);
             }
-            let quads = |strips: &Strips| -> Vec<[Pair<Plan>; 2]> {
+            let quads = |strips: &Strips| -> Vec<[OffsetVertex; 2]> {
                 strips.iter().flat_map(|strip| strip.windows(2).map(|w| [w[0], w[1]])).collect()
             };
             prop_assert_eq!(quads(&whole), quads(&parts), "{:?}", joints);
