@@ -1,7 +1,7 @@
 //! A packed tree of boxes: which of many boxes meet one.
 
 use crate::parallel;
-use crate::space::{Plan, PlanBox};
+use crate::space::{Plan, PlanBox, SmallBox};
 
 /// Boxes or nodes in a node.
 const FAN: usize = 8;
@@ -16,34 +16,7 @@ pub struct BoxTree {
     /// The number of each leaf's box, in the order of the curve.
     order: Vec<u32>,
     /// Level 0 holds the boxes, each further level the boxes around eight of the one below.
-    levels: Vec<Vec<Small>>,
-}
-
-/// West, south, east, north.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Small([f32; 4]);
-
-impl Small {
-    fn around(plan: &PlanBox) -> Self {
-        let down = |v: f64| if f64::from(v as f32) > v { (v as f32).next_down() } else { v as f32 };
-        let up = |v: f64| if f64::from(v as f32) < v { (v as f32).next_up() } else { v as f32 };
-        Self([down(plan.min.x), down(plan.min.y), up(plan.max.x), up(plan.max.y)])
-    }
-
-    fn joined(boxes: &[Self]) -> Self {
-        boxes.iter().skip(1).fold(boxes[0], |Self([w, s, e, n]), Self([a, b, c, d])| {
-            let least = |p: f32, q: f32| if p < q { p } else { q };
-            let most = |p: f32, q: f32| if p > q { p } else { q };
-            Self([least(w, *a), least(s, *b), most(e, *c), most(n, *d)])
-        })
-    }
-
-    #[inline(always)]
-    fn meets(&self, other: &Self) -> bool {
-        let (Self([w, s, e, n]), Self([a, b, c, d])) = (self, other);
-        // No short circuit: four comparisons cost less than a branch.
-        (w <= c) & (a <= e) & (s <= d) & (b <= n)
-    }
+    levels: Vec<Vec<SmallBox>>,
 }
 
 impl BoxTree {
@@ -58,9 +31,12 @@ impl BoxTree {
             boxes.iter().enumerate().map(|(k, plan)| (morton(&whole, plan), k as u32)).collect();
         parallel::sort_by_key(&mut order, |entry| *entry);
         let order: Vec<u32> = order.into_iter().map(|(_, k)| k).collect();
-        let mut levels = vec![order.iter().map(|&k| Small::around(&boxes[k as usize])).collect::<Vec<_>>()];
+        let mut levels =
+            vec![order.iter().map(|&k| SmallBox::around(&boxes[k as usize])).collect::<Vec<_>>()];
         while let Some(top) = levels.last().filter(|top| top.len() > 1) {
-            let next = top.chunks(FAN).map(Small::joined).collect();
+            let around =
+                |boxes: &[SmallBox]| boxes.iter().skip(1).fold(boxes[0], |all, one| all.joined(*one));
+            let next = top.chunks(FAN).map(around).collect();
             levels.push(next);
         }
         Self { order, levels }
@@ -69,7 +45,7 @@ impl BoxTree {
     /// Calls `visit` with the number of each box that meets `plan` until it returns false; returns whether it never did.
     #[inline]
     pub fn query(&self, plan: &PlanBox, mut visit: impl FnMut(u32) -> bool) -> bool {
-        let wanted = Small::around(plan);
+        let wanted = SmallBox::around(plan);
         let top = self.levels.len().saturating_sub(1);
         if self.order.is_empty() || !self.levels[top][0].meets(&wanted) {
             return true;

@@ -24,8 +24,10 @@
 //! let _ = Plan::new(0.0, 0.0) + Plan::new(1.0, 1.0);
 //! ```
 
+mod small_box;
 mod view;
 
+pub use small_box::SmallBox;
 pub use view::{Lens, Ray, ViewFrame, Viewpoint};
 
 use glam::{DVec2, DVec3};
