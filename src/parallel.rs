@@ -21,6 +21,15 @@ pub fn map_indices<U: Send>(n: usize, f: impl Fn(usize) -> U + Send + Sync) -> V
     (0..n).into_par_iter().map(f).collect()
 }
 
+/// `f` of every item, in the order of the items, with something of its own for each thread at work, which no result depends on.
+pub fn map_with<T: Sync, U: Send, W>(
+    items: &[T],
+    own: impl Fn() -> W + Send + Sync,
+    f: impl Fn(&mut W, &T) -> U + Send + Sync,
+) -> Vec<U> {
+    items.par_iter().map_init(own, |own, item| f(own, item)).collect()
+}
+
 /// Runs `f` over consecutive chunks of `chunk` values, each with its index.
 pub fn for_each_chunk<T: Send>(values: &mut [T], chunk: usize, f: impl Fn(usize, &mut [T]) + Send + Sync) {
     values.par_chunks_mut(chunk).enumerate().for_each(|(i, c)| f(i, c));

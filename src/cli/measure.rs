@@ -167,6 +167,7 @@ pub(super) fn device_words(device: &Device) -> ByName {
         ("depth", device.depth.word().into()),
         ("stencil_bits", device.stencil_bits.into()),
         ("max_line_width_px", device.max_line_width_px.into()),
+        ("filter_bits", device.filter_bits.into()),
     ])
 }
 

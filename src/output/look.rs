@@ -23,16 +23,23 @@ const RAMP: [[u8; 3]; 9] = [
     [253, 231, 37],
 ];
 
+/// The levels of a texture: red, orange, yellow, green, blue, violet.
+const LEVELS: [[u8; 3]; 6] =
+    [[228, 66, 60], [245, 148, 49], [244, 220, 75], [92, 180, 86], [66, 135, 205], [150, 95, 190]];
+
 /// The picture of a plane; `None` where there is nothing to look at.
 ///
 /// Depth is grey, dark where near, by its logarithm. Classes and numbers of things have a colour each; counts run from
-/// dark to light by the logarithm of count + 1, up to the largest; plan coordinates repeat in red (x) and green (y);
-/// colours are themselves. Where nothing is seen it is light blue.
+/// dark to light by the logarithm of count + 1, up to the largest; a texture's levels have a hue each, mixed between two of them;
+/// plan coordinates repeat in red (x) and green (y); colours are themselves. Tables have no picture. Where nothing is seen it is light blue.
 pub fn look(plane: Npy<'_>) -> Option<Buffer<[u8; 4]>> {
     let plane = plane.plane();
     let pixels = match (plane.name, plane.components) {
         ("class", 1) => integers(plane)?.map(class).collect(),
         ("triangle" | "tile" | "cell", 1) => integers(plane)?.map(number).collect(),
+        ("vertices" | "strips" | "tile-keys", _) => return None,
+        ("level", 1) => reals(plane)?.map(level).collect(),
+        ("tiles", 4) => code_values(plane)?,
         (_, 1) => match integers(plane) {
             Some(values) => counts(&values.collect::<Vec<_>>()),
             None => grey(&reals(plane)?.collect::<Vec<_>>()),
@@ -59,6 +66,27 @@ fn reals(plane: &Plane) -> Option<Box<dyn Iterator<Item = f64> + '_>> {
         Values::F32(values) => Some(Box::new(values.iter().map(|v| f64::from(*v)))),
         Values::U32(_) | Values::U16(_) | Values::U8(_) => None,
     }
+}
+
+/// Pixels that hold code values.
+fn code_values(plane: &Plane) -> Option<Vec<[u8; 4]>> {
+    let Values::U8(values) = &plane.values else { return None };
+    Some(values.as_chunks::<4>().0.to_vec())
+}
+
+/// The colour of a level of a texture: six hues after one another, darker each time round.
+fn level(value: f64) -> [u8; 4] {
+    if !value.is_finite() {
+        return NOTHING;
+    }
+    let of = |whole: usize| {
+        let dim = 1.0 / (1.0 + 0.45 * (whole / LEVELS.len()) as f64);
+        LEVELS[whole % LEVELS.len()].map(|v| f64::from(v) * dim)
+    };
+    let whole = value as usize;
+    let (near, far, t) = (of(whole), of(whole + 1), value - whole as f64);
+    let mix = |k: usize| code(near[k] * (1.0 - t) + far[k] * t);
+    [mix(0), mix(1), mix(2), 255]
 }
 
 fn class(value: u32) -> [u8; 4] {
@@ -242,6 +270,22 @@ mod tests {
     fn colours_are_themselves_and_clamped() {
         let seen = looked("lo", 4, Values::F64(vec![0.0, 0.5, 1.0, 2.0])).unwrap();
         assert_eq!(seen, [[0, 128, 255, 255]]);
+    }
+
+    #[test]
+    fn levels_have_hues_and_between_two_of_them_a_mixture() {
+        let seen = looked("level", 1, Values::F64(vec![0.0, 0.5, 1.0, 6.0, f64::INFINITY])).unwrap();
+        assert_eq!((seen[0], seen[2]), ([228, 66, 60, 255], [245, 148, 49, 255]));
+        assert_eq!(seen[1], [237, 107, 55, 255]);
+        assert!(seen[3][0] < seen[0][0] && seen[3][0] > seen[3][1], "the next round is darker");
+        assert_eq!(seen[4], NOTHING);
+    }
+
+    #[test]
+    fn a_picture_of_tiles_shows_their_code_values_and_tables_have_none() {
+        assert_eq!(looked("tiles", 4, Values::U8(vec![1, 2, 3, 4])), Some(vec![[1, 2, 3, 4]]));
+        assert_eq!(looked("tile-keys", 1, Values::U32(vec![1, 2, 3])), None);
+        assert_eq!(looked("vertices", 1, Values::F64(vec![1.0, 2.0])), None);
     }
 
     #[test]

@@ -108,9 +108,9 @@ fn write_values<T: PixelBytes>(to: &mut dyn Write, values: &[T]) -> io::Result<(
 /// Infinities (no coordinates) stay.
 ///
 /// # Panics
-/// When a pixel has an odd number of components.
+/// When a row has an odd number of values.
 pub fn absolute(plane: &Plane, origin: DVec2) -> Plane {
-    assert!(plane.components.is_multiple_of(2), "plan coordinates come in pairs");
+    assert!((plane.width * plane.components).is_multiple_of(2), "plan coordinates come in pairs");
     let moved = |values: &mut dyn Iterator<Item = f64>| {
         let origin = [origin.x, origin.y].into_iter().cycle();
         values.zip(origin).map(|(value, origin)| value + origin).collect()

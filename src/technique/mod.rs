@@ -40,6 +40,8 @@ impl Stage {
 /// A technique's name in the contract.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
+    /// Taibo et al. 2014.
+    Clipmap,
     /// Schneider & Klein 2007.
     StencilVolume,
     /// She 2016.
@@ -48,11 +50,12 @@ pub enum Kind {
 
 impl Kind {
     /// Every technique that is built.
-    pub const ALL: [Self; 2] = [Self::StencilVolume, Self::InverseProjection];
+    pub const ALL: [Self; 3] = [Self::Clipmap, Self::StencilVolume, Self::InverseProjection];
 
     /// The name on the command line and in files.
     pub fn name(self) -> &'static str {
         match self {
+            Self::Clipmap => "clipmap",
             Self::StencilVolume => "stencil-volume",
             Self::InverseProjection => "inverse-projection",
         }
@@ -106,6 +109,7 @@ pub trait Prepared: Sync {
 /// When the technique does not draw such a scene.
 pub fn prepare(kind: Kind, stage: &Stage) -> Result<Box<dyn Prepared + '_>> {
     match kind {
+        Kind::Clipmap => Ok(Box::new(clipmap::Prepare::new(stage)?)),
         Kind::StencilVolume => Ok(Box::new(stencil_volume::Prepare::new(stage)?)),
         Kind::InverseProjection => Ok(Box::new(inverse_projection::Prepare::new(stage)?)),
     }
@@ -117,6 +121,7 @@ pub fn prepare(kind: Kind, stage: &Stage) -> Result<Box<dyn Prepared + '_>> {
 /// The reason why it does not.
 pub fn applies(kind: Kind, stage: &Stage) -> Result<()> {
     match kind {
+        Kind::Clipmap => clipmap::applies(stage),
         Kind::StencilVolume => stencil_volume::applies(stage),
         Kind::InverseProjection => inverse_projection::applies(stage),
     }

@@ -6,10 +6,12 @@
 //! the cost follows what is seen. [`Sight`] hides whether that or an imitated machine ([`Machine`]) found it. Refuses: nothing; a sample that sees no terrain has triangle [`SKY`].
 
 mod device;
+mod footprint;
 mod hit;
 mod sight;
 
 pub use device::{Machine, see_on_device};
+pub use footprint::PixelFootprint;
 pub use hit::{Hit, hit};
 pub use sight::Sight;
 

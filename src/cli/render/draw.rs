@@ -13,7 +13,7 @@ use drapery::technique::{Kind, Stage};
 use drapery::truth::Truth;
 
 /// The buffers that hold plan coordinates: scene-local in memory, absolute in files.
-const IN_PLAN: [&str; 2] = ["plan", "quad"];
+const IN_PLAN: [&str; 3] = ["plan", "quad", "vertices"];
 
 /// What is wanted of each technique.
 pub(super) struct Wish {

@@ -3,6 +3,7 @@
 //! A setting is a list of changes to the scene file (`path=value`), so that every row of a report can be drawn again by
 //! `drapery render --set`. To add a technique: a file with its [`Sweep`], and its line in [`of`].
 
+mod clipmap;
 mod inverse_projection;
 mod stencil_volume;
 
@@ -43,6 +44,7 @@ const MACHINES: Axis = &[
 /// What is tried of a technique.
 pub fn of(kind: Kind) -> Sweep {
     match kind {
+        Kind::Clipmap => clipmap::SWEEP,
         Kind::InverseProjection => inverse_projection::SWEEP,
         Kind::StencilVolume => stencil_volume::SWEEP,
     }

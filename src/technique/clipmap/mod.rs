@@ -1,9 +1,174 @@
-//! Clipmap.
+//! Clipmap texture: J. Taibo, A. Jaspe, A. Seoane, M. Agus, L. Hernández (2014), "Practical line rasterization for multi-resolution
+//! textures", Smart Tools and Apps for Graphics.
+//!
+//! Input: a [`Stage`]. Output: a picture whose ground carries a texture of the vectors:
+//! 1. the layers are kept in memory as one of the paper's solutions needs them (`geometry`, 4.1 to 4.4), lines tessellated into strips
+//!    ([`tessellation`], 4.2);
+//! 2. the texture is virtual: levels cut into tiles ([`texture`], 2); a frame finds which tiles its pixels touch (`sampling`, `frame`);
+//! 3. those are made, each once ([`tile`]): layers in order, thin lines as line primitives, the others as polygons (Algorithm 2),
+//!    rasterized in one of several ways ([`raster`]), and kept (`cache`);
+//! 4. each pixel samples the texture at its centre and composes it over the ground.
+//!
+//! Where the paper is silent:
+//! - The texture covers the square around the terrain from its north-western corner. Levels go down to one texel.
+//! - Texels hold premultiplied paint; composing them over the ground is what composing each item would be.
+//! - An item is blended as a whole: where it covers a texel several times, as often as it does (`overlaps = "blend"`) or once.
+//! - What the paper's scene graph holds for polygons is not said: fills are rings, scan-converted exactly as they are (triangles of a
+//!   constrained Delaunay triangulation would round where rings cross). Outlines that are inset or offset are cut to their polygon.
+//! - A layer's width in pixels is one in metres at the distance of what the middle of the picture shows (3: "as a function of the
+//!   distance between camera and terrain"), or so many texels in every level (`pixel_width = "texels"`, Fig. 1).
+//! - Line primitives have neither joins nor caps, nor have Algorithm 1's strips caps; `joints = "style"` has both.
+//!
+//! Refuses: nothing but more vertices or features than can be numbered.
 
+mod cache;
+mod frame;
+mod geometry;
 mod quadtree;
 pub mod raster;
 #[cfg(test)]
 mod rational;
+mod sampling;
+mod sequences;
 mod simple;
 pub mod tessellation;
 pub mod texture;
+pub mod tile;
+
+pub use cache::CacheCounts;
+pub use sequences::{Sequences, StripOf};
+
+use super::{Frame, FrameOptions, Prepared, Stage};
+use crate::error::Result;
+use crate::scene::Clipmap;
+use crate::scene::file::Named;
+use crate::space::ViewFrame;
+use cache::TileCache;
+use geometry::Geometry;
+use std::sync::{Mutex, PoisonError};
+use texture::VirtualTexture;
+use tile::TileMaker;
+
+/// The technique with its layers in memory.
+#[derive(Debug)]
+pub struct Prepare<'s> {
+    stage: &'s Stage,
+    settings: Clipmap,
+    texture: VirtualTexture,
+    geometry: Geometry,
+    /// Tiles that were made for earlier frames.
+    cache: Mutex<TileCache>,
+}
+
+impl<'s> Prepare<'s> {
+    /// Keeps the layers as the solution needs them.
+    ///
+    /// # Errors
+    /// When there are more vertices or features than can be numbered.
+    pub fn new(stage: &'s Stage) -> Result<Self> {
+        let scene = &stage.scene;
+        let settings = scene.technique.clipmap;
+        let texture = VirtualTexture::over(&stage.mesh.plan_bounds(), settings.virtual_size);
+        let geometry = Geometry::new(&scene.layers, &settings, scene.compositing, &texture.bounds())?;
+        Ok(Self { stage, settings, texture, geometry, cache: Mutex::default() })
+    }
+
+    /// Draws a frame of any view of the stage, with the tiles that earlier frames have left; the picture is the same without them. Says
+    /// what the cache did.
+    pub fn frame_of(&self, view: &ViewFrame, options: &FrameOptions) -> Result<(Frame, CacheCounts)> {
+        frame::draw(self, view, options)
+    }
+
+    /// The virtual texture.
+    pub fn texture(&self) -> &VirtualTexture {
+        &self.texture
+    }
+
+    /// What makes tiles, for a size of a pixel in metres.
+    pub fn maker(&self, pixel_m: f64) -> TileMaker<'_> {
+        let (settings, device) = (self.settings, self.stage.scene.device);
+        TileMaker { geometry: &self.geometry, texture: self.texture, settings, device, pixel_m }
+    }
+
+    /// Bytes that the solution keeps of lines and areas, and bytes of the index that finds them.
+    pub fn memory(&self) -> (usize, usize) {
+        (self.geometry.bytes(), self.geometry.index_bytes())
+    }
+
+    /// Bytes of the tiles in the cache.
+    pub fn cached_bytes(&self) -> usize {
+        self.cache.lock().unwrap_or_else(PoisonError::into_inner).bytes()
+    }
+
+    /// The bytes that the cache may hold.
+    fn budget(&self) -> usize {
+        (self.settings.cache_mib * 1_048_576.0) as usize
+    }
+
+    /// The cache, which another frame that is drawn meanwhile does without.
+    fn take_cache(&self) -> TileCache {
+        std::mem::take(&mut *self.cache.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    fn return_cache(&self, cache: TileCache) {
+        *self.cache.lock().unwrap_or_else(PoisonError::into_inner) = cache;
+    }
+}
+
+/// Whether the technique can draw the scene: it can.
+///
+/// # Errors
+/// None yet; other techniques have reasons.
+pub fn applies(_stage: &Stage) -> Result<()> {
+    Ok(())
+}
+
+impl Prepared for Prepare<'_> {
+    fn frame(&self, options: &FrameOptions) -> Result<Frame> {
+        Ok(self.frame_of(&self.stage.view, options)?.0)
+    }
+
+    fn structure_bytes(&self) -> usize {
+        self.geometry.bytes() + self.geometry.index_bytes()
+    }
+
+    fn parameters(&self) -> Vec<(&'static str, String)> {
+        let s = &self.settings;
+        vec![
+            ("virtual_size", s.virtual_size.to_string()),
+            ("clip_size", s.clip_size.to_string()),
+            ("cache_mib", s.cache_mib.to_string()),
+            ("texel", s.texel.word().into()),
+            ("solution", s.solution.word().into()),
+            ("joints", s.joints.word().into()),
+            ("angle_deg", s.angle_deg.to_string()),
+            ("threshold_texels", s.threshold_texels.to_string()),
+            ("lines", s.lines.word().into()),
+            ("line_filter", s.line_filter.word().into()),
+            ("wide_lines", s.wide_lines.word().into()),
+            ("polygons", s.polygons.word().into()),
+            ("overlaps", s.overlaps.word().into()),
+            ("offsets", s.offsets.word().into()),
+            ("pixel_width", s.pixel_width.word().into()),
+            ("filter", s.filter.word().into()),
+            ("anisotropy", s.anisotropy.to_string()),
+            ("level_bias", s.level_bias.to_string()),
+        ]
+    }
+
+    fn buffer_names(&self) -> &'static [&'static str] {
+        &[
+            "vertices",
+            "strips",
+            "triangle",
+            "depth",
+            "plan",
+            "level",
+            "tile",
+            "texels",
+            "tile-keys",
+            "tiles",
+            "color",
+        ]
+    }
+}

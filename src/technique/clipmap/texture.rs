@@ -124,6 +124,11 @@ impl ClipRegion {
         Self { center: texture.texel(0, center), side: size.div_ceil(TILE_TEXELS) }
     }
 
+    /// Tiles a side of the region.
+    pub fn side(&self) -> u32 {
+        self.side
+    }
+
     /// The tiles of a level that are at hand: those nearest to the centre; at the texture's rim the square is moved inside.
     pub fn window(&self, texture: &VirtualTexture, level: u32) -> TileWindow {
         let tiles = texture.tiles(level);

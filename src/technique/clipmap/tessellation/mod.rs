@@ -189,6 +189,38 @@ impl Rule {
         out.end();
     }
 
+    /// Tessellates segments that are given with the vertices before and after them, as a geometry shader gets them
+    /// (`LINE_STRIP_ADJACENCY`, 4.4.1); where a vertex is given twice, the line begins or ends. Each joint is computed for both
+    /// segments, as there.
+    pub(super) fn adjacency<'a>(
+        &self,
+        segments: impl Iterator<Item = &'a [Plan]>,
+        half: f64,
+        sagitta: Sagitta,
+        out: &mut Strips,
+    ) {
+        let mut has_begun = false;
+        for segment in segments {
+            let &[before, from, to, after] = segment else { continue };
+            let known = (out.vertices.len(), out.ends.len());
+            match before == from {
+                true => self.start(from, to, half, sagitta, out),
+                false => self.start_from_joint(&Corner::new([before, from, to], half), sagitta, out),
+            }
+            if has_begun {
+                // The segment before has ended with the same.
+                out.vertices.truncate(known.0);
+                out.ends.truncate(known.1);
+            }
+            match after == to {
+                true => self.finish(from, to, half, sagitta, out),
+                false => self.joint(&Corner::new([from, to, after], half), sagitta, out),
+            }
+            has_begun = true;
+        }
+        out.end();
+    }
+
     /// Adds a joint's pairs (Algorithm 1, "newvertices").
     fn joint(&self, corner: &Corner, sagitta: Sagitta, out: &mut Strips) {
         match self.joints {

@@ -1,0 +1,87 @@
+//! How far a pixel reaches in the plan: the exact derivatives of the surface point on the plane of the triangle that is seen there.
+
+use crate::space::{Lens, Screen, ViewFrame, World};
+use glam::{DVec2, DVec3};
+
+/// How the plan point that is seen moves as the screen point moves by a pixel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PixelFootprint {
+    /// By a pixel to the right, metres.
+    pub dx: DVec2,
+    /// By a pixel down, metres.
+    pub dy: DVec2,
+}
+
+impl PixelFootprint {
+    /// The footprint of a screen point on a triangle's plane; `None` for a plane that is seen edge-on.
+    pub fn new(frame: &ViewFrame, at: Screen, triangle: &[World; 3]) -> Option<Self> {
+        let [a, b, c] = *triangle;
+        let normal = (b - a).cross(c - a);
+        let pixel = frame.lens().pixel();
+        // How what a ray starts with (parallel) or runs along (central) moves with the screen point.
+        let steps = [frame.right() * pixel, -frame.up() * pixel];
+        let (along, reach) = match frame.lens() {
+            Lens::Parallel { .. } => (frame.forward(), 1.0),
+            Lens::Central { .. } => {
+                let x = (at.x - 0.5 * frame.width() as f64) * pixel;
+                let y = (0.5 * frame.height() as f64 - at.y) * pixel;
+                let along = frame.forward() + frame.right() * x + frame.up() * y;
+                (along, normal.dot(a - frame.eye()) / normal.dot(along))
+            }
+        };
+        // The point from + reach * along stays on the plane: what leaves it is taken back along the ray.
+        let moved = |step: DVec3| (step - along * (normal.dot(step) / normal.dot(along))) * reach;
+        let [dx, dy] = steps.map(|step| moved(step).truncate());
+        (dx.is_finite() && dy.is_finite()).then_some(Self { dx, dy })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::space::Viewpoint;
+    use crate::visibility::hit;
+
+    fn views() -> [ViewFrame; 2] {
+        let view = Viewpoint {
+            eye: World::new(10.0, -200.0, 90.0),
+            target: World::new(0.0, 0.0, 5.0),
+            up: DVec3::Z,
+            near: 0.1,
+            far: f64::INFINITY,
+        };
+        [
+            ViewFrame::perspective(&view, 50.0, (640, 480)).unwrap(),
+            ViewFrame::orthographic(&view, 300.0, (640, 480)).unwrap(),
+        ]
+    }
+
+    #[test]
+    fn a_footprint_is_the_difference_of_neighbouring_hits_in_the_limit() {
+        let triangle = [
+            World::new(-300.0, -150.0, -20.0),
+            World::new(300.0, -160.0, 10.0),
+            World::new(0.0, 400.0, 80.0),
+        ];
+        for frame in views() {
+            for at in [Screen::new(100.5, 300.25), Screen::new(320.0, 240.0), Screen::new(600.0, 470.0)] {
+                let plan =
+                    |x: f64, y: f64| hit(&frame, &frame.ray(Screen::new(at.x + x, at.y + y)), &triangle).plan;
+                let footprint = PixelFootprint::new(&frame, at, &triangle).unwrap();
+                let h = 1e-4;
+                let dx = (plan(h, 0.0) - plan(-h, 0.0)) / (2.0 * h);
+                let dy = (plan(0.0, h) - plan(0.0, -h)) / (2.0 * h);
+                assert!((footprint.dx - dx).length() < 1e-6 * dx.length(), "{footprint:?} {dx}");
+                assert!((footprint.dy - dy).length() < 1e-6 * dy.length(), "{footprint:?} {dy}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_plane_that_is_seen_edge_on_has_no_footprint() {
+        let frame = views()[1];
+        let eye = frame.eye();
+        let triangle = [eye, eye + frame.forward() * 100.0, eye + (frame.forward() + frame.up()) * 100.0];
+        assert_eq!(PixelFootprint::new(&frame, Screen::new(320.0, 240.0), &triangle), None);
+    }
+}
