@@ -69,7 +69,9 @@ pub(super) enum TerrainName {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum VectorName {
     Roads,
+    Paths,
     Mosaic,
+    Parcels,
 }
 
 named! {
@@ -79,7 +81,7 @@ named! {
     TerrainName {
         "plane" => Plane, "ramp" => Ramp, "sine" => Sine, "cone" => Cone, "tent" => Tent, "fbm" => Fbm
     }
-    VectorName { "roads" => Roads, "mosaic" => Mosaic }
+    VectorName { "roads" => Roads, "paths" => Paths, "mosaic" => Mosaic, "parcels" => Parcels }
     HeightEncoding { "terrarium" => Terrarium, "mapbox" => Mapbox }
     Diagonal { "sw-ne" => SwNe, "nw-se" => NwSe, "alternating" => Alternating }
     Rule { "even-odd" => EvenOdd, "nonzero" => NonZero }

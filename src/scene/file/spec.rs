@@ -219,7 +219,7 @@ pub struct VectorGenerator {
     pub kind: VectorKind,
     /// Picks the shapes.
     pub seed: u64,
-    /// How many segments (roads) or polygons (mosaic, before its classes are told apart).
+    /// How many segments (roads, paths) or polygons (parcels; mosaic, before its classes are told apart).
     pub count: usize,
     /// The rectangle x0, y0, x1, y1 of the plan to fill; `None`: the terrain's.
     pub window: Option<[f64; 4]>,
@@ -233,6 +233,13 @@ pub enum VectorKind {
         /// The length of a segment; `None`: a 200th of the window's longer side.
         segment_m: Option<f64>,
     },
+    /// Short paths everywhere.
+    Paths {
+        /// The mean length of a segment; `None`: a 5000th of the window's longer side.
+        segment_m: Option<f64>,
+    },
+    /// Parcels of land in towns along a coast.
+    Parcels,
     /// Land use: polygons that share their edges exactly, some with lakes as holes.
     Mosaic {
         /// Only the polygons of this class, of so many.

@@ -6,6 +6,8 @@
 
 mod mosaic;
 mod noise;
+mod parcels;
+mod paths;
 mod random;
 mod roads;
 mod terrain;
@@ -33,6 +35,8 @@ pub fn features(generator: &VectorGenerator, terrain: PlanBox) -> Vec<Feature> {
         .map_or(terrain, |[x0, y0, x1, y1]| PlanBox { min: Plan::new(x0, y0), max: Plan::new(x1, y1) });
     let shapes: Vec<Shape> = match generator.kind {
         VectorKind::Roads { segment_m } => roads::roads(generator, segment_m, window),
+        VectorKind::Paths { segment_m } => paths::paths(generator, segment_m, window),
+        VectorKind::Parcels => parcels::parcels(generator, window),
         VectorKind::Mosaic { class, holes } => mosaic::mosaic(generator, class, holes, window),
     };
     shapes.into_iter().enumerate().map(|(index, shape)| Feature { index, shape }).collect()

@@ -76,7 +76,8 @@ impl Walker {
     }
 }
 
-fn direction(random: &mut Sequence) -> DVec2 {
+/// A direction of unit length.
+pub(super) fn direction(random: &mut Sequence) -> DVec2 {
     normalized(DVec2::new(random.signed(), random.signed())).unwrap_or(DVec2::X)
 }
 

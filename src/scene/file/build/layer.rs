@@ -10,7 +10,7 @@ use crate::space::Plan;
 use glam::DVec2;
 use std::path::Path;
 
-/// The most polygons of a generated mosaic.
+/// The most generated polygons.
 const MOST_POLYGONS: usize = 1_000_000;
 
 pub(super) fn layers(root: &mut Section<'_>) -> Result<Vec<LayerSpec>> {
@@ -92,15 +92,23 @@ fn open(mut ring: Vec<Plan>) -> Vec<Plan> {
 
 fn generator(section: &mut Section<'_>) -> Result<VectorGenerator> {
     let name = section.name("kind")?.unwrap_or(VectorName::Roads);
-    let (foreign, of): (&[&str], _) = match name {
-        VectorName::Roads => (&["class", "holes"], "mosaic"),
-        VectorName::Mosaic => (&["segment_m"], "roads"),
+    let foreign: &[(&[&str], &str)] = match name {
+        VectorName::Roads | VectorName::Paths => &[(&["class", "holes"], "kind = \"mosaic\" only")],
+        VectorName::Mosaic => &[(&["segment_m"], "kind = \"roads\" or \"paths\" only")],
+        VectorName::Parcels => &[
+            (&["class", "holes"], "kind = \"mosaic\" only"),
+            (&["segment_m"], "kind = \"roads\" or \"paths\" only"),
+        ],
     };
-    if let Some((key, place)) = section.first_of(foreign) {
-        return Err(section.error_at(place, format!("`{key}` goes with kind = \"{of}\" only")));
+    for (keys, with) in foreign {
+        if let Some((key, place)) = section.first_of(keys) {
+            return Err(section.error_at(place, format!("`{key}` goes with {with}")));
+        }
     }
     let kind = match name {
         VectorName::Roads => VectorKind::Roads { segment_m: section.number("segment_m")? },
+        VectorName::Paths => VectorKind::Paths { segment_m: section.number("segment_m")? },
+        VectorName::Parcels => VectorKind::Parcels,
         VectorName::Mosaic => {
             VectorKind::Mosaic { class: class(section)?, holes: section.number("holes")?.unwrap_or(0.1) }
         }
@@ -113,11 +121,14 @@ fn generator(section: &mut Section<'_>) -> Result<VectorGenerator> {
     })
 }
 
-/// A mosaic's polygons have some thirty vertices each: fewer of them fit into memory than segments of roads.
+/// Polygons have many vertices each: fewer of them fit into memory than segments of roads.
 fn count(section: &mut Section<'_>, name: VectorName) -> Result<usize> {
     match section.integer_at("count")? {
-        Some(Taken { value, place }) if name == VectorName::Mosaic && value > MOST_POLYGONS => {
-            Err(section.error_at(&place, format!("a mosaic has at most {MOST_POLYGONS} polygons")))
+        Some(Taken { value, place })
+            if matches!(name, VectorName::Mosaic | VectorName::Parcels) && value > MOST_POLYGONS =>
+        {
+            let what = if name == VectorName::Mosaic { "a mosaic has" } else { "there are" };
+            Err(section.error_at(&place, format!("{what} at most {MOST_POLYGONS} polygons")))
         }
         taken => Ok(taken.map_or(1000, |taken| taken.value)),
     }

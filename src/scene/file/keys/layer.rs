@@ -47,8 +47,8 @@ static GENERATE_LAYER: TableShape = TableShape {
         key("seed", SEED, "Picks the shapes. Default: 1."),
         key(
             "count",
-            Shape::Integer(1, 10_000_000),
-            "How many segments (roads) or polygons (mosaic, of all classes; at most 10^6). Default: 1000.",
+            Shape::Integer(1, 30_000_000),
+            "How many segments (roads, paths) or polygons (parcels; mosaic, of all classes; at most 10^6). Default: 1000.",
         ),
         key(
             "window",
@@ -58,7 +58,7 @@ static GENERATE_LAYER: TableShape = TableShape {
         key(
             "segment_m",
             POSITIVE,
-            "roads: the length of a segment. Default: a 200th of the window's longer side.",
+            "roads, paths: the length of a segment. Default: a 200th, a 5000th of the window's longer side.",
         ),
         key(
             "class",
