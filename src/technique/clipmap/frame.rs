@@ -203,14 +203,8 @@ impl<'a> Drawing<'a> {
     }
 
     fn make(&self, keys: &[TileKey], done: &(dyn Fn() + Sync)) -> Vec<Tile> {
-        let settings = &self.prepared.settings;
-        let make = |bench: &mut Option<(usize, Workbench)>, key: &TileKey| {
-            let size = self.prepared.texture.tile_size(key.level);
-            let (_, bench) = match bench {
-                Some(known) if known.0 == size => known,
-                other => other.insert((size, Workbench::new(size, settings))),
-            };
-            let tile = self.maker.make(*key, bench);
+        let make = |bench: &mut Option<Workbench>, key: &TileKey| {
+            let tile = self.maker.make_on(*key, bench);
             done();
             tile
         };

@@ -40,14 +40,15 @@ pub use sequences::{Sequences, StripOf};
 
 use super::{Frame, FrameOptions, Prepared, Stage};
 use crate::error::Result;
+use crate::parallel;
 use crate::scene::Clipmap;
 use crate::scene::file::Named;
-use crate::space::ViewFrame;
+use crate::space::{Plan, ViewFrame};
 use cache::TileCache;
 use geometry::Geometry;
 use std::sync::{Mutex, PoisonError};
-use texture::VirtualTexture;
-use tile::TileMaker;
+use texture::{ClipRegion, TileKey, VirtualTexture};
+use tile::{TileCounts, TileMaker, Workbench};
 
 /// The technique with its layers in memory.
 #[derive(Debug)]
@@ -88,6 +89,26 @@ impl<'s> Prepare<'s> {
     pub fn maker(&self, pixel_m: f64) -> TileMaker<'_> {
         let (settings, device) = (self.settings, self.stage.scene.device);
         TileMaker { geometry: &self.geometry, texture: self.texture, settings, device, pixel_m }
+    }
+
+    /// Makes all tiles that are at hand around a point of the plan, in all levels, as if none had been made: what 5.3 calls a complete
+    /// reconstruction of the texture cache. Says how many there are, and what was drawn.
+    pub fn reconstruct(&self, center: Plan) -> (usize, TileCounts) {
+        let region = ClipRegion::new(&self.texture, center, self.settings.clip_size);
+        let levels = (0..self.texture.levels()).map(|level| (level, region.window(&self.texture, level)));
+        let keys: Vec<TileKey> = levels.flat_map(|(level, window)| window.keys(level)).collect();
+        let maker = self.maker(1.0);
+        let make = |bench: &mut Option<Workbench>, key: &TileKey| maker.make_on(*key, bench).counts;
+        let counts = parallel::map_with(&keys, || None, make);
+        (keys.len(), counts.into_iter().fold(TileCounts::default(), TileCounts::plus))
+    }
+
+    /// Changes all widths in metres by a factor (5.1): nothing but a number where lines are drawn or tessellated on the fly; else pairs of
+    /// vertices are scaled (methods 1, 2, 3a) or, where the lines are kept beside them (solution 3a), made anew (method 3b). False
+    /// where that cannot be done: then the technique has to be prepared anew.
+    pub fn change_width(&mut self, factor: f64) -> bool {
+        self.cache = Mutex::default();
+        self.geometry.change_width(factor)
     }
 
     /// Bytes that the solution keeps of lines and areas, and bytes of the index that finds them.

@@ -151,6 +151,13 @@ impl ClipRegion {
 }
 
 impl TileWindow {
+    /// The keys of its tiles in a level.
+    pub fn keys(self, level: u32) -> impl Iterator<Item = TileKey> {
+        let columns = self.first.0..self.end.0;
+        (self.first.1..self.end.1)
+            .flat_map(move |row| columns.clone().map(move |column| TileKey { level, row, column }))
+    }
+
     /// Whether it holds a tile.
     #[inline]
     pub fn contains(&self, column: i64, row: i64) -> bool {
@@ -207,13 +214,7 @@ mod tests {
         let slots = |x: f64| {
             let region = ClipRegion::new(&t, Plan::new(x, -200.0), 1024);
             let window = region.window(&t, 0);
-            let rows = (window.first.1..window.end.1)
-                .flat_map(move |row| (window.first.0..window.end.0).map(move |column| (row, column)));
-            rows.map(|(row, column)| {
-                let key = TileKey { level: 0, row, column };
-                (region.slot(key), key)
-            })
-            .collect::<std::collections::BTreeMap<_, _>>()
+            window.keys(0).map(|key| (region.slot(key), key)).collect::<std::collections::BTreeMap<_, _>>()
         };
         let (before, after) = (slots(100.0), slots(100.0 + tile));
         assert_eq!((before.len(), after.len()), (16, 16), "no two tiles share a slot");

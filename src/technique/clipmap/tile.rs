@@ -1,6 +1,6 @@
 //! One tile of the texture: its items in draw order, thin lines as line primitives, the others as polygons (Algorithm 2).
 
-use super::geometry::{ChunkOf, Geometry, Role, StrokeStyle};
+use super::geometry::{AreaRings, Chunk, Geometry, Role, StrokeStyle};
 use super::raster::{Area, Cut, RasterSettings, TilePlace, TileRaster};
 use super::tessellation::{Pair, Sagitta, Strips};
 use super::texture::{TILE, TileKey, VirtualTexture};
@@ -97,6 +97,7 @@ pub struct TileMaker<'a> {
 /// Memory that is used again from tile to tile.
 #[derive(Debug)]
 pub(super) struct Workbench {
+    size: usize,
     raster: TileRaster,
     strips: Strips,
     pairs: Vec<Pair<Texel>>,
@@ -155,7 +156,7 @@ impl TexelMap {
 
 impl Workbench {
     /// For tiles of a size.
-    pub(super) fn new(size: usize, settings: &Clipmap) -> Self {
+    fn new(size: usize, settings: &Clipmap) -> Self {
         let place = TilePlace { origin: (0, 0), size: (size, size) };
         let raster = RasterSettings {
             polygons: settings.polygons,
@@ -165,6 +166,7 @@ impl Workbench {
             texel: settings.texel,
         };
         Self {
+            size,
             raster: TileRaster::new(place, raster),
             strips: Strips::default(),
             pairs: Vec::new(),
@@ -178,7 +180,7 @@ impl Workbench {
 /// An item to be drawn: an area, or the chunks of a stroke.
 #[derive(Debug, Clone, Copy)]
 enum Piece<'c> {
-    Area(u32),
+    Area(AreaRings),
     Stroke(u32, &'c [u32]),
 }
 
@@ -200,8 +202,18 @@ impl TileMaker<'_> {
         styles.map(reach).fold(0.0, math::max) + 4.0 * self.texture.texel_m(level)
     }
 
+    /// Makes a tile on a workbench, which is set up anew where tiles are of another size.
+    pub(super) fn make_on(&self, key: TileKey, bench: &mut Option<Workbench>) -> Tile {
+        let size = self.texture.tile_size(key.level);
+        let bench = match bench {
+            Some(known) if known.size == size => known,
+            other => other.insert(Workbench::new(size, &self.settings)),
+        };
+        self.make(key, bench)
+    }
+
     /// Makes a tile.
-    pub(super) fn make(&self, key: TileKey, bench: &mut Workbench) -> Tile {
+    fn make(&self, key: TileKey, bench: &mut Workbench) -> Tile {
         let size = self.texture.tile_size(key.level);
         let origin = (i64::from(key.column) * TILE as i64, i64::from(key.row) * TILE as i64);
         bench.raster.start(origin);
@@ -244,12 +256,12 @@ impl Drawing<'_> {
         let strokes = chunks.chunk_by(|a, b| geometry.chunk(*a).item() == geometry.chunk(*b).item());
         for stroke in strokes {
             let item = geometry.chunk(stroke[0]).item();
-            while let Some((_, area)) = areas.next_if(|(of, _)| *of < item) {
+            while let Some(area) = areas.next_if(|area| area.item < item) {
                 self.piece(Piece::Area(area), bench, &mut counts);
             }
             self.piece(Piece::Stroke(item, stroke), bench, &mut counts);
         }
-        for (_, area) in areas {
+        for area in areas {
             self.piece(Piece::Area(area), bench, &mut counts);
         }
         counts
@@ -259,8 +271,7 @@ impl Drawing<'_> {
         let geometry = self.maker.geometry;
         match piece {
             Piece::Area(area) => {
-                let area = geometry.area(area);
-                let Some((Role::Fill(fill), _)) = geometry.role(area.item()) else { return };
+                let Some(Role::Fill(fill)) = geometry.role(area.item) else { return };
                 self.load_rings(geometry.rings(&area), &mut bench.rings);
                 let rings = bench.rings.slices();
                 let shape = Area { rings: &rings, rule: fill.rule, is_simple: area.is_simple };
@@ -268,7 +279,7 @@ impl Drawing<'_> {
                 counts.areas += 1;
             }
             Piece::Stroke(item, chunks) => {
-                let Some((Role::Stroke(style), _)) = geometry.role(item) else { return };
+                let Some(Role::Stroke(style)) = geometry.role(item) else { return };
                 self.stroke(item, chunks, style, bench, counts);
             }
         }
@@ -297,7 +308,7 @@ impl Drawing<'_> {
             Solution::Both | Solution::Wireframe | Solution::Adjacency | Solution::Offsets => is_thin,
         };
         let cut_rule = self.load_cut(item, style, bench);
-        let Workbench { raster, strips, pairs, ends, segments, rings } = bench;
+        let Workbench { raster, strips, pairs, ends, segments, rings, .. } = bench;
         let rings = rings.slices();
         let cut = cut_rule.map(|(rule, is_simple)| Cut {
             area: Area { rings: &rings, rule, is_simple },
@@ -345,15 +356,15 @@ impl Drawing<'_> {
         let geometry = self.maker.geometry;
         let area = geometry.cut_of(item)?;
         self.load_rings(geometry.rings(&area), &mut bench.rings);
-        let rule = match geometry.role(area.item()) {
-            Some((Role::Fill(fill), _)) => fill.rule,
+        let rule = match geometry.role(area.item) {
+            Some(Role::Fill(fill)) => fill.rule,
             _ => Rule::EvenOdd,
         };
         Some((rule, area.is_simple))
     }
 
     /// Adds a chunk's segments that may touch the tile; those of wireframe, whose sides a chunk has too, with their neighbours.
-    fn load_segments(&self, chunk: &ChunkOf, style: &StrokeStyle, near: &PlanBox, out: &mut Vec<[Texel; 2]>) {
+    fn load_segments(&self, chunk: &Chunk, style: &StrokeStyle, near: &PlanBox, out: &mut Vec<[Texel; 2]>) {
         chunk.segments(style, &mut |from, to| {
             if PlanBox::around([from, to]).meets(near) {
                 out.push([self.map.texel(from), self.map.texel(to)]);
