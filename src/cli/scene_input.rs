@@ -23,14 +23,23 @@ pub(super) struct SceneInput {
 impl SceneInput {
     /// Reads the scene at `path`, from stdin where it is `-`, or the built-in one where there is none.
     pub(super) fn read(path: Option<&Path>, overrides: &[String]) -> std::result::Result<Self, Stop> {
-        let overrides: Result<Vec<Override>> = overrides.iter().map(|text| Override::parse(text)).collect();
-        let overrides = overrides?;
         // Relative paths of a scene on stdin start at the current folder.
         let (text, path) = match path {
-            None => (DEFAULT_SCENE.to_owned(), None),
-            Some(path) if path == Path::new("-") => (from_stdin()?, Some(PathBuf::from(STDIN))),
-            Some(path) => (text_of(path)?, Some(path.to_owned())),
+            None => return Self::built_in(DEFAULT_SCENE, overrides),
+            Some(path) if path == Path::new("-") => (from_stdin()?, PathBuf::from(STDIN)),
+            Some(path) => (text_of(path)?, path.to_owned()),
         };
+        Self::parse(text, Some(path), overrides)
+    }
+
+    /// A scene that is part of the program.
+    pub(super) fn built_in(text: &str, overrides: &[String]) -> std::result::Result<Self, Stop> {
+        Self::parse(text.to_owned(), None, overrides)
+    }
+
+    fn parse(text: String, path: Option<PathBuf>, overrides: &[String]) -> std::result::Result<Self, Stop> {
+        let overrides: Result<Vec<Override>> = overrides.iter().map(|text| Override::parse(text)).collect();
+        let overrides = overrides?;
         match SceneFile::parse(&text, path.as_deref(), &overrides) {
             Ok(file) => Ok(Self { file, text, path, overrides }),
             Err(error) => Err(refused(error, text)),

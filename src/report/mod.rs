@@ -1,7 +1,7 @@
 //! Speed against error: what every technique costs and how far its picture is from the truth.
 //!
 //! Input: a [`Truth`], and for each setting of a technique ([`sweep`]) its picture and times, as [`Run`]s. Output: [`Report`], which becomes
-//! `report.json`, `report.csv` ([`table`]), plots ([`plot`]) and one page that needs no network ([`page`]). Refuses: nothing. It
+//! `report.json`, `report.csv` ([`table`]), plots ([`plot`]) and one page that needs no network ([`page`]); the papers' own tables are [`tables`]. Refuses: nothing. It
 //! measures no time itself.
 
 mod axis;
@@ -13,6 +13,7 @@ pub mod plot;
 mod run;
 pub mod sweep;
 pub mod table;
+pub mod tables;
 
 pub use exhibit::Exhibit;
 pub use flip::flip;

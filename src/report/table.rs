@@ -136,7 +136,7 @@ fn line(cells: impl Iterator<Item = String>) -> String {
 }
 
 /// A cell; quoted where it holds what would end it.
-fn escaped(cell: &str) -> String {
+pub(super) fn escaped(cell: &str) -> String {
     if cell.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", cell.replace('"', "\"\""))
     } else {

@@ -2,6 +2,7 @@
 
 mod measuring;
 mod notable;
+mod tables;
 
 use super::bar::Bar;
 use super::measure::TruthArguments;
@@ -10,6 +11,7 @@ use super::stop::{Outcome, Status};
 use drapery::output::Batch;
 use drapery::report::page::{Section, page};
 use drapery::report::plot::{self, View};
+use drapery::report::tables::DATA_SETS;
 use drapery::report::{Exhibit, REPORT_SCHEMA, Report, SceneReport, table};
 use drapery::truth::Budget;
 use drapery::{Result, parallel};
@@ -23,6 +25,8 @@ Examples:
   drapery report scene.toml --repeat 9 --threads 1      steadier times, of one thread
   drapery report scene.toml --set image.width=600 --set image.height=400
   drapery report scene.toml --truth-width 0.01          a coarser truth, sooner there
+  drapery report --tables --repeat 1                    Taibo's tables on 1.2 to 11 million segments, minutes
+  drapery report --tables roads.toml -o tables          the same for your own lines
 
 Measured are the truth, every technique that applies over the settings of its sweep (the scene's own among them), and plain
 supersampling with 1, 4, 16, ... samples a pixel. Each row tells what differs from the scene: `drapery render --set` draws
@@ -31,7 +35,10 @@ it again.
 Writes DIR/report.html (one file, readable without a network), DIR/report.csv, DIR/report.json and the plots as
 DIR/NAME-METRIC.svg: all of them, or none when something fails. All numbers but the times are the same in every run.
 
-A whole sweep takes minutes: the truth and each setting are computed --repeat times.";
+A whole sweep takes minutes: the truth and each setting are computed --repeat times.
+
+With --tables, memory, generation and rendering of the clipmap's solutions are measured instead (Taibo et al. 2014, section 5),
+without a SCENE on generated data sets of the paper's three kinds; it writes tables.html, tables.csv and tables.json.";
 
 #[derive(Debug, clap::Args)]
 #[command(after_long_help = EXAMPLES)]
@@ -39,6 +46,9 @@ pub(super) struct Arguments {
     /// The scene files, `-` for stdin; without one, a built-in generated scene.
     #[arg(value_name = "SCENE")]
     scenes: Vec<PathBuf>,
+    /// Measure the papers' own tables instead of speed against error.
+    #[arg(long)]
+    tables: bool,
     /// Change every scene: a dotted path and a TOML value; may be repeated. No value removes the key.
     #[arg(long = "set", value_name = "PATH=VALUE")]
     overrides: Vec<String>,
@@ -56,6 +66,9 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Outcome {
+    if arguments.tables {
+        return run_tables(arguments);
+    }
     let budget = arguments.truth.budget()?;
     let paths: Vec<Option<&PathBuf>> = match arguments.scenes.is_empty() {
         true => vec![None],
@@ -79,6 +92,28 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
         bar.say(&told(scene));
     }
     bar.say(&format!("{}", arguments.output.join(PAGE).display()));
+    Ok(Status::Passed)
+}
+
+/// Measures the papers' own tables.
+fn run_tables(arguments: &Arguments) -> Outcome {
+    let read = |path: &PathBuf| SceneInput::read(Some(path), &arguments.overrides);
+    let built_in = |text: &&str| SceneInput::built_in(text, &arguments.overrides);
+    let inputs: std::result::Result<Vec<SceneInput>, _> = match arguments.scenes.is_empty() {
+        true => DATA_SETS.iter().map(built_in).collect(),
+        false => arguments.scenes.iter().map(read).collect(),
+    };
+    let inputs = inputs?;
+    let batch = Batch::into(&arguments.output)?;
+    let bar = Bar::new();
+    let measured =
+        parallel::with_threads(arguments.threads, || tables::measure(&inputs, arguments.repeat, &bar))?;
+    let measured = measured?;
+    tables::write(&measured, batch)?;
+    for set in &measured.data_sets {
+        bar.say(&tables::told(set));
+    }
+    bar.say(&format!("{}", arguments.output.join("tables.html").display()));
     Ok(Status::Passed)
 }
 

@@ -8,9 +8,10 @@ use super::{Exhibit, Metric, Report, SceneReport, exhibit};
 use crate::error::Result;
 use base64::base64;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
+pub(super) use rows::size;
 use rows::table;
 
-const STYLE: &str = include_str!("style.css");
+pub(super) const STYLE: &str = include_str!("style.css");
 const SCRIPT: &str = include_str!("script.js");
 
 /// The bytes of PNG files that a page carries at most: a third more as text.

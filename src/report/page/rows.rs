@@ -83,7 +83,7 @@ fn prepare(times: &Times) -> Markup {
 }
 
 /// Bytes in words.
-fn size(bytes: usize) -> String {
+pub(in super::super) fn size(bytes: usize) -> String {
     match bytes as f64 {
         b if b >= (1 << 20) as f64 => format!("{} MiB", short(b / (1 << 20) as f64)),
         b if b >= 1024.0 => format!("{} KiB", short(b / 1024.0)),

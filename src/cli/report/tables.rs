@@ -1,0 +1,143 @@
+//! `drapery report --tables [SCENE]...`: the papers' own tables.
+
+use crate::cli::bar::Bar;
+use crate::cli::measure::{scene_result, timed};
+use crate::cli::scene_input::SceneInput;
+use drapery::output::Batch;
+use drapery::report::Times;
+use drapery::report::tables::{
+    DataSet, SolutionRow, TABLES_SCHEMA, Tables, VARIANTS, WIDTH_CHANGES, WidthRow, page,
+};
+use drapery::scene::Shape;
+use drapery::space::Plan;
+use drapery::technique::{Stage, clipmap};
+use drapery::{Error, Result};
+
+/// Measures all data sets.
+pub(super) fn measure(inputs: &[SceneInput], repeat: u32, bar: &Bar) -> Result<Tables> {
+    let sets: Result<Vec<DataSet>> = inputs.iter().map(|input| data_set(input, repeat, bar)).collect();
+    Ok(Tables { schema: TABLES_SCHEMA, repeat, data_sets: sets? })
+}
+
+/// Writes all files; they are in their places when it returns.
+pub(super) fn write(tables: &Tables, mut batch: Batch) -> Result<()> {
+    let json = tables.to_json()?;
+    batch.stage("tables.html", |to| to.write_all(page(tables).as_bytes()))?;
+    batch.stage("tables.csv", |to| to.write_all(tables.to_csv().as_bytes()))?;
+    batch.stage("tables.json", |to| to.write_all(json.as_bytes()))?;
+    batch.commit()
+}
+
+/// A data set in some lines, for people.
+pub(super) fn told(set: &DataSet) -> String {
+    let mut text = format!("{}: {} segments", set.scene.name, set.segments);
+    for row in &set.solutions {
+        text.push_str(&format!(
+            "\n  {:<14} {:<8} {:>9.1} MiB  generation {:>8.0} ms  rendering {:>8.0} ms",
+            row.solution,
+            if row.is_combined { "combined" } else { "alone" },
+            row.geometry_bytes as f64 / 1_048_576.0,
+            row.generation_ms.median,
+            row.rendering_ms.median,
+        ));
+    }
+    for row in &set.width_changes {
+        text.push_str(&format!("\n  width: {:>9.2} ms  {}", row.ms.median, row.name));
+    }
+    text
+}
+
+fn data_set(input: &SceneInput, repeat: u32, bar: &Bar) -> Result<DataSet> {
+    let mut stage = input.stage(bar)?;
+    let (mut features, mut segments, mut vertices) = (0, 0, 0);
+    for layer in &stage.scene.layers {
+        for feature in &layer.features {
+            let (parts, is_ring) = match &feature.shape {
+                Shape::Line(parts) if layer.style.line.is_some() => (parts, false),
+                Shape::Polygon(rings) if layer.style.outline.is_some() => (rings, true),
+                _ => continue,
+            };
+            features += 1;
+            vertices += parts.iter().map(Vec::len).sum::<usize>();
+            segments += parts
+                .iter()
+                .map(|p| if is_ring { p.len() } else { p.len().saturating_sub(1) })
+                .sum::<usize>();
+        }
+    }
+    if segments == 0 {
+        return Err(Error::new("there are no lines and no outlines to measure").help(
+            "give a layer `line` or `outline`, or leave the scene out: then there are the paper's data sets",
+        ));
+    }
+    let bounds = stage.mesh.plan_bounds();
+    let size = bounds.max - bounds.min;
+    let middle = Plan::new(bounds.min.x + 0.5 * size.x, bounds.min.y + 0.5 * size.y);
+    let mut solutions = Vec::new();
+    for (k, variant) in VARIANTS.iter().enumerate() {
+        bar.start(&format!("{} {}/{}", variant.solution, k + 1, VARIANTS.len()));
+        change(&mut stage, input, variant.changes)?;
+        let (mut generation, mut rendering) = (Vec::new(), Vec::new());
+        let mut row = None;
+        for _ in 0..repeat {
+            let (prepared, ms) = timed(|| clipmap::Prepare::new(&stage))?;
+            generation.push(ms);
+            let ((tiles, counts), ms) = timed(|| Ok(prepared.reconstruct(middle)))?;
+            rendering.push(ms);
+            let (geometry_bytes, index_bytes) = prepared.memory();
+            row = Some(SolutionRow {
+                solution: variant.solution.into(),
+                is_combined: variant.is_combined,
+                geometry_bytes,
+                index_bytes,
+                generation_ms: Times::of(Vec::new()),
+                rendering_ms: Times::of(Vec::new()),
+                tiles,
+                line_primitives: counts.lines,
+                quads: counts.quads,
+            });
+        }
+        solutions.extend(row.map(|row| SolutionRow {
+            generation_ms: Times::of(generation),
+            rendering_ms: Times::of(rendering),
+            ..row
+        }));
+    }
+    Ok(DataSet {
+        scene: scene_result(&stage, &input.file),
+        features,
+        segments,
+        vertices,
+        area_km2: size.x * size.y / 1e6,
+        solutions,
+        width_changes: width_changes(&mut stage, input, repeat, bar)?,
+    })
+}
+
+fn width_changes(stage: &mut Stage, input: &SceneInput, repeat: u32, bar: &Bar) -> Result<Vec<WidthRow>> {
+    let mut rows = Vec::new();
+    for way in &WIDTH_CHANGES {
+        bar.start("changing widths");
+        change(stage, input, way.changes)?;
+        let mut prepared = clipmap::Prepare::new(stage)?;
+        let mut times = Vec::new();
+        for _ in 0..repeat {
+            // There and back, so that the next turn finds what this one found.
+            for factor in [1.25, 0.8] {
+                let (is_done, ms) = timed(|| Ok(prepared.change_width(factor)))?;
+                if !is_done {
+                    return Err(Error::internal(format!("widths cannot be changed: {}", way.name)));
+                }
+                times.push(ms);
+            }
+        }
+        rows.push(WidthRow { name: way.name.into(), ms: Times::of(times) });
+    }
+    Ok(rows)
+}
+
+/// The stage with other settings of the technique.
+fn change(stage: &mut Stage, input: &SceneInput, changes: &[&str]) -> Result<()> {
+    stage.scene.technique = input.changed(changes)?.technique;
+    Ok(())
+}
