@@ -144,6 +144,13 @@ impl ViewFrame {
     pub fn lens(&self) -> Lens {
         self.lens
     }
+    /// A pixel's size at a point, metres: grows with the distance from the eye in space (perspective), or is the same everywhere.
+    pub fn pixel_m(&self, at: World) -> f64 {
+        match self.lens {
+            Lens::Central { pixel } => pixel * (at - self.eye).length(),
+            Lens::Parallel { pixel } => pixel,
+        }
+    }
     /// The nearest view depth that is seen.
     pub fn near(&self) -> f64 {
         self.near

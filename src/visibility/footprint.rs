@@ -12,27 +12,45 @@ pub struct PixelFootprint {
     pub dy: DVec2,
 }
 
-impl PixelFootprint {
-    /// The footprint of a screen point on a triangle's plane; `None` for a plane that is seen edge-on.
-    pub fn new(frame: &ViewFrame, at: Screen, triangle: &[World; 3]) -> Option<Self> {
+/// The plane of a triangle as pixels of one view reach over it.
+#[derive(Debug, Clone, Copy)]
+pub struct FootprintPlane<'a> {
+    frame: &'a ViewFrame,
+    normal: DVec3,
+    /// What a ray starts with (parallel) or runs along (central) moves by as the screen point moves a pixel to the right, or down;
+    /// and how far that takes it from the plane.
+    steps: [(DVec3, f64); 2],
+    /// How far the eye is from the plane, along the normal and times its length.
+    distance: f64,
+}
+
+impl<'a> FootprintPlane<'a> {
+    /// The plane of a triangle.
+    pub fn new(frame: &'a ViewFrame, triangle: &[World; 3]) -> Self {
         let [a, b, c] = *triangle;
         let normal = (b - a).cross(c - a);
         let pixel = frame.lens().pixel();
-        // How what a ray starts with (parallel) or runs along (central) moves with the screen point.
-        let steps = [frame.right() * pixel, -frame.up() * pixel];
+        let steps = [frame.right() * pixel, -frame.up() * pixel].map(|step| (step, normal.dot(step)));
+        Self { frame, normal, steps, distance: normal.dot(a - frame.eye()) }
+    }
+
+    /// The footprint of a screen point; `None` where the plane is seen edge-on.
+    #[inline]
+    pub fn footprint(&self, at: Screen) -> Option<PixelFootprint> {
+        let frame = self.frame;
         let (along, reach) = match frame.lens() {
             Lens::Parallel { .. } => (frame.forward(), 1.0),
-            Lens::Central { .. } => {
+            Lens::Central { pixel } => {
                 let x = (at.x - 0.5 * frame.width() as f64) * pixel;
                 let y = (0.5 * frame.height() as f64 - at.y) * pixel;
                 let along = frame.forward() + frame.right() * x + frame.up() * y;
-                (along, normal.dot(a - frame.eye()) / normal.dot(along))
+                (along, self.distance / self.normal.dot(along))
             }
         };
         // The point from + reach * along stays on the plane: what leaves it is taken back along the ray.
-        let moved = |step: DVec3| (step - along * (normal.dot(step) / normal.dot(along))) * reach;
-        let [dx, dy] = steps.map(|step| moved(step).truncate());
-        (dx.is_finite() && dy.is_finite()).then_some(Self { dx, dy })
+        let back = along.truncate() / self.normal.dot(along);
+        let [dx, dy] = self.steps.map(|(step, leaves)| (step.truncate() - back * leaves) * reach);
+        (dx.is_finite() && dy.is_finite()).then_some(PixelFootprint { dx, dy })
     }
 }
 
@@ -67,7 +85,7 @@ mod tests {
             for at in [Screen::new(100.5, 300.25), Screen::new(320.0, 240.0), Screen::new(600.0, 470.0)] {
                 let plan =
                     |x: f64, y: f64| hit(&frame, &frame.ray(Screen::new(at.x + x, at.y + y)), &triangle).plan;
-                let footprint = PixelFootprint::new(&frame, at, &triangle).unwrap();
+                let footprint = FootprintPlane::new(&frame, &triangle).footprint(at).unwrap();
                 let h = 1e-4;
                 let dx = (plan(h, 0.0) - plan(-h, 0.0)) / (2.0 * h);
                 let dy = (plan(0.0, h) - plan(0.0, -h)) / (2.0 * h);
@@ -82,6 +100,6 @@ mod tests {
         let frame = views()[1];
         let eye = frame.eye();
         let triangle = [eye, eye + frame.forward() * 100.0, eye + (frame.forward() + frame.up()) * 100.0];
-        assert_eq!(PixelFootprint::new(&frame, Screen::new(320.0, 240.0), &triangle), None);
+        assert_eq!(FootprintPlane::new(&frame, &triangle).footprint(Screen::new(320.0, 240.0)), None);
     }
 }

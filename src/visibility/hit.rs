@@ -1,7 +1,7 @@
 //! The surface point of a sample whose triangle is known.
 
 use crate::predicate::TrianglePlane;
-use crate::space::{Lens, Plan, Ray, ViewFrame, World};
+use crate::space::{Plan, Ray, ViewFrame, World};
 
 /// Where a ray meets the terrain.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -12,17 +12,6 @@ pub struct Hit {
     pub height: f64,
     /// View depth in metres.
     pub depth: f64,
-}
-
-impl Hit {
-    /// A pixel's size there, metres: grows with the distance from the eye in space (perspective), or is the same everywhere.
-    pub fn pixel_m(&self, frame: &ViewFrame) -> f64 {
-        let at = World::new(self.plan.x, self.plan.y, self.height);
-        match frame.lens() {
-            Lens::Central { pixel } => pixel * (at - frame.eye()).length(),
-            Lens::Parallel { pixel } => pixel,
-        }
-    }
 }
 
 /// Where a ray meets a triangle's plane.

@@ -11,7 +11,7 @@ mod hit;
 mod sight;
 
 pub use device::{Machine, see_on_device};
-pub use footprint::PixelFootprint;
+pub use footprint::{FootprintPlane, PixelFootprint};
 pub use hit::{Hit, hit};
 pub use sight::Sight;
 

@@ -10,10 +10,10 @@ use crate::error::Result;
 use crate::parallel;
 use crate::raster::Lattice;
 use crate::resolve::{Compositor, GroundPaint, Paint, code_values};
-use crate::space::{Plan, ViewFrame};
+use crate::space::{Plan, ViewFrame, World};
 use crate::technique::{Frame, FrameOptions};
 use crate::terrain::SKY;
-use crate::visibility::{Hit, PixelFootprint, Sight};
+use crate::visibility::{FootprintPlane, Hit, Sight};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -55,13 +55,23 @@ struct Table {
     levels: Vec<((u32, u32), u32, Vec<Option<Arc<Tile>>>)>,
 }
 
-/// What a row of pixels asks of the texture.
+/// What a row of pixels sees, and asks of the texture.
 #[derive(Default)]
-struct Asked {
-    /// Its tiles, each once, in order.
+struct Seen {
+    /// Its pixels.
+    looks: Vec<Option<Look>>,
+    /// Their tiles, each once, in order.
     keys: Vec<TileKey>,
     /// Pixels that read a coarser level than they ask for.
     fallbacks: u64,
+}
+
+/// What a pixel sees, and where it reads the texture.
+#[derive(Clone, Copy)]
+struct Look {
+    triangle: u32,
+    plan: Plan,
+    probes: Probes,
 }
 
 /// A row of finished pixels.
@@ -91,6 +101,9 @@ struct Wanted {
     texels: bool,
     tiles: bool,
 }
+
+/// Pixels whose [`Look`]s are in memory together, unless a row has more.
+const PIXELS_AT_A_TIME: usize = 1 << 20;
 
 /// A tile that no pixel has.
 const NO_TILE: TileKey = TileKey { level: u32::MAX, row: 0, column: 0 };
@@ -147,19 +160,20 @@ impl<'a> Drawing<'a> {
     fn new(prepared: &'a Prepare, view: &'a ViewFrame, sight: Sight<'a>, options: &FrameOptions) -> Self {
         let stage = prepared.stage;
         let (scene, settings) = (&stage.scene, prepared.settings);
-        let nearest = nearest(&sight);
+        let nearest = nearest(&sight, view);
         let center = match settings.center {
             Some([x, y]) => Plan::new(x - scene.origin.x, y - scene.origin.y),
-            None => nearest.map_or_else(Plan::default, |hit| hit.plan),
+            None => nearest.map_or_else(Plan::default, World::plan),
         };
         let region = ClipRegion::new(&prepared.texture, center, settings.clip_size);
-        let middle = sight.hit(view.width() / 2, view.height() / 2).or(nearest);
+        let middle = sight.hit(view.width() / 2, view.height() / 2);
+        let middle = middle.map(|Hit { plan, height, .. }| World::new(plan.x, plan.y, height)).or(nearest);
         let compositor = Compositor::new(scene.compositing);
         Self {
             prepared,
             view,
             sampler: Sampler::new(prepared.texture, &region, &settings, &scene.device),
-            maker: prepared.maker(middle.map_or(1.0, |hit| hit.pixel_m(view))),
+            maker: prepared.maker(middle.map_or(1.0, |at| view.pixel_m(at))),
             region,
             compositor,
             ground: GroundPaint::new(&scene.ground, &stage.mesh, compositor),
@@ -170,36 +184,42 @@ impl<'a> Drawing<'a> {
     }
 
     fn frame(&self, options: &FrameOptions) -> Result<(Frame, CacheCounts)> {
-        let asked = parallel::map_indices(self.view.height(), |y| self.asked(y));
-        (options.progress)(0.3);
         let budget = self.prepared.budget();
         let mut cache = self.prepared.take_cache();
         cache.prepare(self.maker.pixel_m, &self.region);
         let (mut cached, mut rows, mut made) = (CacheCounts::default(), Vec::new(), Vec::new());
-        for pass in passes(&asked, budget / self.prepared.settings.tile_bytes()) {
-            let keys = union(&asked[pass.clone()]);
-            let done = AtomicUsize::new(0);
-            let tiles = cache.tiles(&keys, budget, &mut cached, |missing| {
-                self.make(missing, &|| {
-                    let share = done.fetch_add(1, Ordering::Relaxed) as f64 / missing.len() as f64;
-                    let before = pass.start as f64 + 0.8 * share * pass.len() as f64;
-                    (options.progress)(0.3 + 0.7 * before / asked.len() as f64);
-                })
-            });
-            // Without a use for its texels, the cache may give a tile up.
-            let is_kept = self.wants.tiles;
-            made.extend(keys.iter().zip(&tiles).map(|(key, tile)| Made {
-                key: *key,
-                counts: tile.counts,
-                tile: is_kept.then(|| Arc::clone(tile)),
-            }));
-            let table = Table::new(&keys, tiles, self.prepared.texture.levels());
-            rows.extend(parallel::map_indices(pass.len(), |k| self.row(pass.start + k, &table)));
+        let mut fallbacks = 0;
+        let (width, height) = (self.view.width(), self.view.height());
+        let band = (PIXELS_AT_A_TIME / width).max(1);
+        for first in (0..height).step_by(band) {
+            let seen = parallel::map_indices(band.min(height - first), |k| self.seen(first + k));
+            fallbacks += seen.iter().map(|row| row.fallbacks).sum::<u64>();
+            for pass in passes(&seen, budget / self.prepared.settings.tile_bytes()) {
+                let seen = &seen[pass.clone()];
+                let keys = union(seen);
+                let done = AtomicUsize::new(0);
+                let tiles = cache.tiles(&keys, budget, &mut cached, |missing| {
+                    self.make(missing, &|| {
+                        let share = done.fetch_add(1, Ordering::Relaxed) as f64 / missing.len() as f64;
+                        let before = (first + pass.start) as f64 + 0.8 * share * pass.len() as f64;
+                        (options.progress)(0.2 + 0.8 * before / height as f64);
+                    })
+                });
+                // Without a use for its texels, the cache may give a tile up.
+                let is_kept = self.wants.tiles;
+                made.extend(keys.iter().zip(&tiles).map(|(key, tile)| Made {
+                    key: *key,
+                    counts: tile.counts,
+                    tile: is_kept.then(|| Arc::clone(tile)),
+                }));
+                let table = Table::new(&keys, tiles, self.prepared.texture.levels());
+                rows.extend(parallel::map(seen, |row| self.row(row, &table)));
+            }
         }
         self.prepared.return_cache(cache);
         made.sort_by_key(|tile| tile.key);
         made.dedup_by_key(|tile| tile.key);
-        Ok((self.finish(rows, &made, &asked, options)?, cached))
+        Ok((self.finish(rows, &made, fallbacks, options)?, cached))
     }
 
     fn make(&self, keys: &[TileKey], done: &(dyn Fn() + Sync)) -> Vec<Tile> {
@@ -211,50 +231,59 @@ impl<'a> Drawing<'a> {
         parallel::map_with(keys, || None, make)
     }
 
-    /// What a pixel sees, and where it reads the texture.
-    fn look(&self, x: usize, y: usize) -> Option<(u32, Hit, Probes)> {
-        let id = self.sight.triangle(x, y);
-        let hit = (id != SKY).then(|| self.sight.hit(x, y)).flatten()?;
-        let triangle = self.prepared.stage.mesh.triangle(id)?;
-        let at = self.sight.lattice().at(x, y);
-        let footprint = PixelFootprint::new(self.view, at, &triangle);
-        Some((id, hit, self.sampler.probes(hit.plan, footprint.as_ref())))
-    }
-
-    /// The tiles that a row of pixels touches.
-    fn asked(&self, y: usize) -> Asked {
-        let mut asked = Asked::default();
-        let mut last = [NO_TILE; 2];
-        for x in 0..self.view.width() {
-            let Some((_, _, probes)) = self.look(x, y) else { continue };
+    /// What a row of pixels sees and asks for.
+    fn seen(&self, y: usize) -> Seen {
+        let width = self.view.width();
+        let mut points = vec![Plan::default(); width];
+        self.sight.plan_of_row(y, &mut points);
+        let mut seen = Seen { looks: Vec::with_capacity(width), ..Seen::default() };
+        // Neighbours often see the same triangle, and touch the same tiles.
+        let mut plane = None;
+        let mut last = [NO_TILE; 4];
+        for (x, plan) in points.into_iter().enumerate() {
+            let triangle = self.sight.triangle(x, y);
+            if triangle == SKY || !plan.is_finite() {
+                seen.looks.push(None);
+                continue;
+            }
+            if plane.as_ref().is_none_or(|(of, _)| *of != triangle) {
+                let corners = self.prepared.stage.mesh.triangle(triangle);
+                plane = Some((triangle, corners.map(|corners| FootprintPlane::new(self.view, &corners))));
+            }
+            let at = self.sight.lattice().at(x, y);
+            let footprint = plane.as_ref().and_then(|(_, plane)| plane.as_ref()?.footprint(at));
+            let probes = self.sampler.probes(plan, footprint.as_ref());
             let mut is_coarser = false;
             self.sampler.quads(&probes, &mut |quad| {
                 is_coarser |= f64::from(quad.level) > probes.level + 1.0;
-                let more = i64::from(quad.shares.is_some());
-                for (dx, dy) in [(0, 0), (more, 0), (0, more), (more, more)] {
-                    let (key, _) = self.sampler.tile_of(quad.level, quad.at.0 + dx, quad.at.1 + dy);
-                    if !last.contains(&key) {
-                        asked.keys.push(key);
-                        last = [key, last[0]];
+                let tiles = self.sampler.tiles_of(&quad);
+                for row in tiles.rows.0..=tiles.rows.1 {
+                    for column in tiles.columns.0..=tiles.columns.1 {
+                        let key = TileKey { level: quad.level, row, column };
+                        if !last.contains(&key) {
+                            seen.keys.push(key);
+                            last = [key, last[0], last[1], last[2]];
+                        }
                     }
                 }
             });
-            asked.fallbacks += u64::from(is_coarser);
+            seen.fallbacks += u64::from(is_coarser);
+            seen.looks.push(Some(Look { triangle, plan, probes }));
         }
-        asked.keys.sort_unstable();
-        asked.keys.dedup();
-        asked
+        seen.keys.sort_unstable();
+        seen.keys.dedup();
+        seen
     }
 
-    fn row(&self, y: usize, table: &Table) -> Row {
+    fn row(&self, seen: &Seen, table: &Table) -> Row {
         let mut row = Row::default();
+        row.image.reserve(seen.looks.len());
         let mut last = (self.sky, code_values(self.compositor.encoded(self.sky)));
-        for x in 0..self.view.width() {
-            let look = self.look(x, y);
+        for look in &seen.looks {
             let (mut paint, mut texels) = (self.sky, 0);
-            if let Some((id, hit, probes)) = &look {
+            if let Some(Look { triangle, plan, probes }) = look {
                 let texture = self.texture_at(probes, table, &mut texels);
-                paint = self.compositor.over(self.ground.at(*id, hit.plan), texture);
+                paint = self.compositor.over(self.ground.at(*triangle, *plan), texture);
             }
             if paint != last.0 {
                 last = (paint, code_values(self.compositor.encoded(paint)));
@@ -265,10 +294,10 @@ impl<'a> Drawing<'a> {
                 row.texels.push(texels);
             }
             if self.wants.levels {
-                row.levels.push(look.as_ref().map_or(f64::INFINITY, |(_, _, probes)| probes.level));
+                row.levels.push(look.map_or(f64::INFINITY, |look| look.probes.level));
             }
             if self.wants.tile {
-                row.tiles.push(look.map_or(NO_TILE, |(_, hit, probes)| self.shown_tile(hit.plan, &probes)));
+                row.tiles.push(look.map_or(NO_TILE, |look| self.shown_tile(&look)));
             }
             if self.wants.colors {
                 row.colors.extend(self.compositor.encoded(paint));
@@ -278,34 +307,49 @@ impl<'a> Drawing<'a> {
     }
 
     /// The finest tile that a pixel reads at its centre.
-    fn shown_tile(&self, at: Plan, probes: &Probes) -> TileKey {
+    fn shown_tile(&self, look: &Look) -> TileKey {
         let mut finest: Option<Quad> = None;
-        self.sampler.quads(probes, &mut |quad| {
+        self.sampler.quads(&look.probes, &mut |quad| {
             finest = Some(finest.filter(|known| known.level <= quad.level).unwrap_or(quad));
         });
         let level = finest.map_or(0, |quad| quad.level);
-        let texel = self.prepared.texture.texel(level, at);
+        let texel = self.prepared.texture.texel(level, look.plan);
         self.sampler.tile_of(level, texel.x.floor() as i64, texel.y.floor() as i64).0
     }
 
     /// The texture's paint where a pixel reads it.
     fn texture_at(&self, probes: &Probes, table: &Table, texels: &mut u32) -> Paint {
         let mut sum = [0.0; 4];
-        let mut add = |level: u32, column: i64, row: i64, weight: f64| {
-            let (key, place) = self.sampler.tile_of(level, column, row);
-            *texels += 1;
-            if let Some(tile) = table.get(key) {
-                let texel = tile.at(place.0, place.1);
-                sum.iter_mut().zip(texel).for_each(|(sum, v)| *sum += weight * f64::from(v));
+        let mut add = |texel: [f32; 4], weight: f64| {
+            for k in 0..4 {
+                sum[k] += weight * f64::from(texel[k]);
             }
         };
-        self.sampler.quads(probes, &mut |Quad { level, at: (column, row), shares, weight }| match shares {
-            None => add(level, column, row, weight),
-            Some((east, south)) => {
-                add(level, column, row, weight * (1.0 - east) * (1.0 - south));
-                add(level, column + 1, row, weight * east * (1.0 - south));
-                add(level, column, row + 1, weight * (1.0 - east) * south);
-                add(level, column + 1, row + 1, weight * east * south);
+        self.sampler.quads(probes, &mut |Quad { level, at: (column, row), shares, weight }| {
+            let (key, (c, r)) = self.sampler.tile_of(level, column, row);
+            let Some((east, south)) = shares else {
+                *texels += 1;
+                table.get(key).into_iter().for_each(|tile| add(tile.at(c, r), weight));
+                return;
+            };
+            *texels += 4;
+            let weights = [
+                weight * (1.0 - east) * (1.0 - south),
+                weight * east * (1.0 - south),
+                weight * (1.0 - east) * south,
+                weight * east * south,
+            ];
+            // Mostly all four lie in one tile, away from the texture's rim.
+            if column >= 0 && row >= 0 && c + 1 < TILE && r + 1 < TILE {
+                if let Some(tile) = table.get(key).filter(|tile| c + 1 < tile.size && r + 1 < tile.size) {
+                    let places = [(c, r), (c + 1, r), (c, r + 1), (c + 1, r + 1)];
+                    places.into_iter().zip(weights).for_each(|((c, r), weight)| add(tile.at(c, r), weight));
+                    return;
+                }
+            }
+            for ((dx, dy), weight) in [(0, 0), (1, 0), (0, 1), (1, 1)].into_iter().zip(weights) {
+                let (key, (c, r)) = self.sampler.tile_of(level, column + dx, row + dy);
+                table.get(key).into_iter().for_each(|tile| add(tile.at(c, r), weight));
             }
         });
         Paint(sum)
@@ -315,19 +359,19 @@ impl<'a> Drawing<'a> {
         &self,
         rows: Vec<Row>,
         made: &[Made],
-        asked: &[Asked],
+        fallbacks: u64,
         options: &FrameOptions,
     ) -> Result<Frame> {
         let (width, height) = (self.view.width(), self.view.height());
         let planes: Result<Vec<Option<Plane>>> =
             options.buffers.iter().map(|name| self.plane(name, &rows, made)).collect();
-        let counts = self.counts(&rows, made, asked);
+        let counts = self.counts(&rows, made, fallbacks);
         let image = rows.into_iter().flat_map(|row| row.image).collect();
         let planes = planes?.into_iter().flatten().collect();
         Ok(Frame { image: Buffer::from_values(width, height, image), planes, counts })
     }
 
-    fn counts(&self, rows: &[Row], made: &[Made], asked: &[Asked]) -> Vec<(&'static str, u64)> {
+    fn counts(&self, rows: &[Row], made: &[Made], fallbacks: u64) -> Vec<(&'static str, u64)> {
         let drawn = made.iter().fold(TileCounts::default(), |sum, tile| sum.plus(tile.counts));
         let texels = rows.iter().map(|row| row.texels_read).sum();
         let seen = self.sight.counts();
@@ -337,7 +381,7 @@ impl<'a> Drawing<'a> {
             ("finest_level", u64::from(levels.clone().min().unwrap_or(0))),
             ("coarsest_level", u64::from(levels.max().unwrap_or(0))),
             ("texels_read", texels),
-            ("fallbacks", asked.iter().map(|row| row.fallbacks).sum()),
+            ("fallbacks", fallbacks),
             ("line_primitives", drawn.lines),
             ("wide_items", drawn.wide_items),
             ("quads", drawn.quads),
@@ -420,31 +464,34 @@ impl<'a> Drawing<'a> {
 }
 
 /// The surface point that is nearest to the eye's plane, of equals the first.
-fn nearest(sight: &Sight) -> Option<Hit> {
-    let lattice = *sight.lattice();
-    let nearer = |best: Option<Hit>, hit: Hit| match best {
-        Some(best) if best.depth <= hit.depth => Some(best),
-        _ => Some(hit),
+fn nearest(sight: &Sight, view: &ViewFrame) -> Option<World> {
+    let nearer = |best: Option<(f64, World)>, (depth, at): (f64, World)| match best {
+        Some(best) if best.0 <= depth => Some(best),
+        _ => Some((depth, at)),
     };
+    let lattice = *sight.lattice();
     let rows = parallel::map_indices(lattice.rows, |row| {
-        (0..lattice.columns).filter_map(|column| sight.hit(column, row)).fold(None, nearer)
+        let mut points = vec![World::default(); lattice.columns];
+        sight.world_of_row((0, row), &mut points);
+        let points = points.into_iter().filter(|at| at.is_finite());
+        points.map(|at| (view.depth(at), at)).fold(None, nearer)
     });
-    rows.into_iter().flatten().fold(None, nearer)
+    rows.into_iter().flatten().fold(None, nearer).map(|(_, at)| at)
 }
 
 /// The tiles of some rows, each once, in order.
-fn union(asked: &[Asked]) -> Vec<TileKey> {
-    let mut keys: Vec<TileKey> = asked.iter().flat_map(|row| row.keys.iter().copied()).collect();
+fn union(seen: &[Seen]) -> Vec<TileKey> {
+    let mut keys: Vec<TileKey> = seen.iter().flat_map(|row| row.keys.iter().copied()).collect();
     keys.sort_unstable();
     keys.dedup();
     keys
 }
 
 /// Rows of pixels that are coloured together: as many as touch no more than so many tiles, at least one.
-fn passes(asked: &[Asked], tiles: usize) -> Vec<std::ops::Range<usize>> {
+fn passes(seen: &[Seen], tiles: usize) -> Vec<std::ops::Range<usize>> {
     let mut passes = Vec::new();
     let (mut start, mut keys): (usize, Vec<TileKey>) = (0, Vec::new());
-    for (y, row) in asked.iter().enumerate() {
+    for (y, row) in seen.iter().enumerate() {
         let mut with_row = [&keys[..], &row.keys].concat();
         with_row.sort_unstable();
         with_row.dedup();
@@ -454,6 +501,6 @@ fn passes(asked: &[Asked], tiles: usize) -> Vec<std::ops::Range<usize>> {
         }
         keys = with_row;
     }
-    passes.push(start..asked.len());
+    passes.push(start..seen.len());
     passes
 }

@@ -52,6 +52,13 @@ pub(super) struct Quad {
     pub(super) weight: f64,
 }
 
+/// The first and the last column and row of the tiles that texels lie in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct TilesOf {
+    pub(super) columns: (u32, u32),
+    pub(super) rows: (u32, u32),
+}
+
 impl Sampler {
     pub(super) fn new(
         texture: VirtualTexture,
@@ -137,7 +144,7 @@ impl Sampler {
         let mut level = level;
         loop {
             let scale = 1.0 / power_of_two(level);
-            let place = ((at.x * scale).floor() as i64, (at.y * scale).floor() as i64);
+            let place = (floor(at.x * scale), floor(at.y * scale));
             if self.is_at_hand(level, place, (0, 0)) || level + 1 >= self.texture.levels() {
                 return Quad { level, at: place, shares: None, weight };
             }
@@ -151,11 +158,10 @@ impl Sampler {
         loop {
             let scale = 1.0 / power_of_two(level);
             let (x, y) = (at.x * scale - 0.5, at.y * scale - 0.5);
-            let (column, row) = (x.floor(), y.floor());
-            let place = (column as i64, row as i64);
+            let place = (floor(x), floor(y));
             if self.is_at_hand(level, place, (1, 1)) || level + 1 >= self.texture.levels() {
-                let shares = Some((self.rounded(x - column), self.rounded(y - row)));
-                return Quad { level, at: place, shares, weight };
+                let shares = (self.rounded(x - place.0 as f64), self.rounded(y - place.1 as f64));
+                return Quad { level, at: place, shares: Some(shares), weight };
             }
             level += 1;
         }
@@ -175,6 +181,15 @@ impl Sampler {
         v.clamp(0, i64::from(self.texture.size(level)) - 1)
     }
 
+    /// The tiles of texels that are read together.
+    #[inline]
+    pub(super) fn tiles_of(&self, quad: &Quad) -> TilesOf {
+        let more = i64::from(quad.shares.is_some());
+        let (west, north) = quad.at;
+        let tile = |v: i64| (self.clamped(quad.level, v) as usize / TILE) as u32;
+        TilesOf { columns: (tile(west), tile(west + more)), rows: (tile(north), tile(north + more)) }
+    }
+
     /// The tile of a texel, and the texel's place in it.
     #[inline]
     pub(super) fn tile_of(&self, level: u32, column: i64, row: i64) -> (TileKey, (usize, usize)) {
@@ -182,6 +197,13 @@ impl Sampler {
         let key = TileKey { level, row: (row / TILE) as u32, column: (column / TILE) as u32 };
         (key, (column % TILE, row % TILE))
     }
+}
+
+/// The floor of a place in the texture, without a call for each texel.
+#[inline]
+fn floor(v: f64) -> i64 {
+    let truncated = v as i64;
+    truncated - i64::from(v < truncated as f64)
 }
 
 /// The long half axis of the ellipse that a footprint is, doubled, and the length of the short one: the singular values of the
