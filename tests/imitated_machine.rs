@@ -15,7 +15,7 @@ const FORMATS: [DepthFormat; 4] =
 const DOUBLE: Device = device(Precision::F64, 0, DepthFormat::F32Reversed);
 
 const fn device(precision: Precision, subpixel_bits: u32, depth: DepthFormat) -> Device {
-    Device { precision, subpixel_bits, depth, stencil_bits: 8, max_line_width_px: 10.0 }
+    Device { precision, subpixel_bits, depth, stencil_bits: 8, max_line_width_px: 10.0, filter_bits: 0 }
 }
 
 /// Every precision, snapping and depth buffer.

@@ -1,32 +1,14 @@
 //! Stencil volumes (Schneider & Klein 2007) on scenes whose answer is known, and the failures that the paper warns of, made on purpose.
 
+mod drawing;
+
 use drapery::buffer::Values;
-use drapery::compare::{Difference, Image, Metrics};
-use drapery::report;
-use drapery::scene::file::{Override, SceneFile};
-use drapery::technique::{self, Frame, FrameOptions, Kind, Stage};
-use drapery::truth::{self, Budget};
-
-/// A scene of 96 x 64 pixels over a terrain, with these layers and other keys.
-fn scene(terrain: &str, camera: &str, more: &str) -> String {
-    format!(
-        "schema = 1\nimage = {{ width = 96, height = 64, background = \"#0000ff\" }}\n\
-         terrain = {{ generate = {{ {terrain} }}, color = \"#ffffff\" }}\ncamera = {{ {camera} }}\n{more}"
-    )
-}
-
-fn stage(text: &str, changes: &[&str]) -> Stage {
-    let changes: Vec<Override> = changes.iter().map(|c| Override::parse(c).unwrap()).collect();
-    let file = SceneFile::parse(text, None, &changes).unwrap_or_else(|e| panic!("{e}"));
-    let (scene, surface) = drapery::source::load::load(&file, &|_| {}).unwrap_or_else(|e| panic!("{e}"));
-    Stage::new(scene, surface).unwrap_or_else(|e| panic!("{e}"))
-}
+use drapery::compare::{Image, Metrics};
+use drapery::technique::{self, Frame, FrameOptions, Kind};
+use drawing::{count, scene, stage};
 
 fn frame(text: &str, changes: &[&str], buffers: &[&str]) -> Frame {
-    let stage = stage(text, changes);
-    let prepared = technique::prepare(Kind::StencilVolume, &stage).unwrap_or_else(|e| panic!("{e}"));
-    let buffers: Vec<String> = buffers.iter().map(|b| (*b).to_owned()).collect();
-    prepared.frame(&FrameOptions { tile: 128, buffers: &buffers, progress: &|_| {} }).unwrap()
+    drawing::frame_of(Kind::StencilVolume, &stage(text, changes), buffers)
 }
 
 /// Which pixels show neither bare ground nor sky.
@@ -40,10 +22,6 @@ fn counts_in(frame: &Frame, name: &str) -> Vec<u32> {
         Values::U16(values) => values.iter().map(|v| u32::from(*v)).collect(),
         other => panic!("{name} holds {other:?}"),
     }
-}
-
-fn count(frame: &Frame, name: &str) -> u64 {
-    frame.counts.iter().find(|(known, _)| *known == name).unwrap().1
 }
 
 fn differing(a: &[bool], b: &[bool]) -> usize {
@@ -403,10 +381,10 @@ fn every_buffer_has_the_bits_of_the_last_version_in_every_build() {
 fn against_the_truth(text: &str, changes: &[&str]) -> (Metrics, [f64; 2]) {
     let white = [changes, &["image.background=#ffffff"]].concat();
     let stage = stage(text, &white);
-    let truth = truth::certify(&stage.scene, &stage.mesh, &stage.view, &Budget::default(), &|_| {});
+    let truth = drawing::truth_of(&stage);
     let frame = frame(text, &white, &[]);
     let image = Image::from_rgba8(&frame.image).unwrap();
-    let metrics = Difference::of(&report::expected(&truth).unwrap(), &image).unwrap().metrics(0.0);
+    let metrics = drawing::errors(&truth, &image);
     let [width, height] = [image.width(), image.height()];
     let black = |red: &dyn Fn(usize, usize) -> f64| {
         let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));

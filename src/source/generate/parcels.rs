@@ -28,7 +28,8 @@ pub(super) fn parcels(generator: &VectorGenerator, window: PlanBox) -> Vec<Shape
             + DVec2::new(along * size.x, (coast + 0.4 * from_coast * from_coast * from_coast) * size.y);
         // A whole town is in the window, if it can be: half its diagonal and what its corners move.
         let margin = DVec2::splat(0.75 * side).min(size * 0.5);
-        let middle = Plan::from(middle.to_vec().clamp(window.min.to_vec() + margin, window.max.to_vec() - margin));
+        let middle =
+            Plan::from(middle.to_vec().clamp(window.min.to_vec() + margin, window.max.to_vec() - margin));
         let town = Town {
             middle,
             step: direction(&mut random) * (side / SIDE as f64),

@@ -355,13 +355,7 @@ impl<'a> Drawing<'a> {
         Paint(sum)
     }
 
-    fn finish(
-        &self,
-        rows: Vec<Row>,
-        made: &[Made],
-        fallbacks: u64,
-        options: &FrameOptions,
-    ) -> Result<Frame> {
+    fn finish(&self, rows: Vec<Row>, made: &[Made], fallbacks: u64, options: &FrameOptions) -> Result<Frame> {
         let (width, height) = (self.view.width(), self.view.height());
         let planes: Result<Vec<Option<Plane>>> =
             options.buffers.iter().map(|name| self.plane(name, &rows, made)).collect();

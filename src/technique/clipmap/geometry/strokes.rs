@@ -248,10 +248,14 @@ impl Strokes {
                 let (part, place) = self.chunks[chunk];
                 let (item, is_loop) = self.part_items[part as usize];
                 let vertices = self.vertices_of(part as usize);
-                if let Some(style) = style_of(item).filter(|style| style.keep == Keep::Both) {
-                    let line = Polyline { vertices, is_loop };
-                    let first = place as usize * CHUNK;
-                    made.store(&line, first..line.segments().min(first + CHUNK), &style);
+                match style_of(item).filter(|style| style.keep == Keep::Both) {
+                    Some(style) => {
+                        let line = Polyline { vertices, is_loop };
+                        let first = place as usize * CHUNK;
+                        made.store(&line, first..line.segments().min(first + CHUNK), &style);
+                    }
+                    // A chunk without strips: its width is in pixels.
+                    None => made.chunk_strips.push(made.strip_ends.len() as u32),
                 }
             }
             made
