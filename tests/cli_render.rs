@@ -163,7 +163,8 @@ fn the_result_has_every_field_of_the_contract_and_no_path_of_the_machine() {
             "subpixel_bits": 0,
             "depth": "f32-reversed",
             "stencil_bits": 8,
-            "max_line_width_px": 10.0
+            "max_line_width_px": 10.0,
+            "filter_bits": 0
         });
         assert_eq!(run["device"], device);
         assert_eq!((&run["image"]["width"], &run["image"]["height"]), (&96.into(), &64.into()));

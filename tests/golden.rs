@@ -68,7 +68,8 @@ fn names(folder: &tempfile::TempDir) -> Vec<String> {
 /// Changes a byte of the hash that the manifest has of a buffer.
 fn forge(folder: &Path, buffer: &str) {
     let manifest = fs::read_to_string(folder.join("manifest.toml")).unwrap();
-    let start = manifest.find(&format!("buffer = \"{buffer}\", blake3 = \"")).unwrap();
+    let from = manifest.find("technique = \"inverse-projection\"").unwrap();
+    let start = from + manifest[from..].find(&format!("buffer = \"{buffer}\", blake3 = \"")).unwrap();
     let at = start + manifest[start..].find("blake3 = \"").unwrap() + 10;
     let other = if manifest.as_bytes()[at] == b'0' { "1" } else { "0" };
     write(folder, "manifest.toml", &format!("{}{other}{}", &manifest[..at], &manifest[at + 1..]));

@@ -14,8 +14,8 @@ use std::sync::Arc;
 pub(super) struct TileCache {
     slots: BTreeMap<(u32, u32, u32), Slot>,
     bytes: usize,
-    /// What all tiles depend on but their keys: the bits of a pixel's size in metres.
-    made_for: Option<(u64, ClipRegion)>,
+    /// What all tiles depend on but their keys: a pixel's size in metres, if any width follows it; and the region of their slots.
+    made_for: Option<(Option<f64>, ClipRegion)>,
     /// Counts uses, to know the oldest.
     clock: u64,
 }
@@ -39,16 +39,14 @@ pub struct CacheCounts {
 }
 
 impl TileCache {
-    /// Gets ready for frames whose widths in pixels have a size in metres, around a region; tiles that were made for another size
+    /// Gets ready for frames around a region, with a pixel's size in metres if any width follows it; tiles that were made for another size
     /// are of no use, nor are slots of a region of another size.
-    pub(super) fn prepare(&mut self, pixel_m: f64, region: &ClipRegion) {
-        let is_same =
-            |(bits, known): &(u64, ClipRegion)| *bits == pixel_m.to_bits() && known.side() == region.side();
-        if !self.made_for.as_ref().is_some_and(is_same) {
+    pub(super) fn prepare(&mut self, pixel_m: Option<f64>, region: &ClipRegion) {
+        if !self.made_for.is_some_and(|(known, of)| known == pixel_m && of.side() == region.side()) {
             self.slots.clear();
             self.bytes = 0;
         }
-        self.made_for = Some((pixel_m.to_bits(), *region));
+        self.made_for = Some((pixel_m, *region));
     }
 
     /// The tiles of some keys, in their order: those that are there, the others made by `make`, all at once. When they
@@ -142,7 +140,7 @@ mod tests {
     #[test]
     fn a_tile_is_made_once() {
         let mut cache = TileCache::default();
-        cache.prepare(1.0, &region(2048.0));
+        cache.prepare(Some(1.0), &region(2048.0));
         assert_eq!(
             ask(&mut cache, &[key(7, 7), key(8, 7)], 1000),
             CacheCounts { made: 2, found: 0, evicted: 0 }
@@ -151,14 +149,14 @@ mod tests {
             ask(&mut cache, &[key(7, 7), key(8, 8)], 1000),
             CacheCounts { made: 1, found: 1, evicted: 0 }
         );
-        cache.prepare(2.0, &region(2048.0));
+        cache.prepare(Some(2.0), &region(2048.0));
         assert_eq!(ask(&mut cache, &[key(7, 7)], 1000).made, 1, "another width, another tile");
     }
 
     #[test]
     fn a_budget_keeps_what_was_used_last_and_all_that_is_in_use() {
         let mut cache = TileCache::default();
-        cache.prepare(1.0, &region(2048.0));
+        cache.prepare(Some(1.0), &region(2048.0));
         ask(&mut cache, &[key(6, 6)], 32);
         ask(&mut cache, &[key(7, 7)], 32);
         ask(&mut cache, &[key(6, 6)], 32);
@@ -172,10 +170,10 @@ mod tests {
     #[test]
     fn a_region_that_moves_replaces_the_tiles_that_leave_it() {
         let mut cache = TileCache::default();
-        cache.prepare(1.0, &region(2048.0));
+        cache.prepare(Some(1.0), &region(2048.0));
         // Columns 6 to 9 are at hand; then 7 to 10, and column 10 has the slots of column 6.
         ask(&mut cache, &[key(6, 7), key(7, 7)], 1000);
-        cache.prepare(1.0, &region(2304.0));
+        cache.prepare(Some(1.0), &region(2304.0));
         assert_eq!(
             ask(&mut cache, &[key(7, 7), key(10, 7)], 1000),
             CacheCounts { made: 1, found: 1, evicted: 1 }

@@ -186,7 +186,7 @@ impl<'a> Drawing<'a> {
     fn frame(&self, options: &FrameOptions) -> Result<(Frame, CacheCounts)> {
         let budget = self.prepared.budget();
         let mut cache = self.prepared.take_cache();
-        cache.prepare(self.maker.pixel_m, &self.region);
+        cache.prepare(self.maker.followed_pixel_m(), &self.region);
         let (mut cached, mut rows, mut made) = (CacheCounts::default(), Vec::new(), Vec::new());
         let mut fallbacks = 0;
         let (width, height) = (self.view.width(), self.view.height());

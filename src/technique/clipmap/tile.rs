@@ -194,12 +194,24 @@ impl TileMaker<'_> {
         }
     }
 
+    /// The looks of all strokes.
+    fn styles(&self) -> impl Iterator<Item = &StrokeStyle> {
+        self.geometry.layers().iter().flat_map(|layer| layer.outline.iter().chain(&layer.line))
+    }
+
+    /// A pixel's size, if the width of any stroke follows it.
+    pub(super) fn followed_pixel_m(&self) -> Option<f64> {
+        let mut widths = self.styles().map(|style| style.width);
+        let is_followed = self.settings.pixel_width == PixelWidth::Distance
+            && widths.any(|width| matches!(width, Width::Pixels(_)));
+        is_followed.then_some(self.pixel_m)
+    }
+
     /// How far from their vertices strokes may reach in a level, metres.
     fn reach_m(&self, level: u32) -> f64 {
-        let styles = self.geometry.layers().iter().flat_map(|layer| layer.outline.iter().chain(&layer.line));
         let reach = |style: &StrokeStyle| 0.5 * self.width_m(style.width, level) * style.reach;
         // A filter around a texel's centre, and a texel for rounding.
-        styles.map(reach).fold(0.0, math::max) + 4.0 * self.texture.texel_m(level)
+        self.styles().map(reach).fold(0.0, math::max) + 4.0 * self.texture.texel_m(level)
     }
 
     /// Makes a tile on a workbench, which is set up anew where tiles are of another size.
