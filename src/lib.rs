@@ -8,9 +8,9 @@
 //! 4. [`raster`] and [`visibility`] find, exactly, which triangle each sample sees, and where;
 //! 5. [`technique`] draws, each beside its paper; [`resolve`] composes colours;
 //! 6. [`output`] writes pictures, buffers and numbers;
-//! 7. [`compare`] says how far a picture is from what is expected; [`golden`] replays what is known.
-//! 7. [`compare`] says how far a picture is from what is expected;
-//! 8. [`report`] sets that against time, beside the [`truth`] and plain supersampling ([`sampling`]).
+//! 7. [`compare`] says how far a picture is from what is expected; [`golden`] replays what is known;
+//! 8. [`report`] sets that against time, beside the [`truth`] and plain supersampling ([`sampling`]);
+//! 9. [`export`] makes the files with which a program on a graphics processor draws the same.
 //!
 //! ```
 //! use drapery::scene::file::SceneFile;
@@ -38,6 +38,7 @@ pub mod buffer;
 pub mod compare;
 pub mod crs;
 mod error;
+pub mod export;
 pub mod footprint;
 pub mod golden;
 pub mod interval;

@@ -1,7 +1,7 @@
 //! The same scene gives the same bits: whatever the threads, the tiles, the build, the place of the scene.
 //!
-//! The hashes below are those of every buffer of a scene together. They change only when a pixel changes, which is then
-//! said in the commit.
+//! The hashes below are those of every buffer of a scene together, by inverse projection. They change only when a pixel changes, which is
+//! then said in the commit. (Goldens hold those of all techniques.)
 
 use drapery::buffer::Plane;
 use drapery::scene::file::SceneFile;
@@ -55,13 +55,13 @@ fn mountains(at: (i64, i64), more: &str) -> String {
         + more
 }
 
-/// The hash of the picture and of each buffer.
-fn hashes(text: &str, tile: usize, threads: usize) -> Vec<String> {
+/// The hash of a technique's picture and of each of its buffers.
+fn hashes(kind: Kind, text: &str, tile: usize, threads: usize) -> Vec<String> {
     let file = SceneFile::parse(text, None, &[]).unwrap_or_else(|e| panic!("{e}"));
     let run = || {
         let (scene, surface) = drapery::source::load::load(&file, &|_| {}).unwrap();
         let stage = Stage::new(scene, surface).unwrap();
-        let prepared = technique::prepare(Kind::InverseProjection, &stage).unwrap();
+        let prepared = technique::prepare(kind, &stage).unwrap();
         let buffers: Vec<String> = prepared.buffer_names().iter().map(|n| (*n).to_owned()).collect();
         let frame = prepared.frame(&FrameOptions { tile, buffers: &buffers, progress: &|_| {} }).unwrap();
         let mut hashes = vec![format!("image {}", frame.image.hash())];
@@ -75,27 +75,42 @@ fn together(hashes: &[String]) -> String {
     blake3::hash(hashes.join("\n").as_bytes()).to_hex()[..16].to_owned()
 }
 
+/// All techniques, on any machine and on an imitated one.
+fn every_technique() -> impl Iterator<Item = (Kind, &'static str)> {
+    Kind::ALL.iter().flat_map(|kind| ["", IMITATED].map(|more| (*kind, more)))
+}
+
 #[test]
 fn every_buffer_keeps_its_bits_for_any_number_of_threads_and_any_tiles() {
-    for more in ["", IMITATED] {
+    for (kind, more) in every_technique() {
         let text = mountains((0, 0), more);
-        let one = hashes(&text, 128, 1);
+        let one = hashes(kind, &text, 128, 1);
         for (tile, threads) in [(128, 2), (32, 3), (50, 7), (128, 16)] {
-            assert_eq!(hashes(&text, tile, threads), one, "tiles of {tile}, {threads} threads");
+            assert_eq!(
+                hashes(kind, &text, tile, threads),
+                one,
+                "{kind:?}: tiles of {tile}, {threads} threads"
+            );
         }
     }
 }
 
 #[test]
 fn every_buffer_keeps_its_bits_when_the_scene_is_moved_by_5000_km() {
-    for more in ["", IMITATED] {
-        let here = hashes(&mountains((0, 0), more), 128, 2);
-        assert_eq!(hashes(&mountains((5_000_000, -5_000_000), more), 128, 2), here);
+    for (kind, more) in every_technique() {
+        let here = hashes(kind, &mountains((0, 0), more), 128, 2);
+        assert_eq!(hashes(kind, &mountains((5_000_000, -5_000_000), more), 128, 2), here, "{kind:?}");
     }
 }
 
 #[test]
 fn every_buffer_has_the_bits_of_the_last_version_in_every_build() {
-    assert_eq!(together(&hashes(&mountains((0, 0), ""), 128, 2)), "3186dd76f49f0c05");
-    assert_eq!(together(&hashes(&mountains((0, 0), IMITATED), 128, 2)), "465ff6b2a46a921b");
+    assert_eq!(
+        together(&hashes(Kind::InverseProjection, &mountains((0, 0), ""), 128, 2)),
+        "3186dd76f49f0c05"
+    );
+    assert_eq!(
+        together(&hashes(Kind::InverseProjection, &mountains((0, 0), IMITATED), 128, 2)),
+        "465ff6b2a46a921b"
+    );
 }

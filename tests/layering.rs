@@ -40,6 +40,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
         "sampling",
         &["visibility", "footprint", "resolve", "raster", "terrain", "scene", "space", "parallel", "buffer"],
     ),
+    ("export", &["raster", "terrain", "scene", "space", "output", "buffer"]),
     ("report", &["truth", "technique", "compare", "output", "buffer"]),
 ];
 const ANYONE: &[&str] = &["error", "math", "Error", "Result", "Position"];

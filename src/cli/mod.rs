@@ -6,6 +6,7 @@
 mod bar;
 mod compare;
 mod completions;
+mod export;
 mod golden;
 mod info;
 mod measure;
@@ -30,6 +31,7 @@ Examples:
   drapery render scene.toml -t truth -t clipmap --set image.width=600
   drapery report scene.toml                        speed against error, as a page in report/
   drapery compare expected.png actual.png --tolerance 1/255
+  drapery export scene.toml -t clipmap -o bundle   mesh, features, matrices, pictures for a GPU client
   drapery golden check
   drapery schema > scene.schema.json               for completion in an editor
 
@@ -58,6 +60,8 @@ enum Command {
     Report(report::Arguments),
     /// Write a starter scene for your own files, commented, ready to render.
     New(new::Arguments),
+    /// Write a scene and its pictures for a program on a graphics processor that is to draw the same.
+    Export(export::Arguments),
     /// Judge a picture by another.
     Compare(compare::Arguments),
     /// Replay goldens: small scenes whose every buffer is known.
@@ -89,6 +93,7 @@ fn run(command: Command) -> Outcome {
     match command {
         Command::Render(arguments) => render::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),
+        Command::Export(arguments) => export::run(&arguments),
         Command::New(arguments) => new::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Golden(arguments) => golden::run(&arguments),

@@ -9,30 +9,30 @@ use drapery::output::{Batch, BufferResult, ByName, ErrorResult, ImageResult, Npy
 use drapery::output::{absolute, look, write_png};
 use drapery::report::TRUTH;
 use drapery::scene::Device;
-use drapery::technique::{Kind, Stage};
+use drapery::technique::{Frame, Kind, Stage};
 use drapery::truth::Truth;
 
 /// The buffers that hold plan coordinates: scene-local in memory, absolute in files.
 const IN_PLAN: [&str; 3] = ["plan", "quad", "vertices"];
 
 /// What is wanted of each technique.
-pub(super) struct Wish {
-    pub(super) buffers: Buffers,
+pub(in crate::cli) struct Wish {
+    pub(in crate::cli) buffers: Buffers,
     /// How many runs to time.
-    pub(super) repeat: u32,
+    pub(in crate::cli) repeat: u32,
 }
 
 /// Draws a stage into a batch of files.
-pub(super) struct Drawing<'a> {
-    pub(super) stage: &'a Stage,
-    pub(super) certified: &'a Certified,
-    pub(super) batch: &'a mut Batch,
-    pub(super) bar: &'a Bar,
+pub(in crate::cli) struct Drawing<'a> {
+    pub(in crate::cli) stage: &'a Stage,
+    pub(in crate::cli) certified: &'a Certified,
+    pub(in crate::cli) batch: &'a mut Batch,
+    pub(in crate::cli) bar: &'a Bar,
 }
 
 impl Drawing<'_> {
     /// Stages the truth's files.
-    pub(super) fn truth(&mut self, wish: &Wish) -> Result<RunResult> {
+    pub(in crate::cli) fn truth(&mut self, wish: &Wish) -> Result<RunResult> {
         let certified = self.certified;
         let truth = &certified.truth;
         let image = truth.image();
@@ -55,8 +55,8 @@ impl Drawing<'_> {
         })
     }
 
-    /// Runs a technique and stages its files.
-    pub(super) fn run(&mut self, kind: Kind, wish: &Wish) -> Result<RunResult> {
+    /// Runs a technique and stages its files; what is told of it, and its frame.
+    pub(in crate::cli) fn run(&mut self, kind: Kind, wish: &Wish) -> Result<(RunResult, Frame)> {
         self.bar.start(kind.name());
         let wants_buffer = |name: &str| wish.buffers.wants(name);
         let drawn = Drawn::by(kind, self.stage, (wish.repeat, &wants_buffer), self.bar)?;
@@ -66,7 +66,7 @@ impl Drawing<'_> {
         let planes = drawn.frame.planes.iter();
         let buffers: Result<_> = planes.map(|plane| self.stage_plane(name, plane)).collect();
         let image = &drawn.frame.image;
-        Ok(RunResult {
+        let run = RunResult {
             technique: name.into(),
             parameters: drawn.parameters,
             device: device_words(&self.stage.scene.device),
@@ -77,7 +77,8 @@ impl Drawing<'_> {
             counts: ByName::from_pairs(drawn.frame.counts.iter().copied()),
             error: self.error(image)?,
             buffers: buffers?,
-        })
+        };
+        Ok((run, drawn.frame))
     }
 
     /// How far a picture is from the truth.

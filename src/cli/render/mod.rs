@@ -1,7 +1,7 @@
 //! `drapery render [SCENE]`
 
-mod draw;
-mod techniques;
+pub(super) mod draw;
+pub(super) mod techniques;
 
 use super::bar::Bar;
 use super::measure::{Certified, TruthArguments, scene_result};
@@ -86,7 +86,7 @@ fn render(
 
     let mut drawing = Drawing { stage: &stage, certified: &certified, batch: &mut batch, bar };
     let truth = if asked.truth { Some(drawing.truth(&wish)) } else { None };
-    let techniques = kinds.iter().map(|kind| drawing.run(*kind, &wish));
+    let techniques = kinds.iter().map(|kind| Ok(drawing.run(*kind, &wish)?.0));
     let runs: Result<Vec<RunResult>> = truth.into_iter().chain(techniques).collect();
 
     let result = RenderResult {

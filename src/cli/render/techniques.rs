@@ -12,7 +12,7 @@ const ALL: &str = "all";
 
 /// The techniques of the contract.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(super) enum Name {
+pub(in crate::cli) enum Name {
     /// The right picture, as certified intervals.
     Truth,
     /// Clipmap texture (Taibo).
@@ -58,7 +58,11 @@ pub(super) fn asked(names: &[Name]) -> Result<Asked> {
     Ok(Asked { truth: names.contains(&Name::Truth), kinds: Some(kinds) })
 }
 
-fn built(name: Name) -> Result<Kind> {
+/// The technique of a name.
+///
+/// # Errors
+/// When this version does not have it.
+pub(in crate::cli) fn built(name: Name) -> Result<Kind> {
     let value = name.to_possible_value();
     let name = value.as_ref().map_or("", |value| value.get_name());
     let has: Vec<&str> = Kind::ALL.iter().map(|kind| kind.name()).collect();
@@ -83,7 +87,7 @@ pub(super) fn applying(asked: &Asked, stage: &Stage, bar: &Bar) -> Result<Vec<Ki
 
 /// The buffers to make.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Buffers {
+pub(in crate::cli) enum Buffers {
     /// All that a technique has.
     All,
     /// Those of these names that a technique has.
@@ -92,7 +96,7 @@ pub(super) enum Buffers {
 
 impl Buffers {
     /// Whether one of this name is asked for.
-    pub(super) fn wants(&self, name: &str) -> bool {
+    pub(in crate::cli) fn wants(&self, name: &str) -> bool {
         match self {
             Self::All => true,
             Self::Named(names) => names.iter().any(|wanted| wanted == name),

@@ -17,6 +17,11 @@ impl<T: Real> Matrix<T> {
         Self::of_rows([0, 1, 2, 3].map(|k| DVec4::from_array(columns.map(|c| c[k]))))
     }
 
+    /// Its rows in double precision.
+    pub(super) fn rows(&self) -> [[f64; 4]; 4] {
+        self.0.map(|row| row.map(T::get))
+    }
+
     /// The product with a column: four products, summed from the left.
     pub(super) fn times(&self, v: [T; 4]) -> [T; 4] {
         self.0.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2] + row[3] * v[3])

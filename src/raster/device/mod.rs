@@ -56,7 +56,7 @@ impl<T: Real> Pipeline<T> {
     /// A parallel lens has no linear depth up to infinity: an infinite far plane lies a little beyond the terrain then.
     pub fn new(frame: &ViewFrame, mesh: &Mesh, device: &Device) -> Self {
         let depth = DepthBuffer(device.depth);
-        let projection = Projection::new(frame, far_plane(frame, mesh), depth.is_reversed());
+        let projection = projection(frame, mesh, device);
         Self {
             clip_from_world: projection.clip_from_world(frame),
             world_from_clip: projection.world_from_clip(frame),
@@ -172,6 +172,15 @@ impl<T: Real> Pipeline<T> {
 
 fn homogeneous<T: Real>(p: World) -> Clip<T> {
     [T::of(p.x), T::of(p.y), T::of(p.z), T::of(1.0)]
+}
+
+/// Rows of the matrix from scene-local points to a machine's clip space, in double precision.
+pub fn clip_from_world(frame: &ViewFrame, mesh: &Mesh, device: &Device) -> [[f64; 4]; 4] {
+    projection(frame, mesh, device).clip_from_world::<f64>(frame).rows()
+}
+
+fn projection(frame: &ViewFrame, mesh: &Mesh, device: &Device) -> Projection {
+    Projection::new(frame, far_plane(frame, mesh), DepthBuffer(device.depth).is_reversed())
 }
 
 /// The far plane that the projection is made for.

@@ -1,0 +1,162 @@
+//! The numbers of a scene's view, as they stand in `parameters.json`.
+
+use crate::error::{Error, Result};
+use crate::output::ByName;
+use crate::raster::device;
+use crate::scene::file::Named;
+use crate::scene::{self, Scene};
+use crate::space::{Lens, PlanBox, ViewFrame};
+use crate::terrain::Mesh;
+
+/// The whole file. Everything is scene-local but `origin`, which is where the scene's zero point lies.
+#[derive(Debug, serde::Serialize)]
+pub struct Parameters {
+    /// The version of the layout.
+    pub schema: u32,
+    /// The technique whose pictures are in the bundle.
+    pub technique: &'static str,
+    /// Its parameters, by their names in the scene file.
+    pub settings: ByName,
+    /// What the plan space is.
+    pub plan_space: String,
+    /// Absolute plan coordinates of the zero point.
+    pub origin: [f64; 2],
+    /// The picture.
+    pub image: Canvas,
+    /// From where it is seen.
+    pub camera: Camera,
+    /// The rectangle that the terrain lies in: west, south, east, north.
+    pub terrain: [f64; 4],
+    /// The terrain's own colour.
+    pub ground: Ground,
+    /// On which values colours are composed: `encoded` or `linear`.
+    pub compositing_space: &'static str,
+    /// How: `over` or `additive`.
+    pub compositing_mode: &'static str,
+    /// The machine that is imitated.
+    pub device: ByName,
+}
+
+/// The picture.
+#[derive(Debug, serde::Serialize)]
+pub struct Canvas {
+    /// Pixels a row.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    /// The sky: RGBA, straight alpha, encoded, 0..1.
+    pub background: [f64; 4],
+}
+
+/// From where the terrain is seen.
+#[derive(Debug, serde::Serialize)]
+pub struct Camera {
+    /// The eye.
+    pub eye: [f64; 3],
+    /// The direction to the right in the picture.
+    pub right: [f64; 3],
+    /// The direction upwards in the picture.
+    pub up: [f64; 3],
+    /// The direction of view.
+    pub forward: [f64; 3],
+    /// Whether rays are parallel.
+    pub orthographic: bool,
+    /// A pixel's side: at view depth 1 (perspective), or everywhere in metres (orthographic).
+    pub pixel: f64,
+    /// Nothing nearer is seen, metres of view depth.
+    pub near_m: f64,
+    /// Nothing farther is seen; null: no limit.
+    pub far_m: Option<f64>,
+    /// Rows of the matrix from world to view: x right, y up, z towards the viewer.
+    pub view_from_world: [[f64; 4]; 4],
+    /// Rows of the matrix from world to clip space, of the device's depth buffer.
+    pub clip_from_world: [[f64; 4]; 4],
+}
+
+/// The terrain's own colour.
+#[derive(Debug, serde::Serialize)]
+#[serde(rename_all = "kebab-case", tag = "kind")]
+pub enum Ground {
+    /// One colour.
+    Color {
+        /// RGBA.
+        color: [f64; 4],
+    },
+    /// Times Lambert's cosine.
+    Hillshade {
+        /// RGBA.
+        color: [f64; 4],
+    },
+    /// The nearest texel of `imagery.png` over a rectangle.
+    Imagery {
+        /// West, south, east, north.
+        extent: [f64; 4],
+    },
+}
+
+impl Parameters {
+    /// The numbers of a scene; the technique's and the device's as `result.json` has them.
+    pub fn new(
+        (scene, mesh, view): (&Scene, &Mesh, &ViewFrame),
+        (technique, settings, device): (&'static str, ByName, ByName),
+    ) -> Self {
+        let ground = match &scene.ground {
+            scene::Ground::Color(color) => Ground::Color { color: color.0 },
+            scene::Ground::Hillshade(color) => Ground::Hillshade { color: color.0 },
+            scene::Ground::Imagery(imagery) => Ground::Imagery { extent: sides(&imagery.extent) },
+        };
+        Self {
+            schema: 1,
+            technique,
+            settings,
+            plan_space: scene.plan_space.clone(),
+            origin: scene.origin.to_array(),
+            image: Canvas {
+                width: view.width(),
+                height: view.height(),
+                background: scene.image.background.0,
+            },
+            camera: Camera::new(view, mesh, &scene.device),
+            terrain: sides(&mesh.plan_bounds()),
+            ground,
+            compositing_space: scene.compositing.space.word(),
+            compositing_mode: scene.compositing.mode.word(),
+            device,
+        }
+    }
+
+    /// The text of the file.
+    ///
+    /// # Errors
+    /// Internal errors only.
+    pub fn to_json(&self) -> Result<String> {
+        let text = serde_json::to_string_pretty(self);
+        Ok(text.map_err(|error| Error::internal(format!("parameters.json: {error}")))? + "\n")
+    }
+}
+
+/// West, south, east, north.
+fn sides(rectangle: &PlanBox) -> [f64; 4] {
+    let (min, max) = (rectangle.min, rectangle.max);
+    [min.x, min.y, max.x, max.y]
+}
+
+impl Camera {
+    fn new(view: &ViewFrame, mesh: &Mesh, machine: &scene::Device) -> Self {
+        let (eye, axes) = (view.eye().to_vec(), [view.right(), view.up(), view.forward()]);
+        let row = |axis: glam::DVec3| axis.extend(-axis.dot(eye)).to_array();
+        let [right, up, forward] = axes;
+        Self {
+            eye: eye.to_array(),
+            right: right.to_array(),
+            up: up.to_array(),
+            forward: forward.to_array(),
+            orthographic: matches!(view.lens(), Lens::Parallel { .. }),
+            pixel: view.lens().pixel(),
+            near_m: view.near(),
+            far_m: view.far().is_finite().then_some(view.far()),
+            view_from_world: [row(right), row(up), row(-forward), [0.0, 0.0, 0.0, 1.0]],
+            clip_from_world: device::clip_from_world(view, mesh, machine),
+        }
+    }
+}

@@ -1,0 +1,157 @@
+//! `drapery export` as an engineer with a GPU calls it: what is in a bundle, and that one can draw with it.
+
+#![allow(clippy::unwrap_used, reason = "helpers of tests are no tests to the lint")]
+
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+/// Moved by 5000 km, with an outlined lake, a road, and a post without data.
+const SCENE: &str = r##"
+schema = 1
+image = { width = 48, height = 32 }
+camera = { eye = [5000000, 3998200, 1500], target = [5000000, 4000000, 100] }
+[terrain]
+generate = { kind = "fbm", seed = 3, posts = [17, 17], cell_m = 120.0, height_m = 200.0 }
+offset = [5000000, 4000000]
+[[layer]]
+name = "lake"
+offset = [5000000, 4000000]
+features = [{ polygon = [[-300, -400], [300, -400], [300, 200], [-300, 200]] }]
+fill = { color = "#3388ff", opacity = 0.6 }
+outline = { color = "#113355", width_px = 2.0, mode = "inset" }
+[[layer]]
+name = "road"
+offset = [5000000, 4000000]
+features = [{ line = [[-800, -500], [0, 0], [800, -300]] }]
+line = { color = "#ff7f00", width_m = 60.0, join = "bevel" }
+[technique.clipmap]
+virtual_size = 1024
+"##;
+
+fn export(folder: &Path, arguments: &[&str]) -> Output {
+    fs::write(folder.join("scene.toml"), SCENE).unwrap();
+    let program = env!("CARGO_BIN_EXE_drapery");
+    let call =
+        Command::new(program).args(["export", "scene.toml"]).args(arguments).current_dir(folder).output();
+    call.unwrap()
+}
+
+/// Sets a width that no view changes, which all techniques draw.
+const IN_METRES: [&str; 4] =
+    ["--set", "layer.lake.outline.width_px=", "--set", "layer.lake.outline.width_m=20"];
+
+fn bundle(technique: &str, more: &[&str]) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let done = export(folder.path(), &[&["-t", technique, "-o", "."], more].concat());
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    folder
+}
+
+fn json(folder: &tempfile::TempDir, name: &str) -> Value {
+    serde_json::from_slice(&fs::read(folder.path().join(name)).unwrap()).unwrap()
+}
+
+/// The numbers of a table of 8-byte or 4-byte values.
+fn table(folder: &tempfile::TempDir, name: &str) -> Vec<f64> {
+    let bytes = fs::read(folder.path().join(name)).unwrap();
+    let header = usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
+    let (text, values) = bytes[10..].split_at(header);
+    if String::from_utf8_lossy(text).contains("<f8") {
+        values.as_chunks().0.iter().map(|v| f64::from_le_bytes(*v)).collect()
+    } else {
+        values.as_chunks().0.iter().map(|v| f64::from(u32::from_le_bytes(*v))).collect()
+    }
+}
+
+fn numbers(value: &Value) -> Vec<f64> {
+    value.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
+}
+
+#[test]
+fn the_mesh_and_the_matrix_put_every_visible_point_on_its_pixel() {
+    let folder = bundle("clipmap", &[]);
+    let parameters = json(&folder, "parameters.json");
+    let origin = numbers(&parameters["origin"]);
+    let rows: Vec<Vec<f64>> =
+        parameters["camera"]["clip_from_world"].as_array().unwrap().iter().map(numbers).collect();
+    let (vertices, triangles) = (table(&folder, "mesh.vertices.npy"), table(&folder, "mesh.triangles.npy"));
+    let (seen, plan) = (table(&folder, "clipmap.triangle.npy"), table(&folder, "clipmap.plan.npy"));
+    let mut looked_at = 0;
+    for (pixel, triangle) in seen.iter().enumerate().filter(|(_, id)| **id < 4e9) {
+        let corner = |k: usize| {
+            let vertex = triangles[3 * *triangle as usize + k] as usize;
+            [vertices[3 * vertex], vertices[3 * vertex + 1], vertices[3 * vertex + 2]]
+        };
+        let (a, b, c) = (corner(0), corner(1), corner(2));
+        let at = [plan[2 * pixel] - origin[0], plan[2 * pixel + 1] - origin[1]];
+        let cross = |p: [f64; 2], q: [f64; 2]| p[0] * q[1] - p[1] * q[0];
+        let from_a = |p: &[f64]| [p[0] - a[0], p[1] - a[1]];
+        let area = cross(from_a(&b), from_a(&c));
+        let (u, v) = (cross(from_a(&at), from_a(&c)) / area, cross(from_a(&b), from_a(&at)) / area);
+        let height = a[2] + u * (b[2] - a[2]) + v * (c[2] - a[2]);
+        let clip = |k: usize| rows[k][0] * at[0] + rows[k][1] * at[1] + rows[k][2] * height + rows[k][3];
+        let (x, y) = ((2 * (pixel % 48) + 1) as f64 / 48.0 - 1.0, 1.0 - (2 * (pixel / 48) + 1) as f64 / 32.0);
+        assert!(
+            (clip(0) / clip(3) - x).abs() < 1e-6 && (clip(1) / clip(3) - y).abs() < 1e-6,
+            "pixel {pixel}"
+        );
+        assert!(clip(2) >= 0.0 && clip(2) <= clip(3));
+        looked_at += 1;
+    }
+    assert!(looked_at > 500, "{looked_at}");
+}
+
+#[test]
+fn the_bundle_of_the_clipmap_has_its_sequences_tiles_and_what_is_right() {
+    let folder = bundle("clipmap", &[]);
+    let strips = table(&folder, "clipmap.strips.npy");
+    let firsts: Vec<(f64, f64)> = strips.chunks(5).map(|s| (s[0], s[4])).collect();
+    // The lake's outline: Algorithm 1 makes four corners and the first once more; the road: two ends and a joint.
+    assert_eq!(firsts, [(0.0, 10.0), (1.0, 6.0)]);
+    let vertices = table(&folder, "clipmap.vertices.npy");
+    assert!(vertices.chunks(2).all(|p| (p[0] - 5e6).abs() < 1000.0 && (p[1] - 4e6).abs() < 1000.0));
+    for file in ["README.md", "clipmap.png", "truth.png", "truth.lo.npy", "truth.hi.npy", "result.json"] {
+        assert!(folder.path().join(file).is_file(), "{file}");
+    }
+    let keys = table(&folder, "clipmap.tile-keys.npy");
+    for key in keys.chunks(3) {
+        let size = 1024 >> key[0] as u32;
+        let name = match size {
+            256.. => format!("tiles/{}/{}/{}.png", (size as u32 / 256).ilog2(), key[1], key[2]),
+            _ => format!("tiles/below/{size}.png"),
+        };
+        let picture = image::open(folder.path().join(&name)).unwrap();
+        assert_eq!(picture.width(), size.min(256) as u32, "{name}");
+    }
+    let features = json(&folder, "features.geojson");
+    let lake = &features["features"][0];
+    assert_eq!(lake["geometry"]["coordinates"][0][1].to_string(), "[5000300.0,3999600.0]");
+    assert_eq!(lake["geometry"]["coordinates"][0].as_array().unwrap().len(), 5, "rings are closed");
+    let [lake, road] = [0, 1].map(|k| features["features"][k]["properties"].to_string());
+    assert_eq!(
+        lake,
+        r##"{"cap":"butt","fill":"#3388ff","fill-opacity":0.6,"fill-rule":"even-odd","join":"round","layer":"lake","number":0,"outline-mode":"inset","stroke":"#113355","stroke-opacity":1.0,"stroke-width-px":2.0}"##
+    );
+    assert_eq!(
+        road,
+        r##"{"cap":"butt","join":"bevel","layer":"road","number":0,"stroke":"#ff7f00","stroke-opacity":1.0,"stroke-width-m":60.0}"##
+    );
+}
+
+#[test]
+fn every_technique_has_a_bundle_and_a_wrong_call_leaves_nothing() {
+    for technique in ["stencil-volume", "inverse-projection"] {
+        let folder = bundle(technique, &IN_METRES);
+        assert_eq!(json(&folder, "parameters.json")["technique"], technique);
+        assert!(folder.path().join(format!("{technique}.png")).is_file());
+        assert!(!folder.path().join("tiles").exists());
+    }
+    for wrong in [&["-t", "truth"][..], &["-t", "analytic"], &[], &["-t", "clipmap", "--set", "nonsense=1"]] {
+        let folder = tempfile::tempdir().unwrap();
+        let done = export(folder.path(), &[wrong, &["-o", "out"]].concat());
+        assert_eq!(done.status.code(), Some(2), "{wrong:?}");
+        assert!(!folder.path().join("out").exists());
+    }
+}
