@@ -51,8 +51,16 @@ struct Drawing<'a> {
 
 /// The tiles at hand while pixels are coloured, by level, row and column.
 struct Table {
-    /// Of each level: the first column and row, columns a row, and the tiles.
-    levels: Vec<((u32, u32), u32, Vec<Option<Arc<Tile>>>)>,
+    levels: Vec<LevelTiles>,
+}
+
+/// A rectangle of a level's tiles, with gaps.
+#[derive(Clone, Default)]
+struct LevelTiles {
+    west: u32,
+    north: u32,
+    columns: u32,
+    tiles: Vec<Option<Arc<Tile>>>,
 }
 
 /// What a row of pixels sees, and asks of the texture.
@@ -129,7 +137,7 @@ impl Wanted {
 
 impl Table {
     fn new(keys: &[TileKey], tiles: Vec<Arc<Tile>>, levels: u32) -> Self {
-        let mut table = Self { levels: vec![((0, 0), 0, Vec::new()); levels as usize] };
+        let mut table = Self { levels: vec![LevelTiles::default(); levels as usize] };
         let mut tiles = keys.iter().zip(tiles).peekable();
         for of_level in keys.chunk_by(|a, b| a.level == b.level) {
             let range = |of: fn(&TileKey) -> u32| {
@@ -137,22 +145,22 @@ impl Table {
                 (values().min().unwrap_or(0), values().max().unwrap_or(0))
             };
             let ((west, east), (north, south)) = (range(|key| key.column), range(|key| key.row));
-            let across = east - west + 1;
-            let mut found = vec![None; (across * (south - north + 1)) as usize];
+            let columns = east - west + 1;
+            let mut found = vec![None; (columns * (south - north + 1)) as usize];
             for (key, tile) in tiles.by_ref().take(of_level.len()) {
-                found[((key.row - north) * across + key.column - west) as usize] = Some(tile);
+                found[((key.row - north) * columns + key.column - west) as usize] = Some(tile);
             }
-            table.levels[of_level[0].level as usize] = ((west, north), across, found);
+            table.levels[of_level[0].level as usize] = LevelTiles { west, north, columns, tiles: found };
         }
         table
     }
 
     #[inline]
     fn get(&self, key: TileKey) -> Option<&Tile> {
-        let ((west, north), across, tiles) = self.levels.get(key.level as usize)?;
-        let column = key.column.checked_sub(*west).filter(|column| column < across)?;
-        let row = key.row.checked_sub(*north)?;
-        tiles.get((row * across + column) as usize)?.as_deref()
+        let level = self.levels.get(key.level as usize)?;
+        let column = key.column.checked_sub(level.west).filter(|column| *column < level.columns)?;
+        let row = key.row.checked_sub(level.north)?;
+        level.tiles.get((row * level.columns + column) as usize)?.as_deref()
     }
 }
 
@@ -340,12 +348,15 @@ impl<'a> Drawing<'a> {
                 weight * east * south,
             ];
             // Mostly all four lie in one tile, away from the texture's rim.
-            if column >= 0 && row >= 0 && c + 1 < TILE && r + 1 < TILE {
-                if let Some(tile) = table.get(key).filter(|tile| c + 1 < tile.size && r + 1 < tile.size) {
-                    let places = [(c, r), (c + 1, r), (c, r + 1), (c + 1, r + 1)];
-                    places.into_iter().zip(weights).for_each(|((c, r), weight)| add(tile.at(c, r), weight));
-                    return;
-                }
+            if column >= 0
+                && row >= 0
+                && let Some(tile) = table.get(key)
+                && c + 1 < tile.size
+                && r + 1 < tile.size
+            {
+                let places = [(c, r), (c + 1, r), (c, r + 1), (c + 1, r + 1)];
+                places.into_iter().zip(weights).for_each(|((c, r), weight)| add(tile.at(c, r), weight));
+                return;
             }
             for ((dx, dy), weight) in [(0, 0), (1, 0), (0, 1), (1, 1)].into_iter().zip(weights) {
                 let (key, (c, r)) = self.sampler.tile_of(level, column + dx, row + dy);

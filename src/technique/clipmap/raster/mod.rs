@@ -248,7 +248,7 @@ impl TileRaster {
     /// Blends an item that has been collected.
     fn blend_item(&mut self, source: Source, weight: Weight, cut: Option<&Cut>, ink: &Ink) {
         let exact = match (source, &mut self.polygons) {
-            (Source::Polygons, Polygons::Exact(polygons)) => Some(polygons),
+            (Source::Polygons, Polygons::Exact(polygons)) => Some(&mut **polygons),
             (Source::Rectangles, _) => Some(&mut self.rectangles),
             _ => None,
         };
@@ -287,7 +287,7 @@ impl TileRaster {
             inside.coverage.clear();
         }
         let pieces = match (source, &mut self.polygons) {
-            (Source::Polygons, Polygons::Exact(pieces)) => Some(pieces),
+            (Source::Polygons, Polygons::Exact(pieces)) => Some(&mut **pieces),
             (Source::Rectangles, _) => Some(&mut self.rectangles),
             _ => None,
         };
@@ -326,7 +326,7 @@ impl TileRaster {
 enum Polygons {
     Aliased(Centres),
     Smooth(Smooth),
-    Exact(Accumulator),
+    Exact(Box<Accumulator>),
 }
 
 impl Polygons {
@@ -334,7 +334,7 @@ impl Polygons {
         match way {
             PolygonRaster::Aliased => Self::Aliased(Centres::new(origin, size)),
             PolygonRaster::TinySkia => Self::Smooth(Smooth::new(origin, size)),
-            PolygonRaster::Exact => Self::Exact(Accumulator::new(origin, size, keeps_edges)),
+            PolygonRaster::Exact => Self::Exact(Box::new(Accumulator::new(origin, size, keeps_edges))),
         }
     }
 
