@@ -220,7 +220,7 @@ fn a_line_is_as_wide_as_it_should_be() {
     for (changes, within) in ways {
         for width in [1.0, 3.0, 7.0, 16.0, 31.0] {
             for angle in [0.0f64, 17.0, 45.0, 90.0] {
-                let (sin, cos) = angle.to_radians().sin_cos();
+                let (sin, cos) = (math::sin(angle.to_radians()), math::cos(angle.to_radians()));
                 let points = format!(
                     "[{:?}, {:?}], [{:?}, {:?}]",
                     0.37 - 40.0 * cos,
@@ -351,7 +351,7 @@ fn the_picture_does_not_depend_on_the_way_of_the_camera_nor_on_the_cache() {
         let options = FrameOptions { buffers: &buffers, ..PLAIN };
         let direct = Prepare::new(&last).unwrap().frame_of(&last.view, &options).unwrap().0;
         let prepared = Prepare::new(&last).unwrap();
-        let views: Vec<ViewFrame> = zooms().iter().map(|stage| stage.view.clone()).collect();
+        let views: Vec<ViewFrame> = zooms().iter().map(|stage| stage.view).collect();
         for view in &views {
             prepared.frame_of(view, &PLAIN).unwrap();
         }

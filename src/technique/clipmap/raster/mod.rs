@@ -1,8 +1,8 @@
 //! Rasterizing a tile of the texture.
 //!
 //! Input: rings, strips of vertex pairs and segments in the texels of a level, each item with its paint. Output: a tile's texels. Three
-//! ways for polygons: texel centres ([`centres`]), tiny-skia ([`smooth`]), exact areas ([`exact`], [`winding`], [`pieces`]); three for
-//! line primitives ([`line`], [`prefilter`]). With all but tiny-skia a tile has the bits of the same part of a larger tile. Refuses: nothing;
+//! ways for polygons: texel centres (`centres`), tiny-skia (`smooth`), exact areas (`exact`, `winding`, `pieces`); three for
+//! line primitives (`line`, `prefilter`). With all but tiny-skia a tile has the bits of the same part of a larger tile. Refuses: nothing;
 //! what lies outside the tile has no part in it.
 
 mod canvas;

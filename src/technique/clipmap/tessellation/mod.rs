@@ -2,7 +2,7 @@
 //!
 //! Input: a polyline, open or a loop, its width, and how joints are made. Output: [`Strips`]: pairs of vertices, left and right of the
 //! line, in the order in which a triangle strip or a strip of quadrilaterals takes them. Each method has its name from the paper
-//! ([`joint`]); joins and caps of the layer's style, which the paper does not have, are ours ([`style`]). Refuses: lines without two
+//! (`joint`); joins and caps of the layer's style, which the paper does not have, are ours (`style`). Refuses: lines without two
 //! distinct vertices, and widths and angles that are no such thing.
 
 mod joint;
