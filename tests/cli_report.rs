@@ -225,3 +225,33 @@ fn a_scene_that_cannot_be_loaded_is_refused_and_nothing_is_written() {
     let said = place.refused(&["tiny.toml", "--truth-width", "7"]);
     assert!(said.contains("width"), "{said}");
 }
+
+#[test]
+fn the_papers_tables_have_a_row_for_each_solution_and_compare_memory_with_the_first() {
+    let place = Place::new();
+    let told = place.reported(&["--tables", "tiny.toml", "--repeat", "1", "-o", "tables"]);
+    assert!(told.contains("tiny: 1 segments"), "{told}");
+    assert_eq!(place.names("tables"), ["tables.csv", "tables.html", "tables.json"]);
+    let tables: Value = serde_json::from_str(&place.text("tables/tables.json")).unwrap();
+    let set = &tables["data_sets"][0];
+    assert_eq!((&set["features"], &set["segments"], &set["vertices"]), (&1.into(), &1.into(), &2.into()));
+    let bytes = |solution: &str| {
+        let rows = set["solutions"].as_array().unwrap();
+        rows.iter().find(|row| row["solution"] == solution).unwrap()["geometry_bytes"].as_u64().unwrap()
+    };
+    // Fig. 10: both versions take most, polygons as wireframe as much as polygons, adjacency hardly more than lines.
+    assert!(bytes("3a-both") > bytes("3b-wireframe") && bytes("3b-wireframe") > bytes("4a-adjacency"));
+    assert!(bytes("4a-adjacency") >= bytes("1-lines"));
+    assert_eq!(set["width_changes"].as_array().unwrap().len(), 3);
+    assert!(place.text("tables/tables.html").contains("Fig. 10"));
+}
+
+#[test]
+fn tables_of_a_scene_without_lines_are_refused() {
+    let place = Place::new();
+    let areas = SCENE.split("[[layer]]\nname = \"road\"").next().unwrap();
+    fs::write(place.path().join("areas.toml"), areas).unwrap();
+    let told = place.refused(&["--tables", "areas.toml", "-o", "tables"]);
+    assert!(told.contains("there are no lines and no outlines"), "{told}");
+    assert!(!place.path().join("tables").exists());
+}
