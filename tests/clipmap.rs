@@ -5,6 +5,7 @@ mod drawing;
 use drapery::buffer::Values;
 use drapery::compare::{Image, Metrics};
 use drapery::math;
+use drapery::scene::file::{Override, SceneFile};
 use drapery::space::ViewFrame;
 use drapery::technique::{Frame, FrameOptions, Kind, Stage, clipmap::Prepare};
 use drawing::{count, errors, scene, stage, truth_of};
@@ -599,6 +600,35 @@ fn an_imitated_machine_is_off_by_what_it_rounds() {
     let off_by = right.iter().zip(&rounded).map(|(a, b)| (a - b).abs()).fold(0.0, math::max);
     assert!(off_by > 0.01 && off_by < 0.051, "{off_by}");
     assert!(off(&["technique.clipmap.texel=unorm8"]) <= 0.5 * STEP + 1e-9);
+}
+
+#[test]
+fn settings_that_make_no_texture_are_refused_with_what_they_may_be() {
+    let text = map(&lines("[-50, 0], [50, 0]", &format!("{BLACK} 5")));
+    for (setting, said) in [
+        ("virtual_size=2097152", "must be one of [256, 512"),
+        ("virtual_size=1000", "must be one of [256, 512"),
+        ("clip_size=128", "must be one of [256, 512"),
+        ("cache_mib=0.99", "holds no tile"),
+        ("cache_mib=0", "greater than 0; found 0"),
+        ("angle_deg=180", "between 0 and 180, both excluded; found 180"),
+        ("threshold_texels=-0.1", "0 or more; found -0.1"),
+        ("threshold_texels=nan", "0 or more; found NaN"),
+        ("anisotropy=65", "from 1 to 64; found 65"),
+        ("level_bias=16", "between -16 and 16, both excluded; found 16"),
+        ("center=[0, inf]", "`technique.clipmap.center.1` must be a finite number"),
+        ("solution=\"5\"", "\"4a-adjacency\" or \"4b-offsets\"; found the string \"5\""),
+    ] {
+        let change = Override::parse(&format!("technique.clipmap.{setting}")).unwrap();
+        let refusal = SceneFile::parse(&text, None, &[change]).unwrap_err().to_string();
+        assert!(refusal.contains(said), "{refusal}");
+        assert!(refusal.contains(&format!("override `technique.clipmap.{setting}`")), "{refusal}");
+    }
+    let wide = Override::parse("layer.0.line.width_m=nan").unwrap();
+    let refusal = SceneFile::parse(&text, None, &[wide]).unwrap_err().to_string();
+    assert!(refusal.contains("must be a finite number greater than 0; found NaN"), "{refusal}");
+    let smaller = stage(&text, &["technique.clipmap.texel=\"unorm8\"", "technique.clipmap.cache_mib=0.25"]);
+    assert_eq!(smaller.scene.technique.clipmap.tile_bytes(), 1 << 18, "a tile of 8-bit texels is enough");
 }
 
 #[test]
