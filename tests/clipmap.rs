@@ -241,6 +241,50 @@ fn a_line_is_as_wide_as_it_should_be() {
 }
 
 #[test]
+fn a_mitre_reaches_into_tiles_that_its_line_does_not_meet() {
+    // Four tiles meet at (0, 0); the corner at (-9, -10) has its tip at (16.6, -10).
+    let text = map(&lines("[-60, -14], [-9, -10], [-60, -6]", &format!("{BLACK} 4")));
+    for solution in ["2-polygons", "4a-adjacency", "4b-offsets"] {
+        let solution = format!("technique.clipmap.solution={solution:?}");
+        let changes = [
+            &OURS[..1],
+            &[&solution[..], "technique.clipmap.joints=method-2", "technique.clipmap.virtual_size=512"],
+        ]
+        .concat();
+        assert!(alpha_at(&text, &changes, 2.5, -10.5) > 0.9, "{solution}");
+    }
+}
+
+#[test]
+fn widths_in_pixels_have_round_joins_and_caps() {
+    let text = map(&lines(
+        "[-30, -20], [0, 30], [30, -20]",
+        "color = \"#000000\", width_px = 9, join = \"miter\", cap = \"butt\"",
+    ));
+    let errors = against_the_truth(&text, &OURS);
+    assert!(errors.max < 0.5 * STEP, "{}", errors.max);
+}
+
+#[test]
+fn a_round_cap_wider_than_the_last_segment_is_seen_behind_it() {
+    for points in ["[-40, 0], [0, 0], [-9, 3]", "[0, 0], [3, 1], [-40, 12]", "[5, 5], [9, 5]"] {
+        let style = format!("{BLACK} 40, cap = \"round\", join = \"bevel\"");
+        let errors = against_the_truth(&map(&lines(points, &style)), &OURS);
+        assert!(errors.max < 0.5 * STEP, "{points}: {}", errors.max);
+    }
+}
+
+#[test]
+fn a_view_without_ground_has_all_buffers_and_no_tiles() {
+    let text = map(&lines("[-60, 0], [60, 0]", &format!("{BLACK} 5")));
+    let away = ["camera.eye=[9000, 0, 500]", "camera.target=[9000, 0, 0]"];
+    let drawn = frame(&text, &away, &["tiles", "tile", "tile-keys", "level"]);
+    assert_eq!(count(&drawn, "tiles"), 0);
+    let tiles = drawn.planes.iter().find(|p| p.name == "tiles").unwrap();
+    assert!(drapery::output::look(drapery::output::Npy::new(tiles).unwrap()).is_none());
+}
+
+#[test]
 fn a_line_along_a_border_of_tiles_is_as_it_is_elsewhere() {
     // Hard case 29: 512 texels across are two tiles; the same map with a line anywhere else is the same picture, moved.
     let width = 6.4;
@@ -562,6 +606,7 @@ fn widths_in_pixels_follow_the_distance_or_are_texels() {
     assert!((width(&["camera.height_m=64.0"]) - 6.0).abs() < 0.1, "nearer, a pixel is half a metre");
     let texels = "technique.clipmap.pixel_width=texels";
     assert!((width(&[texels]) - 6.0).abs() < 1e-3, "a texel is 1 m");
+    assert!((width(&[texels, "camera.height_m=256.0"]) - 6.0).abs() < 1e-3, "farther away, one is 2 m");
     // Nearer, the same texels are two pixels each: the texture has nothing finer.
     assert!((width(&[texels, "camera.height_m=64.0"]) - 12.0).abs() < 0.1);
 }

@@ -31,9 +31,12 @@ const LEVELS: [[u8; 3]; 6] =
 ///
 /// Depth is grey, dark where near, by its logarithm. Classes and numbers of things have a colour each; counts run from
 /// dark to light by the logarithm of count + 1, up to the largest; a texture's levels have a hue each, mixed between two of them;
-/// plan coordinates repeat in red (x) and green (y); colours are themselves. Tables have no picture. Where nothing is seen it is light blue.
+/// plan coordinates repeat in red (x) and green (y); colours are themselves. Tables have no picture, nor has what is empty. Where nothing is seen it is light blue.
 pub fn look(plane: Npy<'_>) -> Option<Buffer<[u8; 4]>> {
     let plane = plane.plane();
+    if plane.width * plane.height == 0 {
+        return None;
+    }
     let pixels = match (plane.name, plane.components) {
         ("class", 1) => integers(plane)?.map(class).collect(),
         ("triangle" | "tile" | "cell", 1) => integers(plane)?.map(number).collect(),

@@ -119,8 +119,8 @@ const NO_TILE: TileKey = TileKey { level: u32::MAX, row: 0, column: 0 };
 /// Tiles a row of the picture of all tiles.
 const TILES_A_ROW: usize = 16;
 
-/// The most tiles in a picture of all tiles: 1 GiB.
-const MOST_SHOWN: usize = 4096;
+/// The most tiles in a picture of all tiles: 1 GiB while they are held.
+const MOST_SHOWN: usize = 1024;
 
 impl Wanted {
     fn of(options: &FrameOptions) -> Self {
@@ -213,13 +213,18 @@ impl<'a> Drawing<'a> {
                         (options.progress)(0.2 + 0.8 * before / height as f64);
                     })
                 });
-                // Without a use for its texels, the cache may give a tile up.
+                // Without a use for its texels, the cache may give a tile up; no more are shown than fit.
                 let is_kept = self.wants.tiles;
                 made.extend(keys.iter().zip(&tiles).map(|(key, tile)| Made {
                     key: *key,
                     counts: tile.counts,
                     tile: is_kept.then(|| Arc::clone(tile)),
                 }));
+                if is_kept {
+                    made.sort_by_key(|tile| tile.key);
+                    made.dedup_by_key(|tile| tile.key);
+                    made.iter_mut().skip(MOST_SHOWN).for_each(|tile| tile.tile = None);
+                }
                 let table = Table::new(&keys, tiles, self.prepared.texture.levels());
                 rows.extend(parallel::map(seen, |row| self.row(row, &table)));
             }
@@ -263,7 +268,7 @@ impl<'a> Drawing<'a> {
             let probes = self.sampler.probes(plan, footprint.as_ref());
             let mut is_coarser = false;
             self.sampler.quads(&probes, &mut |quad| {
-                is_coarser |= f64::from(quad.level) > probes.level + 1.0;
+                is_coarser |= quad.is_fallback;
                 let tiles = self.sampler.tiles_of(&quad);
                 for row in tiles.rows.0..=tiles.rows.1 {
                     for column in tiles.columns.0..=tiles.columns.1 {
@@ -305,7 +310,7 @@ impl<'a> Drawing<'a> {
                 row.levels.push(look.map_or(f64::INFINITY, |look| look.probes.level));
             }
             if self.wants.tile {
-                row.tiles.push(look.map_or(NO_TILE, |look| self.shown_tile(&look)));
+                row.tiles.push(look.map_or(NO_TILE, |look| self.shown_tile(&look, table)));
             }
             if self.wants.colors {
                 row.colors.extend(self.compositor.encoded(paint));
@@ -315,14 +320,19 @@ impl<'a> Drawing<'a> {
     }
 
     /// The finest tile that a pixel reads at its centre.
-    fn shown_tile(&self, look: &Look) -> TileKey {
+    fn shown_tile(&self, look: &Look, table: &Table) -> TileKey {
         let mut finest: Option<Quad> = None;
         self.sampler.quads(&look.probes, &mut |quad| {
             finest = Some(finest.filter(|known| known.level <= quad.level).unwrap_or(quad));
         });
-        let level = finest.map_or(0, |quad| quad.level);
-        let texel = self.prepared.texture.texel(level, look.plan);
-        self.sampler.tile_of(level, texel.x.floor() as i64, texel.y.floor() as i64).0
+        let finest = finest.map_or(0, |quad| quad.level);
+        let tile_of = |level: u32| {
+            let texel = self.prepared.texture.texel(level, look.plan);
+            self.sampler.tile_of(level, texel.x.floor() as i64, texel.y.floor() as i64).0
+        };
+        // Where only probes aside read the finest level, the middle's tile is coarser.
+        let levels = finest..self.prepared.texture.levels();
+        levels.map(tile_of).find(|key| table.get(*key).is_some()).unwrap_or(NO_TILE)
     }
 
     /// The texture's paint where a pixel reads it.
@@ -333,7 +343,7 @@ impl<'a> Drawing<'a> {
                 sum[k] += weight * f64::from(texel[k]);
             }
         };
-        self.sampler.quads(probes, &mut |Quad { level, at: (column, row), shares, weight }| {
+        self.sampler.quads(probes, &mut |Quad { level, at: (column, row), shares, weight, .. }| {
             let (key, (c, r)) = self.sampler.tile_of(level, column, row);
             let Some((east, south)) = shares else {
                 *texels += 1;

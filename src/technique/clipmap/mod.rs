@@ -11,12 +11,16 @@
 //!
 //! Where the paper is silent:
 //! - The texture covers the square around the terrain from its north-western corner. Levels go down to one texel.
-//! - Texels hold premultiplied paint; composing them over the ground is what composing each item would be.
+//! - Texels hold premultiplied paint; composing them over the ground is what composing each item would be (with `additive` they saturate
+//!   before the ground is known).
 //! - An item is blended as a whole: where it covers a texel several times, as often as it does (`overlaps = "blend"`) or once.
 //! - What the paper's scene graph holds for polygons is not said: fills are rings, scan-converted exactly as they are (triangles of a
 //!   constrained Delaunay triangulation would round where rings cross). Outlines that are inset or offset are cut to their polygon.
 //! - A layer's width in pixels is one in metres at the distance of what the middle of the picture shows (3: "as a function of the
 //!   distance between camera and terrain"), or so many texels in every level (`pixel_width = "texels"`, Fig. 1).
+//! - Strips that are stored (solutions 2, 3a, 4b) have round joins and caps of sides that stay within 1/2048 of half the width of the circle,
+//!   whatever the level; on the fly (4a), as finely as the level needs.
+//! - tiny-skia fills an item as one path: with it polygons are blended once, whatever `overlaps` says.
 //! - Line primitives have neither joins nor caps, nor have Algorithm 1's strips caps; `joints = "style"` has both.
 //!
 //! Refuses: nothing but more vertices or features than can be numbered.

@@ -50,6 +50,8 @@ pub(super) struct Quad {
     pub(super) shares: Option<(f64, f64)>,
     /// The weight of all together.
     pub(super) weight: f64,
+    /// Whether a finer level is asked for, and not at hand.
+    pub(super) is_fallback: bool,
 }
 
 /// The first and the last column and row of the tiles that texels lie in.
@@ -141,12 +143,12 @@ impl Sampler {
 
     /// The nearest texel of the finest level that is at hand, from one on.
     fn texel(&self, at: Texel, level: u32, weight: f64) -> Quad {
-        let mut level = level;
+        let (asked, mut level) = (level, level);
         loop {
             let scale = 1.0 / power_of_two(level);
             let place = (floor(at.x * scale), floor(at.y * scale));
             if self.is_at_hand(level, place, (0, 0)) || level + 1 >= self.texture.levels() {
-                return Quad { level, at: place, shares: None, weight };
+                return Quad { level, at: place, shares: None, weight, is_fallback: level > asked };
             }
             level += 1;
         }
@@ -154,14 +156,14 @@ impl Sampler {
 
     /// The four texels around a point in the finest level that is at hand, from one on.
     fn square(&self, at: Texel, level: u32, weight: f64) -> Quad {
-        let mut level = level;
+        let (asked, mut level) = (level, level);
         loop {
             let scale = 1.0 / power_of_two(level);
             let (x, y) = (at.x * scale - 0.5, at.y * scale - 0.5);
             let place = (floor(x), floor(y));
             if self.is_at_hand(level, place, (1, 1)) || level + 1 >= self.texture.levels() {
                 let shares = (self.rounded(x - place.0 as f64), self.rounded(y - place.1 as f64));
-                return Quad { level, at: place, shares: Some(shares), weight };
+                return Quad { level, at: place, shares: Some(shares), weight, is_fallback: level > asked };
             }
             level += 1;
         }
@@ -299,7 +301,10 @@ mod tests {
         // Level 1 has texels of half a metre: (100.3, 1024 - 100.9) lies in texel (200, 201), near its north-eastern corner.
         let at = Plan::new(100.3, 1024.0 - 100.6);
         let probes = nearest.probes(at, Some(&footprint(0.5, 0.0, 0.0, 0.5)));
-        assert_eq!(quads(&nearest, &probes), [Quad { level: 1, at: (200, 201), shares: None, weight: 1.0 }]);
+        assert_eq!(
+            quads(&nearest, &probes),
+            [Quad { level: 1, at: (200, 201), shares: None, weight: 1.0, is_fallback: false }]
+        );
         let quad = quads(&bilinear, &probes)[0];
         assert_eq!((quad.level, quad.at), (1, (200, 200)));
         let (x, y) = quad.shares.unwrap();
@@ -328,6 +333,11 @@ mod tests {
         };
         // Of one tile, the regions are 64, 128, 256, ... m wide from (512, 512) to the south-east.
         assert_eq!([540.0, 620.0, 700.0, 1000.0].map(levels), [vec![0], vec![1], vec![2], vec![3]]);
+        // Of the square of texels around the last centre in a region, two lie beyond it.
+        assert_eq!([575.875 - 1e-6, 575.875 + 1e-6].map(levels), [vec![0], vec![1]]);
+        let is_fallback =
+            |x: f64| quads(&sampler, &sampler.probes(Plan::new(x, 500.0), Some(&small)))[0].is_fallback;
+        assert_eq!([540.0, 620.0].map(is_fallback), [false, true]);
     }
 
     #[test]

@@ -82,7 +82,7 @@ impl Prepare<'_> {
             Width::Metres(width) => width,
             Width::Pixels(pixels) => pixels * pixel_m,
         };
-        let rule = Rule::new(self.settings.joints, self.settings.angle_deg, line.join, line.cap)?;
+        let rule = Rule::of_line(self.settings.joints, self.settings.angle_deg, line)?;
         let mut strips = Strips::default();
         let polyline = Polyline { vertices: &vertices, is_loop };
         rule.tessellate(&polyline, width, Sagitta::DEFAULT, &mut strips)?;

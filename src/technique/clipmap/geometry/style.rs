@@ -103,12 +103,7 @@ impl LayerItems {
         for layer in layers {
             let stroke = |line: &Line, mode: OutlineMode| -> Result<StrokeStyle> {
                 Ok(StrokeStyle {
-                    tessellation: Tessellation::new(
-                        settings.joints,
-                        settings.angle_deg,
-                        line.join,
-                        line.cap,
-                    )?,
+                    tessellation: Tessellation::of_line(settings.joints, settings.angle_deg, line)?,
                     width: line.width,
                     ink: Ink::new(compositor.paint(line.color), compositing.mode),
                     keep: Keep::of(settings.solution, line.width),

@@ -1,6 +1,6 @@
 //! The texels of a tile, and blending into them.
 
-use super::exact::{Accumulator, FOUR, RowCoverage, Runs};
+use super::rows::{ByRows, FOUR, RowCoverage, Runs};
 use super::weight::Weight;
 use crate::resolve::Paint;
 use crate::scene::{BlendMode, TexelFormat};
@@ -68,15 +68,9 @@ impl Canvas {
     }
 
     /// Blends ink wherever an item lies.
-    pub(super) fn blend_item(&mut self, item: &mut Accumulator, weight: Weight, ink: &Ink) {
-        if ink.mode == BlendMode::Over && self.format == TexelFormat::F32 {
-            let arch = self.arch;
-            return arch.dispatch(OverItem { canvas: self, item, weight, color: ink.color });
-        }
-        for row in item.rows() {
-            let texels = &mut self.texels[row * self.stride..][..self.stride];
-            item.take_row(row, weight, &mut Blend { texels, ink, format: self.format });
-        }
+    pub(super) fn blend_item(&mut self, item: &mut impl ByRows, weight: Weight, ink: &Ink) {
+        let arch = self.arch;
+        arch.dispatch(BlendItem { canvas: self, item, weight, ink });
     }
 }
 
@@ -88,12 +82,14 @@ struct Blend<'a> {
 }
 
 impl Runs for Blend<'_> {
+    #[inline(always)]
     fn alike(&mut self, columns: Range<usize>, coverage: f32) {
         for texel in &mut self.texels[columns] {
             *texel = blended(*texel, self.ink, coverage, self.format);
         }
     }
 
+    #[inline(always)]
     fn four(&mut self, first: usize, coverage: &[f32; FOUR]) {
         for (texel, share) in self.texels[first..first + FOUR].iter_mut().zip(coverage) {
             *texel = blended(*texel, self.ink, *share, self.format);
@@ -101,23 +97,29 @@ impl Runs for Blend<'_> {
     }
 }
 
-/// Blends an item over a tile; compiled for the widest vectors of the machine at hand, the bits are the same with any.
-struct OverItem<'a> {
+/// Blends an item into a tile; compiled for the widest vectors of the machine at hand, the bits are the same with any.
+struct BlendItem<'a, I> {
     canvas: &'a mut Canvas,
-    item: &'a mut Accumulator,
+    item: &'a mut I,
     weight: Weight,
-    color: [f32; 4],
+    ink: &'a Ink,
 }
 
-impl pulp::WithSimd for OverItem<'_> {
+impl<I: ByRows> pulp::WithSimd for BlendItem<'_, I> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: pulp::Simd>(self, _: S) {
-        let Self { canvas, item, weight, color } = self;
+        let Self { canvas, item, weight, ink } = self;
+        let format = canvas.format;
+        let is_plain = ink.mode == BlendMode::Over && format == TexelFormat::F32;
         for row in item.rows() {
             let texels = &mut canvas.texels[row * canvas.stride..][..canvas.stride];
-            item.take_row(row, weight, &mut Over { texels, color });
+            if is_plain {
+                item.take_row(row, weight, &mut Over { texels, color: ink.color });
+            } else {
+                item.take_row(row, weight, &mut Blend { texels, ink, format });
+            }
         }
     }
 }

@@ -3,11 +3,12 @@
 //! Each edge changes the winding number of the centres east of it, decided exactly in texel coordinates; a centre on an edge belongs
 //! to what lies east of it, so that polygons that share an edge cover each centre once.
 
-use super::exact::RowCoverage;
 use super::fixed::{FARTHEST, without_far};
+use super::rows::{ByRows, Runs};
 use super::weight::Weight;
 use crate::predicate::orient2d;
 use crate::space::{Plan, Texel};
+use std::ops::Range;
 
 /// The winding numbers of a tile's centres.
 #[derive(Debug)]
@@ -17,25 +18,28 @@ pub(super) struct Centres {
     origin: (i64, i64),
     /// Differences along rows.
     windings: Vec<i32>,
-    /// First and last column that differs, a row each; empty where first > last.
-    spans: Vec<(u32, u32)>,
+    /// Which of them an edge has changed: words of 64 columns, so many a row.
+    touched: Vec<u64>,
+    words: usize,
     rows: (usize, usize),
     ring: Vec<Texel>,
+    arch: pulp::Arch,
 }
-
-const EMPTY: (u32, u32) = (u32::MAX, 0);
 
 impl Centres {
     /// The centres of a tile whose first texel is `origin`.
     pub(super) fn new(origin: (i64, i64), (width, height): (usize, usize)) -> Self {
+        let words = width.div_ceil(64);
         Self {
             width,
             height,
             origin,
-            windings: vec![0; (width + 1) * height],
-            spans: vec![EMPTY; height],
+            windings: vec![0; width * height],
+            touched: vec![0; words * height],
+            words,
             rows: (height, 0),
             ring: Vec::new(),
+            arch: pulp::Arch::new(),
         }
     }
 
@@ -48,44 +52,33 @@ impl Centres {
     /// Starts an item; what is left of the one before is forgotten.
     pub(super) fn start(&mut self) {
         for row in self.rows.0..self.rows.1 {
-            self.forget_row(row);
+            self.windings[row * self.width..(row + 1) * self.width].fill(0);
+            self.touched[row * self.words..(row + 1) * self.words].fill(0);
         }
         self.rows = (self.height, 0);
     }
 
-    fn forget_row(&mut self, row: usize) {
-        self.windings[row * (self.width + 1)..(row + 1) * (self.width + 1)].fill(0);
-        self.spans[row] = EMPTY;
-    }
-
-    /// The rows that the item may have a part in.
-    pub(super) fn rows(&self) -> std::ops::Range<usize> {
-        self.rows.0..self.rows.1
-    }
-
     /// Adds a ring.
     pub(super) fn ring(&mut self, ring: &[Texel]) {
+        let arch = self.arch;
         let mut room = std::mem::take(&mut self.ring);
-        let near = without_far(ring, FARTHEST, &mut room);
-        for k in 0..near.len() {
-            let (from, to) = (near[k], near[(k + 1) % near.len()]);
-            if from.y < to.y {
-                self.edge(from, to, 1);
-            } else if to.y < from.y {
-                self.edge(to, from, -1);
-            }
-        }
+        arch.dispatch(AddRing { ring: without_far(ring, FARTHEST, &mut room), to: self });
         self.ring = room;
     }
 
     /// An edge from its northern end to its southern.
+    #[inline(always)]
     fn edge(&mut self, top: Texel, bottom: Texel, sign: i32) {
         // Rows whose centre line it crosses; its southern end is not part of it.
         let north = self.origin.1 as f64 + 0.5;
         let first = (top.y - north).ceil().clamp(0.0, self.height as f64) as usize;
         let end = (bottom.y - north).ceil().clamp(0.0, self.height as f64) as usize;
+        if first >= end {
+            return;
+        }
         let slope = (bottom.x - top.x) / (bottom.y - top.y);
         let doubt = 16.0 * f64::EPSILON * (top.x.abs() + bottom.x.abs() + 1.0);
+        self.rows = (self.rows.0.min(first), self.rows.1.max(end));
         for row in first..end {
             let y = north + row as f64;
             let x = top.x + (y - top.y) * slope;
@@ -94,42 +87,71 @@ impl Centres {
                 // With y pointing south, a negative side is east of an edge that runs south.
                 orient2d(p(top), p(bottom), Plan::new(centre, y)) <= 0.0
             });
-            let column = (column - self.origin.0).clamp(0, self.width as i64) as usize;
+            let column = (column - self.origin.0).max(0) as usize;
             if column < self.width {
-                self.windings[row * (self.width + 1) + column] += sign;
-                let span = &mut self.spans[row];
-                *span = (span.0.min(column as u32), span.1.max(column as u32));
-                self.rows = (self.rows.0.min(row), self.rows.1.max(row + 1));
+                self.windings[row * self.width + column] += sign;
+                self.touched[row * self.words + column / 64] |= 1 << (column % 64);
             }
         }
     }
+}
 
-    /// The coverage of a row; what is known of it is used up. False where the item has no part in it.
-    pub(super) fn take_row(&mut self, row: usize, weight: Weight, out: &mut RowCoverage) -> bool {
-        out.coverage.clear();
-        if self.spans[row] == EMPTY {
-            return false;
-        }
-        let (first, last) = (self.spans[row].0 as usize, self.spans[row].1 as usize);
-        out.first = first;
-        let mut winding = 0;
-        let mut known = (0, 0.0);
-        let mut coverage = |winding: i32| {
-            if winding != known.0 {
-                known = (winding, weight.of(winding) as f32);
+impl ByRows for Centres {
+    fn width(&self) -> usize {
+        self.width
+    }
+
+    fn rows(&self) -> Range<usize> {
+        self.rows.0..self.rows.1
+    }
+
+    #[inline(always)]
+    fn take_row(&mut self, row: usize, weight: Weight, to: &mut impl Runs) {
+        let (mut winding, mut from) = (0, 0);
+        let mut run = |columns: Range<usize>, winding: i32| {
+            let coverage = weight.of(winding);
+            if coverage != 0.0 && !columns.is_empty() {
+                to.alike(columns, coverage as f32);
             }
-            known.1
         };
-        let start = row * (self.width + 1);
-        for column in first..=last {
-            winding += self.windings[start + column];
-            out.coverage.push(coverage(winding));
+        for word in 0..self.words {
+            let mut touched = std::mem::take(&mut self.touched[row * self.words + word]);
+            while touched != 0 {
+                let column = word * 64 + touched.trailing_zeros() as usize;
+                touched &= touched - 1;
+                let change = std::mem::take(&mut self.windings[row * self.width + column]);
+                if change != 0 {
+                    run(from..column, winding);
+                    (winding, from) = (winding + change, column);
+                }
+            }
         }
-        if winding != 0 {
-            out.coverage.resize(self.width - first, coverage(winding));
+        run(from..self.width, winding);
+    }
+}
+
+/// Adds the edges of a ring; compiled for the widest vectors of the machine at hand, which have instructions for rounding.
+struct AddRing<'a> {
+    to: &'a mut Centres,
+    ring: &'a [Texel],
+}
+
+impl pulp::WithSimd for AddRing<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) {
+        let Self { to, ring } = self;
+        let Some(&last) = ring.last() else { return };
+        let mut from = last;
+        for &at in ring {
+            if from.y < at.y {
+                to.edge(from, at, 1);
+            } else if at.y < from.y {
+                to.edge(at, from, -1);
+            }
+            from = at;
         }
-        self.forget_row(row);
-        true
     }
 }
 
@@ -149,6 +171,7 @@ fn first_column_east(x: f64, doubt: f64, is_east: impl Fn(f64) -> bool) -> i64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::rows::RowCoverage;
     use super::*;
     use crate::scene::Rule;
     use proptest::prelude::*;
@@ -162,7 +185,7 @@ mod tests {
         let mut row = RowCoverage::default();
         let mut line = |r: usize| {
             let mut text = vec!['.'; size];
-            if centres.take_row(r, weight, &mut row) {
+            if centres.take_coverage(r, weight, &mut row) {
                 for (k, v) in row.coverage.iter().enumerate() {
                     text[row.first + k] = if *v == 0.0 { '.' } else { char::from(b'0' + *v as u8) };
                 }

@@ -8,6 +8,8 @@
 
 use super::fixed::{BITS, Edge, FARTHEST, Fixed, ONE, without_far};
 use super::lanes::{LANES, Line, texel_of};
+use super::rows::{ByRows, FOUR, FOUR_BITS, Runs};
+use super::sweep::Sweep;
 use super::weight::Weight;
 use super::winding::{Fragment, Texel as Winding, Windings};
 use crate::space::Texel;
@@ -23,30 +25,6 @@ pub(super) enum Rings {
     /// A polygon of any kind.
     Any,
 }
-
-/// An item's coverage of the texels of one row.
-#[derive(Debug, Clone, Default)]
-pub(super) struct RowCoverage {
-    /// The first texel's column.
-    pub(super) first: usize,
-    /// How much of each texel is covered; where it is covered several times, how much once would be the same (see [`Weight`]).
-    pub(super) coverage: Vec<f32>,
-}
-
-/// Takes the covered texels of a row from the west to the east.
-///
-/// Not a closure: what is compiled for wide vectors must be part of what calls it, which only functions can be told.
-pub(super) trait Runs {
-    /// Columns that are covered alike.
-    fn alike(&mut self, columns: Range<usize>, coverage: f32);
-
-    /// Four columns from one that is a multiple of four; the last may lie beyond the tile.
-    fn four(&mut self, first: usize, coverage: &[f32; FOUR]);
-}
-
-/// Texels of a vector.
-pub(super) const FOUR: usize = 1 << FOUR_BITS;
-const FOUR_BITS: u32 = 2;
 
 /// Columns that a piece has a part in: `first..=last`, -1 for all that is west of the tile, its width for all east.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -79,6 +57,12 @@ struct Interval {
     /// The next one of the row.
     next: u32,
 }
+
+/// An item with more edges than this in a tile has them sorted by rows and columns where winding numbers are to be told apart.
+const MANY: usize = 64;
+
+/// More pairs of pieces in a row are not compared: pieces are counted instead.
+const MOST_PAIRS: usize = 64;
 
 /// The end of a row's intervals.
 const NONE: u32 = u32::MAX;
@@ -114,9 +98,11 @@ pub(super) struct Accumulator {
     overlaps: Vec<(i32, i32)>,
     edges: Vec<[Fixed; 2]>,
     pieces: Vec<Piece>,
-    /// The pieces of each row, once they are asked for.
-    pieces_of_rows: Vec<Vec<u32>>,
-    are_pieces_sorted: bool,
+    /// The pieces of each row (the edges, of an item that has many), once they are asked for.
+    of_rows: Vec<Vec<u32>>,
+    are_rows_sorted: bool,
+    /// The rows of an item with many edges.
+    sweeps: Vec<Sweep>,
     /// Whether the edges of a simple polygon are asked for.
     keeps_edges: bool,
     room: Vec<Texel>,
@@ -151,8 +137,9 @@ impl Accumulator {
             overlaps: Vec::new(),
             edges: Vec::new(),
             pieces: Vec::new(),
-            pieces_of_rows: vec![Vec::new(); height],
-            are_pieces_sorted: false,
+            of_rows: vec![Vec::new(); height],
+            are_rows_sorted: false,
+            sweeps: Vec::new(),
             keeps_edges,
             room: Vec::new(),
             texel: Winding::default(),
@@ -176,7 +163,7 @@ impl Accumulator {
         self.intervals.clear();
         self.edges.clear();
         self.pieces.clear();
-        self.are_pieces_sorted = false;
+        self.are_rows_sorted = false;
         if rings == Rings::Any && self.crowd.is_empty() {
             self.crowd = vec![0; self.areas.len()];
         }
@@ -192,11 +179,6 @@ impl Accumulator {
                 self.crowd[cells].fill(0);
             }
         }
-    }
-
-    /// The rows that the item may have a part in.
-    pub(super) fn rows(&self) -> Range<usize> {
-        self.rows.0..self.rows.1
     }
 
     /// Whether nothing is left of an item whose rows have all been taken.
@@ -444,9 +426,162 @@ impl Accumulator {
         texel_of(x).clamp(-1, i64::from(self.width)) as i32
     }
 
-    /// Gives the covered texels of a row; the row is used up.
+    /// The coverage of a texel in which winding numbers need not be told apart.
     #[inline(always)]
-    pub(super) fn take_row(&mut self, row: usize, weight: Weight, to: &mut impl Runs) {
+    fn plain(&self, area: i32, weight: Weight) -> f32 {
+        match self.rings {
+            Rings::Simple | Rings::Pieces => covered(area),
+            Rings::Any => shared(area, weight),
+        }
+    }
+
+    /// Finds where pieces may overlap in a row; the row's intervals are used up. Returns the blocks there.
+    #[inline(always)]
+    fn take_overlaps(&mut self, row: usize) -> u64 {
+        let mut at = std::mem::replace(&mut self.intervals_of_rows[row], NONE);
+        let (first, mut blocks, mut pairs) = (at, 0, 0);
+        while at != NONE {
+            let Interval { span, next } = self.intervals[at as usize];
+            let mut other = next;
+            while other != NONE {
+                pairs += 1;
+                if pairs > MOST_PAIRS {
+                    return self.count_overlaps(first);
+                }
+                let against = self.intervals[other as usize];
+                let first = span.first.max(against.span.first).max(0);
+                let last = span.last.min(against.span.last).min(self.width - 1);
+                if first <= last {
+                    self.overlaps.push((first, last));
+                    (first >> self.shift..=last >> self.shift).for_each(|block| blocks |= 1 << block);
+                }
+                other = against.next;
+            }
+            at = next;
+        }
+        blocks
+    }
+
+    /// The same for many pieces: counts them in each column.
+    #[cold]
+    fn count_overlaps(&mut self, first: u32) -> u64 {
+        let mut changes = vec![0i32; self.width as usize + 1];
+        let mut at = first;
+        while at != NONE {
+            let Interval { span, next } = self.intervals[at as usize];
+            let (west, east) = (span.first.max(0), span.last.min(self.width - 1));
+            if west <= east {
+                changes[west as usize] += 1;
+                changes[east as usize + 1] -= 1;
+            }
+            at = next;
+        }
+        self.overlaps.clear();
+        let (mut blocks, mut pieces) = (0, 0);
+        for (column, change) in (0..self.width).zip(changes) {
+            pieces += change;
+            if pieces >= 2 {
+                match self.overlaps.last_mut() {
+                    Some((_, last)) if *last + 1 == column => *last = column,
+                    _ => self.overlaps.push((column, column)),
+                }
+                blocks |= 1 << (column >> self.shift);
+            }
+        }
+        blocks
+    }
+
+    /// Corrects the coverage of those of four texels in which winding numbers must be told apart.
+    #[inline(never)]
+    fn tell_apart(&mut self, row: usize, first: usize, weight: Weight, coverage: &mut [f32; FOUR]) {
+        for (k, coverage) in coverage.iter_mut().enumerate() {
+            let column = first + k;
+            let is_crowded = match self.rings {
+                Rings::Any => std::mem::take(&mut self.crowd[row * self.stride + column]) >= 2,
+                _ => self.overlaps.iter().any(|(low, high)| (*low..=*high).contains(&(column as i32))),
+            };
+            if is_crowded {
+                *coverage = self.crowded(row, column, weight);
+            }
+        }
+    }
+
+    /// The coverage of a texel in which winding numbers must be told apart.
+    #[cold]
+    #[inline(never)]
+    fn crowded(&mut self, row: usize, column: usize, weight: Weight) -> f32 {
+        let mut texel = std::mem::take(&mut self.texel);
+        texel.clear([0, 0]);
+        self.gather(row, column, [1, 0], &mut texel);
+        let mut covered = 0.0;
+        let is_alike = |range| weight.is_alike(range);
+        texel.areas(&is_alike, &mut |winding, area| covered += weight.of(winding[0]) * area);
+        self.texel = texel;
+        covered as f32
+    }
+
+    /// Adds all edges that have a part in a texel, or stand west of it in its row, to `texel`; crossing one changes windings by
+    /// `adds`.
+    pub(super) fn gather(&mut self, row: usize, column: usize, adds: Windings, texel: &mut Winding) {
+        self.sort_rows();
+        if self.edges.len() > MANY {
+            let edge = |k: &u32| {
+                let [from, to] = self.edges[*k as usize];
+                Edge::new(from, to)
+            };
+            let sweep = &mut self.sweeps[row];
+            sweep.prepare(row, self.width, self.of_rows[row].iter().filter_map(edge));
+            return sweep.gather(row, column, adds, texel);
+        }
+        let start = Fixed { x: (column as i64) << BITS, y: (row as i64) << BITS };
+        for &piece in &self.of_rows[row] {
+            let piece = self.pieces[piece as usize];
+            let edges = &self.edges[piece.edges.0 as usize..piece.edges.1 as usize];
+            if self.rings == Rings::Pieces && !may_meet(edges, row, start.x) {
+                continue;
+            }
+            for edge in in_row(edges, row) {
+                add_edge(&edge, row, start, adds, texel);
+            }
+        }
+    }
+
+    /// Lists the pieces, or the edges, of each row.
+    fn sort_rows(&mut self) {
+        if self.are_rows_sorted {
+            return;
+        }
+        self.are_rows_sorted = true;
+        self.of_rows.iter_mut().for_each(Vec::clear);
+        if self.edges.len() > MANY {
+            self.sweeps.resize_with(self.height, Sweep::default);
+            self.sweeps.iter_mut().for_each(Sweep::clear);
+            for (k, [from, to]) in self.edges.iter().enumerate() {
+                let (top, bottom) = (from.y.min(to.y), from.y.max(to.y));
+                let rows = texel_of(top).max(0)..(texel_of(bottom - 1) + 1).min(self.height as i64);
+                rows.for_each(|row| self.of_rows[row as usize].push(k as u32));
+            }
+            return;
+        }
+        for (k, piece) in self.pieces.iter().enumerate() {
+            for row in piece.rows.0..piece.rows.1 {
+                self.of_rows[row as usize].push(k as u32);
+            }
+        }
+    }
+}
+
+impl ByRows for Accumulator {
+    fn width(&self) -> usize {
+        self.width as usize
+    }
+
+    fn rows(&self) -> Range<usize> {
+        self.rows.0..self.rows.1
+    }
+
+    #[inline(always)]
+    fn take_row(&mut self, row: usize, weight: Weight, to: &mut impl Runs) {
         let mut blocks = std::mem::take(&mut self.touched[row]) & self.blocks;
         if self.rings == Rings::Pieces {
             blocks |= self.take_overlaps(row);
@@ -487,104 +622,6 @@ impl Accumulator {
         }
         self.overlaps.clear();
     }
-
-    /// The coverage of a row; what the accumulator holds of it is used up. False where the item has no part in it.
-    pub(super) fn take_coverage(&mut self, row: usize, weight: Weight, out: &mut RowCoverage) -> bool {
-        out.coverage.clear();
-        self.take_row(row, weight, &mut Collect { width: self.width as usize, out });
-        !out.coverage.is_empty()
-    }
-
-    /// The coverage of a texel in which winding numbers need not be told apart.
-    #[inline(always)]
-    fn plain(&self, area: i32, weight: Weight) -> f32 {
-        match self.rings {
-            Rings::Simple | Rings::Pieces => covered(area),
-            Rings::Any => shared(area, weight),
-        }
-    }
-
-    /// Finds where pieces may overlap in a row; the row's intervals are used up. Returns the blocks there.
-    #[inline(always)]
-    fn take_overlaps(&mut self, row: usize) -> u64 {
-        let mut at = std::mem::replace(&mut self.intervals_of_rows[row], NONE);
-        let mut blocks = 0;
-        while at != NONE {
-            let Interval { span, next } = self.intervals[at as usize];
-            let mut other = next;
-            while other != NONE {
-                let against = self.intervals[other as usize];
-                let first = span.first.max(against.span.first).max(0);
-                let last = span.last.min(against.span.last).min(self.width - 1);
-                if first <= last {
-                    self.overlaps.push((first, last));
-                    (first >> self.shift..=last >> self.shift).for_each(|block| blocks |= 1 << block);
-                }
-                other = against.next;
-            }
-            at = next;
-        }
-        blocks
-    }
-
-    /// Corrects the coverage of those of four texels in which winding numbers must be told apart.
-    #[inline(never)]
-    fn tell_apart(&mut self, row: usize, first: usize, weight: Weight, coverage: &mut [f32; FOUR]) {
-        for (k, coverage) in coverage.iter_mut().enumerate() {
-            let column = first + k;
-            let is_crowded = match self.rings {
-                Rings::Any => std::mem::take(&mut self.crowd[row * self.stride + column]) >= 2,
-                _ => self.overlaps.iter().any(|(low, high)| (*low..=*high).contains(&(column as i32))),
-            };
-            if is_crowded {
-                *coverage = self.crowded(row, column, weight);
-            }
-        }
-    }
-
-    /// The coverage of a texel in which winding numbers must be told apart.
-    #[cold]
-    #[inline(never)]
-    fn crowded(&mut self, row: usize, column: usize, weight: Weight) -> f32 {
-        let mut texel = std::mem::take(&mut self.texel);
-        texel.clear([0, 0]);
-        self.gather(row, column, [1, 0], &mut texel);
-        let mut covered = 0.0;
-        texel.areas(&mut |winding, area| covered += weight.of(winding[0]) * area);
-        self.texel = texel;
-        covered as f32
-    }
-
-    /// Adds all edges that have a part in a texel, or stand west of it in its row, to `texel`; crossing one changes windings by
-    /// `adds`.
-    pub(super) fn gather(&mut self, row: usize, column: usize, adds: Windings, texel: &mut Winding) {
-        self.sort_pieces();
-        let start = Fixed { x: (column as i64) << BITS, y: (row as i64) << BITS };
-        for &piece in &self.pieces_of_rows[row] {
-            let piece = self.pieces[piece as usize];
-            let edges = &self.edges[piece.edges.0 as usize..piece.edges.1 as usize];
-            if self.rings == Rings::Pieces && !may_meet(edges, row, start.x) {
-                continue;
-            }
-            for edge in in_row(edges, row) {
-                add_edge(&edge, row, start, adds, texel);
-            }
-        }
-    }
-
-    /// Lists the pieces of each row.
-    fn sort_pieces(&mut self) {
-        if self.are_pieces_sorted {
-            return;
-        }
-        self.pieces_of_rows.iter_mut().for_each(Vec::clear);
-        for (k, piece) in self.pieces.iter().enumerate() {
-            for row in piece.rows.0..piece.rows.1 {
-                self.pieces_of_rows[row as usize].push(k as u32);
-            }
-        }
-        self.are_pieces_sorted = true;
-    }
 }
 
 /// Adds a ring; compiled for the widest vectors of the machine at hand, the bits are the same with any.
@@ -610,33 +647,6 @@ impl pulp::WithSimd for AddRing<'_> {
             }
         }
         to.end_ring(start, rows);
-    }
-}
-
-/// Collects the coverage of a row.
-struct Collect<'a> {
-    width: usize,
-    out: &'a mut RowCoverage,
-}
-
-impl Collect<'_> {
-    fn skip_to(&mut self, column: usize) {
-        if self.out.coverage.is_empty() {
-            self.out.first = column;
-        }
-        self.out.coverage.resize(column - self.out.first, 0.0);
-    }
-}
-
-impl Runs for Collect<'_> {
-    fn alike(&mut self, columns: Range<usize>, coverage: f32) {
-        self.skip_to(columns.start);
-        self.out.coverage.resize(columns.end - self.out.first, coverage);
-    }
-
-    fn four(&mut self, first: usize, coverage: &[f32; FOUR]) {
-        self.skip_to(first);
-        self.out.coverage.extend_from_slice(&coverage[..FOUR.min(self.width - first)]);
     }
 }
 

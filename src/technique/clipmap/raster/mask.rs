@@ -1,6 +1,6 @@
 //! Coverage that is collected texel by texel, the greatest counting.
 
-use super::exact::RowCoverage;
+use super::rows::RowCoverage;
 
 /// The coverage of a tile by one item.
 #[derive(Debug)]

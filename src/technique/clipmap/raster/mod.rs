@@ -14,7 +14,9 @@ mod line;
 mod mask;
 mod pieces;
 mod prefilter;
+mod rows;
 mod smooth;
+mod sweep;
 #[cfg(test)]
 mod tests;
 mod weight;
@@ -27,10 +29,11 @@ use crate::scene::{LineFilter, LinePrimitives, Overlaps, PolygonRaster, Rule, Te
 use crate::space::Texel;
 use canvas::Canvas;
 use centres::Centres;
-use exact::{Accumulator, Rings, RowCoverage};
+use exact::{Accumulator, Rings};
 use line::Segment;
 use mask::Mask;
 use prefilter::Table;
+use rows::{ByRows, RowCoverage};
 use smooth::Smooth;
 use weight::Weight;
 use winding::Texel as Winding;
@@ -107,11 +110,18 @@ pub struct TileRaster {
     ring: Vec<Texel>,
 }
 
+/// Where a stroke's parts are blended one after another, each is cut in each of its texels: with more edges of the polygon in a texel than
+/// this, by the polygon's share of it alone, or coarse levels of long outlines would take minutes.
+const MOST_CUT_EDGES: usize = 64;
+
 /// Rows that are used again.
 #[derive(Debug, Default)]
 struct Rows {
     stroke: RowCoverage,
-    cut: RowCoverage,
+    /// What is inside of the polygon that the item at hand is cut to; `None`: not asked for yet.
+    cut: Vec<Option<RowCoverage>>,
+    /// Of rows of items before.
+    spare: Vec<RowCoverage>,
     winding: Winding,
 }
 
@@ -183,6 +193,7 @@ impl TileRaster {
         cut: Option<&Cut>,
         ink: &Ink,
     ) {
+        self.start_cut(cut);
         self.polygons.start(Rings::Pieces);
         for strip in strips {
             pieces::of_strip(strip, folded, &mut self.ring, &mut |ring| self.polygons.ring(ring));
@@ -203,6 +214,7 @@ impl TileRaster {
             LinePrimitives::Plain | LinePrimitives::Prefiltered => Source::Mask,
         };
         let is_each_blended = self.settings.overlaps == Overlaps::Blend;
+        self.start_cut(cut);
         self.rectangles.start(Rings::Pieces);
         for segment in segments {
             self.segment(segment, width);
@@ -236,6 +248,14 @@ impl TileRaster {
         }
     }
 
+    /// Rasterizes the polygon that an item is cut to: once, however many parts the item has.
+    fn start_cut(&mut self, cut: Option<&Cut>) {
+        let Some(cut) = cut else { return };
+        self.cut.polygon(&cut.area);
+        self.rows.spare.extend(self.rows.cut.drain(..).flatten());
+        self.rows.cut.resize(self.place.size.1, None);
+    }
+
     /// Blends the stroke that has been collected.
     fn blend_stroke(&mut self, source: Source, cut: Option<&Cut>, ink: &Ink) {
         let weight = match self.settings.overlaps {
@@ -247,15 +267,17 @@ impl TileRaster {
 
     /// Blends an item that has been collected.
     fn blend_item(&mut self, source: Source, weight: Weight, cut: Option<&Cut>, ink: &Ink) {
-        let exact = match (source, &mut self.polygons) {
-            (Source::Polygons, Polygons::Exact(polygons)) => Some(&mut **polygons),
-            (Source::Rectangles, _) => Some(&mut self.rectangles),
-            _ => None,
-        };
-        match (exact, cut) {
-            (Some(item), None) => return self.canvas.blend_item(item, weight, ink),
-            (_, Some(cut)) => self.cut.polygon(&cut.area),
-            (None, None) => {}
+        match (source, &mut self.polygons, cut) {
+            (Source::Polygons, Polygons::Exact(item), None) => {
+                return self.canvas.blend_item(&mut **item, weight, ink);
+            }
+            (Source::Polygons, Polygons::Aliased(item), None) => {
+                return self.canvas.blend_item(item, weight, ink);
+            }
+            (Source::Rectangles, _, None) => {
+                return self.canvas.blend_item(&mut self.rectangles, weight, ink);
+            }
+            (Source::Polygons, Polygons::Smooth(_), None) | (Source::Mask, _, None) | (_, _, Some(_)) => {}
         }
         let rows = match source {
             Source::Polygons => self.polygons.rows(),
@@ -281,11 +303,15 @@ impl TileRaster {
 
     /// Cuts a row of a stroke to what is inside or outside of a polygon.
     fn cut_row(&mut self, row: usize, source: Source, weight: Weight, cut: &Cut) {
-        let Rows { stroke, cut: inside, winding } = &mut self.rows;
+        let Rows { stroke, cut: inside, spare, winding } = &mut self.rows;
         let rule = cut.area.rule;
-        if !self.cut.take_row(row, Weight::Rule(rule), inside) {
-            inside.coverage.clear();
-        }
+        let inside = inside[row].get_or_insert_with(|| {
+            let mut coverage = spare.pop().unwrap_or_default();
+            if !self.cut.take_row(row, Weight::Rule(rule), &mut coverage) {
+                coverage.coverage.clear();
+            }
+            coverage
+        });
         let pieces = match (source, &mut self.polygons) {
             (Source::Polygons, Polygons::Exact(pieces)) => Some(&mut **pieces),
             (Source::Rectangles, _) => Some(&mut self.rectangles),
@@ -296,6 +322,7 @@ impl TileRaster {
             _ => None,
         };
         let mut both = pieces.zip(area);
+        let is_each_blended = matches!(weight, Weight::Layers { .. });
         for (k, share) in stroke.coverage.iter_mut().enumerate() {
             let column = stroke.first + k;
             let covered = column.checked_sub(inside.first).and_then(|k| inside.coverage.get(k));
@@ -305,10 +332,14 @@ impl TileRaster {
                 // Only together do they say what they share.
                 Some((pieces, area)) if is_partial => {
                     winding.clear([0, 0]);
-                    pieces.gather(row, column, [1, 0], winding);
                     area.gather(row, column, [0, 1], winding);
+                    if is_each_blended && winding.fragments.len() > MOST_CUT_EDGES {
+                        *share *= if cut.keeps_inside { covered } else { 1.0 - covered };
+                        continue;
+                    }
+                    pieces.gather(row, column, [1, 0], winding);
                     let mut sum = 0.0;
-                    winding.areas(&mut |[stroke, polygon], area| {
+                    winding.areas(&|_| false, &mut |[stroke, polygon], area| {
                         if rule.contains(polygon) == cut.keeps_inside {
                             sum += weight.of(stroke) * area;
                         }
@@ -378,7 +409,7 @@ impl Polygons {
 
     fn take_row(&mut self, row: usize, weight: Weight, out: &mut RowCoverage) -> bool {
         match self {
-            Self::Aliased(centres) => centres.take_row(row, weight, out),
+            Self::Aliased(centres) => centres.take_coverage(row, weight, out),
             Self::Smooth(smooth) => smooth.take_row(row, weight, out),
             Self::Exact(accumulator) => accumulator.take_coverage(row, weight, out),
         }

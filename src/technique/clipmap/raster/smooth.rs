@@ -1,7 +1,7 @@
 //! Polygons anti-aliased by tiny-skia.
 
-use super::exact::RowCoverage;
 use super::fixed::without_far;
+use super::rows::RowCoverage;
 use super::weight::Weight;
 use crate::scene::Rule;
 use crate::space::Texel;

@@ -33,6 +33,14 @@ impl Weight {
     }
 }
 
+impl Weight {
+    /// Whether all winding numbers between two have the same weight; false also where that would take long to know.
+    pub(super) fn is_alike(self, (least, most): (i32, i32)) -> bool {
+        // From 1 on it does not decrease where it is no alternation.
+        least > 0 && self != Self::Rule(Rule::EvenOdd) && self.of(least) == self.of(most)
+    }
+}
+
 /// k times over a ground leaves (1 - alpha)^k of it; the sum of the geometric row is what lies on it.
 fn layers(winding: i32, alpha: f64) -> f64 {
     let (mut sum, mut left) = (0.0, 1.0);

@@ -60,6 +60,16 @@ impl Texel {
         self.fragments.clear();
     }
 
+    /// Adds to the winding numbers in the north-west corner.
+    pub(super) fn add_corner(&mut self, adds: Windings) {
+        self.corner = sum(self.corner, adds);
+    }
+
+    /// Adds a change along the western side.
+    pub(super) fn add_step(&mut self, y: f64, adds: Windings) {
+        self.steps.push(Step { y, adds });
+    }
+
     /// Adds what an edge west of the texel does between two heights.
     pub(super) fn add_west(&mut self, (top, bottom): (f64, f64), adds: Windings) {
         if top < bottom {
@@ -68,8 +78,13 @@ impl Texel {
         }
     }
 
-    /// Calls `visit` with winding numbers and the area that has them, again and again, until the areas are 1 in all.
-    pub(super) fn areas(&mut self, visit: &mut impl FnMut(Windings, f64)) {
+    /// Calls `visit` with winding numbers and the area that has them, again and again, until the areas are 1 in all. Where `is_alike` says
+    /// that it makes no difference which of some winding numbers of the stroke is told, one of them is told for all.
+    pub(super) fn areas(
+        &mut self,
+        is_alike: &impl Fn((i32, i32)) -> bool,
+        visit: &mut impl FnMut(Windings, f64),
+    ) {
         merge(&mut self.corner, &mut self.steps, 0.0);
         let whole = Part { min: [0.0; 2], max: [1.0; 2] };
         if self.fragments.len() <= CROWD {
@@ -79,7 +94,7 @@ impl Texel {
             (self.heights, self.order) = (room.heights, room.order);
         } else {
             let mut room = Room::default();
-            room.quarter(&self.fragments, &self.steps, self.corner, &whole, 0, visit);
+            room.quarter(&self.fragments, &self.steps, (self.corner, is_alike), &whole, 0, visit);
         }
     }
 }
@@ -172,15 +187,18 @@ impl Room {
         &mut self,
         fragments: &[Fragment],
         steps: &[Step],
-        corner: Windings,
+        (corner, is_alike): (Windings, &impl Fn((i32, i32)) -> bool),
         part: &Part,
         depth: u32,
         visit: &mut impl FnMut(Windings, f64),
     ) {
+        let size = [part.max[0] - part.min[0], part.max[1] - part.min[1]];
+        if is_alike(range(fragments, steps, corner)) {
+            return visit(corner, size[0] * size[1]);
+        }
         if fragments.len() <= CROWD || (depth == DEEPEST && fragments.len() <= TOO_MANY) {
             return self.slabs(fragments, steps, corner, part, visit);
         }
-        let size = [part.max[0] - part.min[0], part.max[1] - part.min[1]];
         if depth == DEEPEST {
             let middle = [part.min[0] + 0.5 * size[0], part.min[1] + 0.5 * size[1]];
             return visit(winding_at(fragments, steps, corner, middle), size[0] * size[1]);
@@ -193,9 +211,16 @@ impl Room {
             fragments.iter().for_each(|f| f.clip(&inner, &mut inside, &mut west));
             let mut start = corner;
             merge(&mut start, &mut west, inner.min[1]);
-            self.quarter(&inside, &west, start, &inner, depth + 1, visit);
+            self.quarter(&inside, &west, (start, is_alike), &inner, depth + 1, visit);
         }
     }
+}
+
+/// Between which winding numbers of the stroke all points lie.
+fn range(fragments: &[Fragment], steps: &[Step], corner: Windings) -> (i32, i32) {
+    let all = steps.iter().map(|s| s.adds[0]).chain(fragments.iter().map(|f| f.adds[0]));
+    let change: i32 = all.map(i32::abs).sum();
+    (corner[0] - change, corner[0] + change)
 }
 
 fn winding_at(fragments: &[Fragment], steps: &[Step], corner: Windings, at: [f64; 2]) -> Windings {
@@ -292,7 +317,7 @@ mod tests {
 
     fn covered(texel: &mut Texel) -> f64 {
         let (mut all, mut inside) = (0.0, 0.0);
-        texel.areas(&mut |winding, area| {
+        texel.areas(&|_| false, &mut |winding, area| {
             all += area;
             if winding[0] != 0 {
                 inside += area;
@@ -333,7 +358,7 @@ mod tests {
         // A bow tie whose knot is in the middle: half of it turns each way.
         let tie = vec![[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]];
         let mut areas = [0.0; 3];
-        texel(&[tie]).areas(&mut |winding, area| areas[(winding[0] + 1) as usize] += area);
+        texel(&[tie]).areas(&|_| false, &mut |winding, area| areas[(winding[0] + 1) as usize] += area);
         assert!(areas.iter().zip([0.25, 0.5, 0.25]).all(|(a, b)| (a - b).abs() < 1e-12), "{areas:?}");
     }
 

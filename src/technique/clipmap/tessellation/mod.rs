@@ -11,7 +11,7 @@ mod style;
 mod tests;
 
 use crate::error::{Error, Result};
-use crate::scene::{Cap, Join, Joints};
+use crate::scene::{Cap, Join, Joints, Line, Width};
 use crate::space::Plan;
 use glam::DVec2;
 use joint::Corner;
@@ -131,6 +131,17 @@ impl Rule {
         Ok(Self { joints, threshold, join, cap })
     }
 
+    /// The rule of a line: widths in pixels have round joins and caps by definition, whatever the style says.
+    ///
+    /// # Errors
+    /// As [`Rule::new`].
+    pub fn of_line(joints: Joints, angle_deg: f64, line: &Line) -> Result<Self> {
+        match line.width {
+            Width::Metres(_) => Self::new(joints, angle_deg, line.join, line.cap),
+            Width::Pixels(_) => Self::new(joints, angle_deg, Join::Round, Cap::Round),
+        }
+    }
+
     /// Tessellates a whole polyline of a width in metres.
     ///
     /// # Errors
@@ -248,6 +259,9 @@ impl Rule {
     fn start(&self, from: Plan, to: Plan, half: f64, sagitta: Sagitta, out: &mut Strips) {
         let aside = joint::offset(to - from, half);
         if self.joints == Joints::Style {
+            if self.has_whole_disc(from, to, half) {
+                style::dot(from, half, self.cap, sagitta, out);
+            }
             style::start_cap(from, aside, self.cap, sagitta, out);
         }
         out.push(from, aside, -aside);
@@ -259,7 +273,16 @@ impl Rule {
         out.push(to, aside, -aside);
         if self.joints == Joints::Style {
             style::end_cap(to, aside, self.cap, sagitta, out);
+            if self.has_whole_disc(from, to, half) {
+                out.end();
+                style::dot(to, half, self.cap, sagitta, out);
+            }
         }
+    }
+
+    /// Whether a round cap at the end of a segment is seen beyond its other end too.
+    fn has_whole_disc(&self, from: Plan, to: Plan, half: f64) -> bool {
+        self.cap == Cap::Round && half > (to - from).length()
     }
 
     /// The strips of a line of one vertex: a dot by its cap, which only a style has.

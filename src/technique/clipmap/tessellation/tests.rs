@@ -253,6 +253,29 @@ fn every_turn_from_180_degrees_to_a_trillionth_of_one_is_finite_and_covers_its_s
 }
 
 #[test]
+fn method_2_has_corners_up_to_a_million_half_widths_and_bevels_what_turns_back_farther() {
+    // The corner of a turn of 180 - a degrees is 1 / sin(a / 2) half widths from its vertex.
+    for (short_of, expected) in
+        [(1e-2, Some(11_459.156)), (1.2e-4, Some(954_929.7)), (1e-4, None), (1e-9, None)]
+    {
+        let angle = f64::to_radians(short_of);
+        let points =
+            [[-1e6, 0.0], [0.0, 0.0], [-1e6 * crate::math::cos(angle), 1e6 * crate::math::sin(angle)]];
+        let strips = strips(&rule(Joints::Corner), &points, false, 2.0);
+        let strip = strips.iter().next().unwrap();
+        match expected {
+            Some(distance) => {
+                let corner = strip[1].pair(1.0).left;
+                let found = (corner.x * corner.x + corner.y * corner.y).sqrt();
+                assert!((found / distance - 1.0).abs() < 1e-4, "{short_of}: {found}");
+                assert_eq!(strip.len(), 3);
+            }
+            None => assert_eq!(strip.len(), 4, "{short_of}: both segments' own vertices"),
+        }
+    }
+}
+
+#[test]
 fn small_turns_move_vertices_continuously() {
     // Hard case 19: turns of 1e-3 to 1e-12 degrees.
     let mitred = styled(Join::Miter { limit: 4.0 }, Cap::Butt);
