@@ -40,21 +40,45 @@ fn meets(a: &[f64; 4], b: &[f64; 4]) -> bool {
     a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3]
 }
 
+/// The most letters of a line of the legend.
+const LETTERS: usize = 36;
+
+/// A name in lines that fit beside the field.
+fn lines_of(name: &str) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for word in name.split(' ') {
+        let last = lines.len() - 1;
+        if lines[last].is_empty() {
+            lines[last].push_str(word);
+        } else if lines[last].len() + 1 + word.len() <= LETTERS {
+            lines[last] = format!("{} {word}", lines[last]);
+        } else {
+            lines.push(word.to_owned());
+        }
+    }
+    lines
+}
+
 /// What the marks and lines stand for.
 pub(super) fn legend(series: &[Series]) -> Markup {
     let row = |k: usize| LEGEND[1] + 22.0 * k as f64;
     let x = LEGEND[0];
-    let n = series.len();
+    let names: Vec<Vec<String>> = series.iter().map(|one| lines_of(&one.name)).collect();
+    // A name's further lines take rows of their own.
+    let first = |k: usize| names[..k].iter().map(Vec::len).sum::<usize>();
+    let n = first(series.len());
     html! {
         @for (k, one) in series.iter().enumerate() {
-            @let y = row(k);
+            @let y = row(first(k));
             g style={ "--c:" (one.color) } {
                 @if one.is_line {
                     path.s stroke-dasharray=(one.dash) d=(polyline(&[[x, y], [x + 26.0, y]])) {}
                 }
                 path class=(if one.is_open { "m open" } else { "m" }) d=(one.mark.path(x + 13.0, y)) {}
             }
-            text x=(fixed(x + 34.0)) y=(fixed(y + 4.0)) { (one.name) }
+            @for (line, words) in names[k].iter().enumerate() {
+                text x=(fixed(x + 34.0)) y=(fixed(row(first(k) + line) + 4.0)) { (words) }
+            }
         }
         path.m style="--c:var(--soft)" d=(Mark::Star.path(x + 13.0, row(n + 2))) {}
         text x=(fixed(x + 34.0)) y=(fixed(row(n + 2) + 4.0)) { "the scene's own settings" }

@@ -155,7 +155,7 @@ fn grid(axes: &Axes) -> Markup {
         }
         path.frame d=(polyline(&[[left, top], [left, bottom], [right, bottom]])) {}
         text.strong x=(fixed(0.5 * (left + right))) y=(fixed(bottom + 46.0)) text-anchor="middle" { "time of a frame" }
-        text.strong text-anchor="middle" transform={ "translate(20 " (fixed(0.5 * (top + bottom))) ") rotate(-90)" } {
+        text.strong text-anchor="middle" transform={ "translate(14 " (fixed(0.5 * (top + bottom))) ") rotate(-90)" } {
             (axes.metric.title())
         }
     }

@@ -45,6 +45,8 @@ macro_rules! variant {
             changes: &[
                 concat!("technique.clipmap.solution=", $name),
                 concat!("technique.clipmap.threshold_texels=", $threshold),
+                // What is too wide for a line primitive would cost nothing.
+                "technique.clipmap.wide_lines=clamp",
             ],
         }
     };
@@ -125,13 +127,13 @@ pub struct SolutionRow {
     pub solution: String,
     /// Whether thin lines are drawn otherwise.
     pub is_combined: bool,
-    /// Bytes that are kept of lines (Fig. 10).
+    /// Bytes that are kept of lines and outlines, without fills (Fig. 10).
     pub geometry_bytes: usize,
     /// Bytes of the index that finds a tile's lines, the same for all.
     pub index_bytes: usize,
     /// Milliseconds to make what is kept, and the index (Fig. 11).
     pub generation_ms: Times,
-    /// Milliseconds to make all tiles of the clipmap (Fig. 12).
+    /// Milliseconds to make all tiles of the clipmap, fills too (Fig. 12).
     pub rendering_ms: Times,
     /// How many tiles that are.
     pub tiles: usize,

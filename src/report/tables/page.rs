@@ -55,6 +55,10 @@ fn data_set(set: &DataSet) -> Markup {
             } }
             h3 { "A change of the width (5.1)" }
             div.scroll { table { tbody { @for row in &set.width_changes { (width_change(row)) } } } }
+            p.note {
+                "Memory is that of lines and outlines; rendering draws fills too, if the layers have any. Line primitives are as wide as the device "
+                "can draw at most; widths in pixels count as metres. Where there are few segments, times say nothing."
+            }
             p.note { "The index that finds a tile's lines takes " (size(set.solutions.first().map_or(0, |row| row.index_bytes))) " more." }
         }
     }

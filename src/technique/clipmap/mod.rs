@@ -115,9 +115,9 @@ impl<'s> Prepare<'s> {
         self.geometry.change_width(factor)
     }
 
-    /// Bytes that the solution keeps of lines and areas, and bytes of the index that finds them.
+    /// Bytes that the solution keeps of lines and outlines, and bytes of the index that finds them.
     pub fn memory(&self) -> (usize, usize) {
-        (self.geometry.bytes(), self.geometry.index_bytes())
+        (self.geometry.stroke_bytes(), self.geometry.index_bytes())
     }
 
     /// Bytes of the tiles in the cache.

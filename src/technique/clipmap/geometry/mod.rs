@@ -108,6 +108,11 @@ impl Geometry {
         self.strokes.bytes() + self.areas.bytes()
     }
 
+    /// Bytes of what the solution keeps of lines and outlines.
+    pub(super) fn stroke_bytes(&self) -> usize {
+        self.strokes.bytes()
+    }
+
     /// Bytes of the index.
     pub(super) fn index_bytes(&self) -> usize {
         self.stroke_index.bytes() + self.area_index.bytes()
