@@ -293,6 +293,43 @@ fn a_tile_has_the_bits_of_the_same_part_of_a_larger_tile() {
 }
 
 #[test]
+fn items_of_many_edges_have_the_bits_of_the_same_items_of_few() {
+    // In the whole tile edges are sorted by rows and columns, in its small parts each texel collects its own.
+    let mut random = random(5);
+    for run in 0..6 {
+        // Half of them on corners and sides of texels, where there are ties.
+        let place = |v: f64| 64.0 * if run % 2 == 0 { (v * 128.0).floor() / 128.0 } else { v };
+        let ring: Vec<Texel> = (0..150).map(|_| Texel::new(place(random()), place(random()))).collect();
+        let drawn = |place: TilePlace| {
+            let settings =
+                RasterSettings { overlaps: if run < 3 { Overlaps::Once } else { Overlaps::Blend }, ..EXACT };
+            let ink = Ink::new(Paint([0.1, 0.2, 0.3, 0.4]), BlendMode::Over);
+            let mut raster = TileRaster::new(place, settings);
+            // Short pieces and one long ring.
+            for part in ring.chunks(5) {
+                raster.fill(&Area { rings: &[part], rule: Rule::EvenOdd, is_simple: false }, &ink);
+            }
+            raster.fill(&Area { rings: &[&ring], rule: Rule::NonZero, is_simple: false }, &ink);
+            let pairs: Vec<Pair<Texel>> = ring
+                .windows(2)
+                .step_by(2)
+                .map(|w| Pair { left: w[0], right: w[0] + (w[1] - w[0]) * 0.1 })
+                .collect();
+            raster.strips([&pairs[..]].into_iter(), Folded::Triangles, None, &ink);
+            raster
+        };
+        let whole = drawn(tile(64));
+        for (column, row) in
+            (0..64).step_by(4).flat_map(|row| (0..64).step_by(16).map(move |column| (column, row)))
+        {
+            let part = drawn(TilePlace { origin: (column as i64, row as i64), size: (16, 4) });
+            let is_same = |y: usize| part.row(y) == &whole.row(row + y)[column..column + 16];
+            assert!((0..4).all(is_same), "run {run}, {column} {row}");
+        }
+    }
+}
+
+#[test]
 fn an_outline_is_cut_to_the_exact_area_that_it_shares_with_its_polygon() {
     // A thin stroke along a slanted border: every texel on it is partly stroke and partly polygon.
     let (a, b) = (Texel::new(-10.0, 1.3), Texel::new(20.0, 7.9));
