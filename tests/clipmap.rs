@@ -248,7 +248,12 @@ fn a_mitre_reaches_into_tiles_that_its_line_does_not_meet() {
         let solution = format!("technique.clipmap.solution={solution:?}");
         let changes = [
             &OURS[..1],
-            &[&solution[..], "technique.clipmap.joints=method-2", "technique.clipmap.virtual_size=512"],
+            &[
+                &solution[..],
+                "technique.clipmap.joints=method-2",
+                "technique.clipmap.virtual_size=512",
+                "technique.clipmap.level_bias=-1",
+            ],
         ]
         .concat();
         assert!(alpha_at(&text, &changes, 2.5, -10.5) > 0.9, "{solution}");

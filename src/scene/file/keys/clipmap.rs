@@ -88,7 +88,7 @@ pub(super) static CLIPMAP: TableShape = TableShape {
         key(
             "overlaps",
             choice::<Overlaps>(),
-            "Whether a feature is blended twice where it covers a texel twice. Default: \"blend\".",
+            "Whether a feature is blended twice where it covers a texel twice (tiny-skia's polygons are not). Default: \"blend\".",
         ),
         key("offsets", choice::<OffsetForm>(), "How solution 4b keeps offsets. Default: \"rectangular\"."),
         key(
