@@ -70,7 +70,11 @@ impl Canvas {
     /// Blends ink wherever an item lies.
     pub(super) fn blend_item(&mut self, item: &mut impl ByRows, weight: Weight, ink: &Ink) {
         let arch = self.arch;
-        arch.dispatch(BlendItem { canvas: self, item, weight, ink });
+        if ink.mode == BlendMode::Over && self.format == TexelFormat::F32 {
+            arch.dispatch(OverItem { canvas: self, item, weight, color: ink.color });
+        } else {
+            arch.dispatch(BlendItem { canvas: self, item, weight, ink });
+        }
     }
 }
 
@@ -112,14 +116,30 @@ impl<I: ByRows> pulp::WithSimd for BlendItem<'_, I> {
     fn with_simd<S: pulp::Simd>(self, _: S) {
         let Self { canvas, item, weight, ink } = self;
         let format = canvas.format;
-        let is_plain = ink.mode == BlendMode::Over && format == TexelFormat::F32;
         for row in item.rows() {
             let texels = &mut canvas.texels[row * canvas.stride..][..canvas.stride];
-            if is_plain {
-                item.take_row(row, weight, &mut Over { texels, color: ink.color });
-            } else {
-                item.take_row(row, weight, &mut Blend { texels, ink, format });
-            }
+            item.take_row(row, weight, &mut Blend { texels, ink, format });
+        }
+    }
+}
+
+/// The same for what is mostly done: blending over texels that are numbers.
+struct OverItem<'a, I> {
+    canvas: &'a mut Canvas,
+    item: &'a mut I,
+    weight: Weight,
+    color: [f32; 4],
+}
+
+impl<I: ByRows> pulp::WithSimd for OverItem<'_, I> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) {
+        let Self { canvas, item, weight, color } = self;
+        for row in item.rows() {
+            let texels = &mut canvas.texels[row * canvas.stride..][..canvas.stride];
+            item.take_row(row, weight, &mut Over { texels, color });
         }
     }
 }

@@ -61,8 +61,8 @@ struct Interval {
 /// An item with more edges than this in a tile has them sorted by rows and columns where winding numbers are to be told apart.
 const MANY: usize = 64;
 
-/// More pairs of pieces in a row are not compared: pieces are counted instead.
-const MOST_PAIRS: usize = 64;
+/// Of more pieces in a row, pairs are not compared: pieces are counted instead.
+const FEW_PIECES: usize = 12;
 
 /// The end of a row's intervals.
 const NONE: u32 = u32::MAX;
@@ -439,15 +439,15 @@ impl Accumulator {
     #[inline(always)]
     fn take_overlaps(&mut self, row: usize) -> u64 {
         let mut at = std::mem::replace(&mut self.intervals_of_rows[row], NONE);
-        let (first, mut blocks, mut pairs) = (at, 0, 0);
+        let (first, mut blocks, mut pieces) = (at, 0, 0);
         while at != NONE {
+            pieces += 1;
+            if pieces > FEW_PIECES {
+                return self.count_overlaps(first);
+            }
             let Interval { span, next } = self.intervals[at as usize];
             let mut other = next;
             while other != NONE {
-                pairs += 1;
-                if pairs > MOST_PAIRS {
-                    return self.count_overlaps(first);
-                }
                 let against = self.intervals[other as usize];
                 let first = span.first.max(against.span.first).max(0);
                 let last = span.last.min(against.span.last).min(self.width - 1);
@@ -464,6 +464,7 @@ impl Accumulator {
 
     /// The same for many pieces: counts them in each column.
     #[cold]
+    #[inline(never)]
     fn count_overlaps(&mut self, first: u32) -> u64 {
         let mut changes = vec![0i32; self.width as usize + 1];
         let mut at = first;
