@@ -1,6 +1,8 @@
-//! Features as GeoJSON (RFC 7946, but in the scene's plan coordinates), styled in the words of the simplestyle specification.
+//! Features as GeoJSON (RFC 7946, but in the scene's plan coordinates), styled in the words of the simplestyle specification and
+//! of the scene file.
 
-use crate::scene::{Cap, Color, Feature, Join, Layer, Line, OutlineMode, Rule, Shape, Width};
+use crate::scene::file::Named;
+use crate::scene::{Color, Feature, Join, Layer, Line, Shape, Width};
 use crate::space::Plan;
 use glam::DVec2;
 use serde_json::{Map, Value, json};
@@ -48,30 +50,19 @@ fn properties(layer: &Layer, feature: &Feature) -> Map<String, Value> {
         if let Some(limit) = limit {
             put("miter-limit", limit.into());
         }
-        let cap = match line.cap {
-            Cap::Butt => "butt",
-            Cap::Square => "square",
-            Cap::Round => "round",
-        };
-        put("cap", cap.into());
+        put("cap", line.cap.word().into());
     };
     match &feature.shape {
         Shape::Line(_) => style.line.iter().for_each(stroke),
         Shape::Polygon(_) => {
             style.outline.iter().for_each(|outline| stroke(&outline.line));
             if let Some(outline) = &style.outline {
-                let mode = match outline.mode {
-                    OutlineMode::Inset => "inset",
-                    OutlineMode::Normal => "normal",
-                    OutlineMode::Offset => "offset",
-                };
-                put("outline-mode", mode.into());
+                put("outline-mode", outline.mode.word().into());
             }
             if let Some(fill) = &style.fill {
                 put("fill", hex(fill.color).into());
                 put("fill-opacity", fill.color.0[3].into());
-                let rule = if fill.rule == Rule::EvenOdd { "even-odd" } else { "non-zero" };
-                put("fill-rule", rule.into());
+                put("fill-rule", fill.rule.word().into());
             }
         }
     }

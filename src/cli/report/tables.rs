@@ -6,7 +6,7 @@ use crate::cli::scene_input::SceneInput;
 use drapery::output::Batch;
 use drapery::report::Times;
 use drapery::report::tables::{
-    DataSet, SolutionRow, TABLES_SCHEMA, Tables, VARIANTS, WIDTH_CHANGES, WidthRow, page,
+    DataSet, SolutionRow, TABLES_SCHEMA, Tables, VARIANTS, Variant, WIDTH_CHANGES, WidthRow, page,
 };
 use drapery::scene::Shape;
 use drapery::space::Plan;
@@ -49,22 +49,7 @@ pub(super) fn told(set: &DataSet) -> String {
 
 fn data_set(input: &SceneInput, repeat: u32, bar: &Bar) -> Result<DataSet> {
     let mut stage = input.stage(bar)?;
-    let (mut features, mut segments, mut vertices) = (0, 0, 0);
-    for layer in &stage.scene.layers {
-        for feature in &layer.features {
-            let (parts, is_ring) = match &feature.shape {
-                Shape::Line(parts) if layer.style.line.is_some() => (parts, false),
-                Shape::Polygon(rings) if layer.style.outline.is_some() => (rings, true),
-                _ => continue,
-            };
-            features += 1;
-            vertices += parts.iter().map(Vec::len).sum::<usize>();
-            segments += parts
-                .iter()
-                .map(|p| if is_ring { p.len() } else { p.len().saturating_sub(1) })
-                .sum::<usize>();
-        }
-    }
+    let [features, segments, vertices] = counted(&stage);
     if segments == 0 {
         return Err(Error::new("there are no lines and no outlines to measure").help(
             "give a layer `line` or `outline`, or leave the scene out: then there are the paper's data sets",
@@ -77,31 +62,7 @@ fn data_set(input: &SceneInput, repeat: u32, bar: &Bar) -> Result<DataSet> {
     for (k, variant) in VARIANTS.iter().enumerate() {
         bar.start(&format!("{} {}/{}", variant.solution, k + 1, VARIANTS.len()));
         change(&mut stage, input, variant.changes)?;
-        let (mut generation, mut rendering) = (Vec::new(), Vec::new());
-        let mut row = None;
-        for _ in 0..repeat {
-            let (prepared, ms) = timed(|| clipmap::Prepare::new(&stage))?;
-            generation.push(ms);
-            let ((tiles, counts), ms) = timed(|| Ok(prepared.reconstruct(middle)))?;
-            rendering.push(ms);
-            let (geometry_bytes, index_bytes) = prepared.memory();
-            row = Some(SolutionRow {
-                solution: variant.solution.into(),
-                is_combined: variant.is_combined,
-                geometry_bytes,
-                index_bytes,
-                generation_ms: Times::of(Vec::new()),
-                rendering_ms: Times::of(Vec::new()),
-                tiles,
-                line_primitives: counts.lines,
-                quads: counts.quads,
-            });
-        }
-        solutions.extend(row.map(|row| SolutionRow {
-            generation_ms: Times::of(generation),
-            rendering_ms: Times::of(rendering),
-            ..row
-        }));
+        solutions.extend(solution(variant, &stage, middle, repeat)?);
     }
     Ok(DataSet {
         scene: scene_result(&stage, &input.file),
@@ -112,6 +73,49 @@ fn data_set(input: &SceneInput, repeat: u32, bar: &Bar) -> Result<DataSet> {
         solutions,
         width_changes: width_changes(&mut stage, input, repeat, bar)?,
     })
+}
+
+/// How many lines and outlined polygons a scene has, with how many segments and vertices.
+fn counted(stage: &Stage) -> [usize; 3] {
+    let [mut features, mut segments, mut vertices] = [0; 3];
+    for layer in &stage.scene.layers {
+        for feature in &layer.features {
+            let (parts, is_ring) = match &feature.shape {
+                Shape::Line(parts) if layer.style.line.is_some() => (parts, false),
+                Shape::Polygon(rings) if layer.style.outline.is_some() => (rings, true),
+                _ => continue,
+            };
+            let of_part = |part: &Vec<Plan>| if is_ring { part.len() } else { part.len().saturating_sub(1) };
+            features += 1;
+            segments += parts.iter().map(of_part).sum::<usize>();
+            vertices += parts.iter().map(Vec::len).sum::<usize>();
+        }
+    }
+    [features, segments, vertices]
+}
+
+/// Measures a solution so often.
+fn solution(variant: &Variant, stage: &Stage, middle: Plan, repeat: u32) -> Result<Option<SolutionRow>> {
+    let (mut generation, mut rendering) = (Vec::new(), Vec::new());
+    let mut last = None;
+    for _ in 0..repeat {
+        let (prepared, ms) = timed(|| clipmap::Prepare::new(stage))?;
+        generation.push(ms);
+        let (drawn, ms) = timed(|| Ok(prepared.reconstruct(middle)))?;
+        rendering.push(ms);
+        last = Some((drawn, prepared.memory()));
+    }
+    Ok(last.map(|((tiles, counts), (geometry_bytes, index_bytes))| SolutionRow {
+        solution: variant.solution.into(),
+        is_combined: variant.is_combined,
+        geometry_bytes,
+        index_bytes,
+        generation_ms: Times::of(generation),
+        rendering_ms: Times::of(rendering),
+        tiles,
+        line_primitives: counts.lines,
+        quads: counts.quads,
+    }))
 }
 
 fn width_changes(stage: &mut Stage, input: &SceneInput, repeat: u32, bar: &Bar) -> Result<Vec<WidthRow>> {

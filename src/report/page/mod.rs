@@ -11,7 +11,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 pub(super) use rows::size;
 use rows::table;
 
-pub(super) const STYLE: &str = include_str!("style.css");
+const STYLE: &str = include_str!("style.css");
 const SCRIPT: &str = include_str!("script.js");
 
 /// The bytes of PNG files that a page carries at most: a third more as text.
@@ -28,6 +28,19 @@ pub struct Section<'a> {
     pub plots: &'a [String],
 }
 
+/// A page's head.
+pub(super) fn head(title: &str) -> Markup {
+    html! {
+        head {
+            meta charset="utf-8";
+            meta name="viewport" content="width=device-width, initial-scale=1";
+            meta name="color-scheme" content="light dark";
+            title { (title) }
+            style { (PreEscaped(STYLE)) }
+        }
+    }
+}
+
 /// The text of the page.
 ///
 /// # Errors
@@ -38,13 +51,7 @@ pub fn page(report: &Report, sections: &[Section]) -> Result<String> {
     let page = html! {
         (DOCTYPE)
         html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                meta name="color-scheme" content="light dark";
-                title { "Speed against error: " (names(report)) }
-                style { (PreEscaped(STYLE)) }
-            }
+            (head(&format!("Speed against error: {}", names(report))))
             body {
                 header {
                     h1 { "Speed against error" }

@@ -1,22 +1,16 @@
 //! `tables.html`: the tables with bars, one page that needs no network.
 
 use super::super::axis::{duration, short};
-use super::super::page::{STYLE, size};
+use super::super::page::{head, size};
 use super::{DataSet, SolutionRow, Tables, WidthRow};
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{DOCTYPE, Markup, html};
 
 /// The text of the page.
 pub fn page(tables: &Tables) -> String {
     let page = html! {
         (DOCTYPE)
         html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                meta name="color-scheme" content="light dark";
-                title { "Line rasterization for multi-resolution textures: the tables" }
-                style { (PreEscaped(STYLE)) }
-            }
+            (head("Line rasterization for multi-resolution textures: the tables"))
             body {
                 header {
                     h1 { "Line rasterization for multi-resolution textures" }
