@@ -5,7 +5,8 @@
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use drapery::scene::file::SceneFile;
-use drapery::technique::{self, FrameOptions, Kind, Stage};
+use drapery::stage::Stage;
+use drapery::technique::{self, FrameOptions, Kind};
 use std::hint::black_box;
 
 /// Terrain of 30 m cells and roads of 5 m, as dense for any number of segments, seen from 900 m above its middle: what is seen stays
@@ -48,9 +49,10 @@ fn inverse_projection(c: &mut Criterion) {
             });
         });
         let prepared = technique::prepare(Kind::InverseProjection, &stage).expect("widths in metres");
+        let view = stage.view().expect("a view");
         let options = FrameOptions { tile: 128, buffers: &[], progress: &|_| {} };
         group.bench_function(BenchmarkId::new("frame", segments), |b| {
-            b.iter(|| black_box(prepared.frame(&options).expect("no buffers")));
+            b.iter(|| black_box(prepared.frame(&view, &options).expect("no buffers")));
         });
     }
     group.finish();

@@ -8,7 +8,8 @@ use drapery::scene::file::SceneFile;
 use drapery::scene::{Cap, Color, Diagonal, Feature, Grouping, Join, Layer, Line, Posts, Shape, Style};
 use drapery::scene::{Surface, Width};
 use drapery::space::Plan;
-use drapery::technique::{self, FrameOptions, Kind, Stage};
+use drapery::stage::Stage;
+use drapery::technique::{self, FrameOptions, Kind};
 use glam::DVec2;
 use std::hint::black_box;
 
@@ -73,7 +74,7 @@ fn chains(count: usize, length: f64) -> Vec<Feature> {
             at = at + DVec2::new(drapery::math::cos(angle), drapery::math::sin(angle)) * length;
             points.push(at);
         }
-        Feature { index, shape: Shape::Line(vec![points]) }
+        Feature { index, style: 0, shape: Shape::Line(vec![points]) }
     };
     (0..count / CHAIN).map(&mut chain).collect()
 }
@@ -87,7 +88,7 @@ fn layers((count, length, width): (usize, f64, f64), colors: usize) -> Vec<Layer
         Style { line: Some(line), ..Style::default() }
     };
     let parts = features.chunks(features.len() / colors).enumerate();
-    parts.map(|(k, part)| Layer { name: k.to_string(), style: style(k), features: part.to_vec() }).collect()
+    parts.map(|(k, part)| Layer::uniform(k.to_string(), style(k), part.to_vec())).collect()
 }
 
 fn stage(roads: (usize, f64, f64), colors: usize) -> Stage {
@@ -112,13 +113,14 @@ fn stencil_volume(c: &mut Criterion) {
     for roads in ROADS {
         for colors in [1, 100] {
             let stage = stage(roads, colors);
+            let view = stage.view().expect("a view");
             let name = format!("{} segments, {colors} colours", roads.0);
             group.bench_function(BenchmarkId::new("prepare", &name), |b| {
                 b.iter(|| black_box(technique::prepare(Kind::StencilVolume, &stage).expect("metres")));
             });
             let prepared = technique::prepare(Kind::StencilVolume, &stage).expect("metres");
             group.bench_function(BenchmarkId::new("frame", &name), |b| {
-                b.iter(|| black_box(prepared.frame(&options).expect("no buffers")));
+                b.iter(|| black_box(prepared.frame(&view, &options).expect("no buffers")));
             });
         }
     }

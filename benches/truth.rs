@@ -9,7 +9,7 @@ use drapery::compare::Difference;
 use drapery::report;
 use drapery::sampling::sample;
 use drapery::scene::file::SceneFile;
-use drapery::technique::Stage;
+use drapery::stage::Stage;
 use drapery::truth::{Budget, Truth, certify};
 use std::hint::black_box;
 
@@ -36,12 +36,12 @@ line = {{ color = "#ff7f00", width_m = 4.0, join = "miter" }}
 }
 
 fn certified(stage: &Stage) -> Truth {
-    certify(&stage.scene, &stage.mesh, &stage.view, &Budget::default(), &|_| {})
+    certify(stage, &stage.view().expect("a view"), &Budget::default(), &|_| {})
 }
 
 /// Largest and mean error of n x n samples, as distances out of the truth's intervals.
 fn errors(stage: &Stage, truth: &Truth, n: usize) -> (f64, f64) {
-    let sampled = sample(&stage.scene, &stage.mesh, &stage.view, n, &|_| {});
+    let sampled = sample(stage, &stage.view().expect("a view"), n, &|_| {});
     let image = report::image(&sampled.colors).expect("pixels");
     let expected = report::expected(truth).expect("bounds in order");
     let metrics = Difference::of(&expected, &image).expect("one size").metrics(0.0);
@@ -73,7 +73,7 @@ fn truth(c: &mut Criterion) {
                 eprintln!("{segments} segments: {n} x {n} samples: off by at most {max:.6}, mean {mean:.8}");
             }
             group.bench_function(BenchmarkId::new(format!("{n}x{n}"), segments), |b| {
-                b.iter(|| black_box(sample(&stage.scene, &stage.mesh, &stage.view, n, &|_| {})));
+                b.iter(|| black_box(sample(&stage, &stage.view().expect("a view"), n, &|_| {})));
             });
         }
     }

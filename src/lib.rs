@@ -4,7 +4,7 @@
 //!
 //! 1. [`source`] reads what a scene file ([`scene::file`]) names: terrain and vectors, brought to one plan by [`crs`];
 //! 2. [`scene`] is what is drawn, in memory, in scene-local coordinates ([`space`]);
-//! 3. [`terrain`] makes a mesh with bounding boxes of the heights;
+//! 3. [`terrain`] makes a mesh with bounding boxes of the heights; both together are a [`stage`];
 //! 4. [`raster`] and [`visibility`] find, exactly, which triangle each sample sees, and where;
 //! 5. [`technique`] draws, each beside its paper; [`resolve`] composes colours;
 //! 6. [`output`] writes pictures, buffers and numbers;
@@ -14,7 +14,8 @@
 //!
 //! ```
 //! use drapery::scene::file::SceneFile;
-//! use drapery::technique::{self, FrameOptions, Kind, Stage};
+//! use drapery::stage::Stage;
+//! use drapery::technique::{self, FrameOptions, Kind};
 //!
 //! let text = r##"
 //!     schema = 1
@@ -28,7 +29,7 @@
 //! let (scene, surface) = drapery::source::load::load(&file, &|_| {})?;
 //! let stage = Stage::new(scene, surface)?;
 //! let prepared = technique::prepare(Kind::InverseProjection, &stage)?;
-//! let frame = prepared.frame(&FrameOptions { tile: 128, buffers: &[], progress: &|_| {} })?;
+//! let frame = prepared.frame(&stage.view()?, &FrameOptions { tile: 128, buffers: &[], progress: &|_| {} })?;
 //! assert_eq!(frame.image.width(), 64);
 //! # Ok::<(), drapery::Error>(())
 //! ```
@@ -53,6 +54,7 @@ pub mod sampling;
 pub mod scene;
 pub mod source;
 pub mod space;
+pub mod stage;
 pub mod technique;
 pub mod terrain;
 pub mod truth;

@@ -7,7 +7,8 @@ use drapery::compare::{Image, Metrics};
 use drapery::math;
 use drapery::scene::file::{Override, SceneFile};
 use drapery::space::ViewFrame;
-use drapery::technique::{Frame, FrameOptions, Kind, Stage, clipmap::Prepare};
+use drapery::stage::Stage;
+use drapery::technique::{Frame, FrameOptions, Kind, clipmap::Prepare};
 use drawing::{count, errors, scene, stage, truth_of};
 
 fn frame(text: &str, changes: &[&str], buffers: &[&str]) -> Frame {
@@ -370,7 +371,7 @@ fn a_changed_width_is_that_of_a_scene_with_the_width() {
         let stage_before = stage(&hills(), &changes);
         let mut prepared = Prepare::new(&stage_before).unwrap();
         assert!(prepared.change_width(2.0), "{changes:?}");
-        let (changed, _) = prepared.frame_of(&stage_before.view, &PLAIN).unwrap();
+        let (changed, _) = prepared.frame_of(&stage_before.view().unwrap(), &PLAIN).unwrap();
         // Outlines in pixels stay as they are.
         let right = frame(&hills(), &[&solution, &joints, "layer.1.line.width_m=18"], &[]);
         assert!(changed.image == right.image, "{changes:?}");
@@ -399,15 +400,15 @@ fn the_picture_does_not_depend_on_the_way_of_the_camera_nor_on_the_cache() {
         let last = stage(&hills(), &[&cache]);
         let buffers = ["color", "level", "tile", "texels", "tiles"].map(str::to_owned);
         let options = FrameOptions { buffers: &buffers, ..PLAIN };
-        let direct = Prepare::new(&last).unwrap().frame_of(&last.view, &options).unwrap().0;
+        let direct = Prepare::new(&last).unwrap().frame_of(&last.view().unwrap(), &options).unwrap().0;
         let prepared = Prepare::new(&last).unwrap();
-        let views: Vec<ViewFrame> = zooms().iter().map(|stage| stage.view).collect();
+        let views: Vec<ViewFrame> = zooms().iter().map(|stage| stage.view().unwrap()).collect();
         for view in &views {
             prepared.frame_of(view, &PLAIN).unwrap();
         }
-        let wandered = prepared.frame_of(&last.view, &options).unwrap().0;
+        let wandered = prepared.frame_of(&last.view().unwrap(), &options).unwrap().0;
         assert_eq!(hash(&wandered), hash(&direct), "{cache}");
-        let all = prepared.frame_of(&last.view, &options).unwrap();
+        let all = prepared.frame_of(&last.view().unwrap(), &options).unwrap();
         assert_eq!(hash(&all.0), hash(&direct));
         assert!(cache.ends_with("=1024") == (all.1.made == 0), "{cache}: {:?}", all.1);
     }
@@ -421,8 +422,8 @@ fn a_camera_that_moves_on_makes_only_the_tiles_that_are_new() {
         stage(&hills(), &[&changes[..], &["camera.eye=[45, -420, 260]"]].concat()),
     );
     let prepared = Prepare::new(&first).unwrap();
-    let before = prepared.frame_of(&first.view, &PLAIN).unwrap().1;
-    let after = prepared.frame_of(&next.view, &PLAIN).unwrap();
+    let before = prepared.frame_of(&first.view().unwrap(), &PLAIN).unwrap().1;
+    let after = prepared.frame_of(&next.view().unwrap(), &PLAIN).unwrap();
     assert!(after.1.made * 4 < before.made && after.1.found * 2 > before.made, "{before:?} {:?}", after.1);
     let direct = drawing::frame_of(Kind::Clipmap, &next, &[]);
     assert!(direct.image == after.0.image);
@@ -451,7 +452,14 @@ fn every_buffer_keeps_its_bits_for_any_number_of_threads_and_any_tiles() {
             let draw = || {
                 let prepared = drapery::technique::prepare(Kind::Clipmap, &stage).unwrap();
                 let buffers: Vec<String> = prepared.buffer_names().iter().map(|n| (*n).to_owned()).collect();
-                hash(&prepared.frame(&FrameOptions { tile, buffers: &buffers, progress: &|_| {} }).unwrap())
+                hash(
+                    &prepared
+                        .frame(
+                            &stage.view().unwrap(),
+                            &FrameOptions { tile, buffers: &buffers, progress: &|_| {} },
+                        )
+                        .unwrap(),
+                )
             };
             drapery::parallel::with_threads(threads, draw).unwrap()
         };

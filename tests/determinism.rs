@@ -5,7 +5,8 @@
 
 use drapery::buffer::Plane;
 use drapery::scene::file::SceneFile;
-use drapery::technique::{self, FrameOptions, Kind, Stage};
+use drapery::stage::Stage;
+use drapery::technique::{self, FrameOptions, Kind};
 
 /// Mountains, land use, an outlined lake, a road with a sharp turn; seen in perspective over the horizon.
 const MOUNTAINS: &str = r##"
@@ -63,7 +64,9 @@ fn hashes(kind: Kind, text: &str, tile: usize, threads: usize) -> Vec<String> {
         let stage = Stage::new(scene, surface).unwrap();
         let prepared = technique::prepare(kind, &stage).unwrap();
         let buffers: Vec<String> = prepared.buffer_names().iter().map(|n| (*n).to_owned()).collect();
-        let frame = prepared.frame(&FrameOptions { tile, buffers: &buffers, progress: &|_| {} }).unwrap();
+        let frame = prepared
+            .frame(&stage.view().unwrap(), &FrameOptions { tile, buffers: &buffers, progress: &|_| {} })
+            .unwrap();
         let mut hashes = vec![format!("image {}", frame.image.hash())];
         hashes.extend(frame.planes.iter().map(|p: &Plane| format!("{} {}", p.name, p.hash())));
         hashes

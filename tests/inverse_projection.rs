@@ -7,7 +7,8 @@ use drapery::scene::{
     Surface, TechniqueSettings, Width,
 };
 use drapery::space::{Plan, World};
-use drapery::technique::{self, Frame, FrameOptions, Kind, Stage};
+use drapery::stage::Stage;
+use drapery::technique::{self, Frame, FrameOptions, Kind};
 use glam::{DVec2, DVec3};
 
 const BLACK: Color = Color([0.0, 0.0, 0.0, 1.0]);
@@ -45,7 +46,7 @@ fn scene(size: (usize, usize), camera: Camera, layers: Vec<Layer>, settings: Inv
 }
 
 fn layer(shape: Shape, style: Style) -> Layer {
-    Layer { name: "layer".into(), style, features: vec![Feature { index: 0, shape }] }
+    Layer::uniform("layer", style, vec![Feature { index: 0, style: 0, shape }])
 }
 
 fn line(points: &[(f64, f64)], width: f64) -> Layer {
@@ -67,7 +68,9 @@ fn draw(scene: Scene, surface: Surface, tile: usize) -> Frame {
     let stage = Stage::new(scene, surface).unwrap();
     let prepared = technique::prepare(Kind::InverseProjection, &stage).unwrap();
     let buffers: Vec<String> = prepared.buffer_names().iter().map(|s| (*s).to_owned()).collect();
-    prepared.frame(&FrameOptions { tile, buffers: &buffers, progress: &|_| {} }).unwrap()
+    prepared
+        .frame(&stage.view().unwrap(), &FrameOptions { tile, buffers: &buffers, progress: &|_| {} })
+        .unwrap()
 }
 
 fn plane<'a>(frame: &'a Frame, name: &str) -> &'a Plane {

@@ -12,7 +12,7 @@ use drapery::scene::file::SceneFile;
 use drapery::scene::{Layer, Scene, Shape, Surface};
 use drapery::source::load::load;
 use drapery::space::Plan;
-use drapery::technique::Stage;
+use drapery::stage::Stage;
 use glam::DVec2;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};

@@ -342,8 +342,12 @@ fn hashes(text: &str, changes: &[&str], tile: usize, threads: usize) -> Vec<Stri
         let stage = stage(text, changes);
         let prepared = technique::prepare(Kind::StencilVolume, &stage).unwrap();
         let buffers: Vec<String> = prepared.buffer_names().iter().map(|n| (*n).to_owned()).collect();
-        let none = prepared.frame(&FrameOptions { tile, buffers: &[], progress: &|_| {} }).unwrap();
-        let all = prepared.frame(&FrameOptions { tile, buffers: &buffers, progress: &|_| {} }).unwrap();
+        let none = prepared
+            .frame(&stage.view().unwrap(), &FrameOptions { tile, buffers: &[], progress: &|_| {} })
+            .unwrap();
+        let all = prepared
+            .frame(&stage.view().unwrap(), &FrameOptions { tile, buffers: &buffers, progress: &|_| {} })
+            .unwrap();
         assert_eq!(none.image, all.image, "buffers change no pixel");
         let mut hashes = vec![all.image.hash()];
         hashes.extend(all.planes.iter().map(|p| format!("{} {}", p.name, p.hash())));

@@ -8,7 +8,8 @@ use drapery::scene::{
     Surface, TechniqueSettings, Width,
 };
 use drapery::space::{Plan, World};
-use drapery::technique::{self, FrameOptions, Kind, Stage};
+use drapery::stage::Stage;
+use drapery::technique::{self, FrameOptions, Kind};
 use drapery::terrain::Mesh;
 use drapery::truth::{Budget, Truth, certify};
 use glam::{DVec2, DVec3};
@@ -59,7 +60,7 @@ fn flat() -> Surface {
 }
 
 fn layer(shape: Shape, style: Style) -> Layer {
-    Layer { name: "layer".into(), style, features: vec![Feature { index: 0, shape }] }
+    Layer::uniform("layer", style, vec![Feature { index: 0, style: 0, shape }])
 }
 
 fn plan(points: &[(f64, f64)]) -> Vec<Plan> {
@@ -81,9 +82,8 @@ fn stroke(width: f64) -> Line {
 
 /// As narrow as the work allows: `width` a pixel.
 fn truth(scene: &Scene, surface: Surface, width: f64) -> Truth {
-    let mesh = Mesh::new(surface, scene.diagonal).unwrap();
-    let view = scene.camera.view(&scene.image).unwrap();
-    certify(scene, &mesh, &view, &Budget::new(width, 14).unwrap(), &|_| {})
+    let stage = Stage::new(scene.clone(), surface).unwrap();
+    certify(&stage, &stage.view().unwrap(), &Budget::new(width, 14).unwrap(), &|_| {})
 }
 
 /// Between which bounds the area of black on white lies, in pixels, over some pixels.
@@ -257,11 +257,11 @@ fn case_40_polygons_under_a_pixel_keep_their_area() {
             let corner = (f64::from(k % 32) - 16.0 + 0.9 * next(), f64::from(k / 32) - 16.0 + 0.9 * next());
             let ring =
                 [(0.0, 0.0), (0.1, 0.0), (0.1, 0.1), (0.0, 0.1)].map(|(x, y)| (corner.0 + x, corner.1 + y));
-            Feature { index: k as usize, shape: Shape::Polygon(vec![plan(&ring)]) }
+            Feature { index: k as usize, style: 0, shape: Shape::Polygon(vec![plan(&ring)]) }
         })
         .collect();
     let style = Style { fill: Some(Fill { color: BLACK, rule: Rule::EvenOdd }), ..Style::default() };
-    let all = Layer { name: "squares".into(), style, features: squares };
+    let all = Layer::uniform("squares", style, squares);
     let truth = truth(&map(32, vec![all]), flat(), 1e-9);
     let (low, high) = black(&truth, 0..32 * 32);
     assert!(low <= 10.24 && 10.24 <= high && high - low < 1e-5, "[{low}, {high}]");
@@ -304,10 +304,9 @@ fn the_coverage_of_each_feature_is_known_below_an_opaque_one_too() {
     let (small, large) = (square(2.25), square(3.5));
     let scene =
         map(8, vec![polygon(&[&small], Rule::EvenOdd, BLACK), polygon(&[&large], Rule::EvenOdd, BLACK)]);
-    let mesh = Mesh::new(flat(), scene.diagonal).unwrap();
-    let view = scene.camera.view(&scene.image).unwrap();
+    let stage = Stage::new(scene, flat()).unwrap();
     let budget = Budget { coverage: true, ..Budget::new(1e-6, 14).unwrap() };
-    let truth = certify(&scene, &mesh, &view, &budget, &|_| {});
+    let truth = certify(&stage, &stage.view().unwrap(), &budget, &|_| {});
     let coverage = truth.coverage.as_ref().unwrap();
     for (item, area) in [(0, 4.5 * 4.5), (1, 49.0)] {
         let of = coverage.values().iter().flat_map(|pixel| &pixel.items).filter(|c| c.item == item);
@@ -514,21 +513,22 @@ mod brute_force {
         let mut paint = over(scene, [0.0; 4], ground);
         for layer in &scene.layers {
             for feature in &layer.features {
+                let style = layer.style_of(feature);
                 match &feature.shape {
                     Shape::Line(parts) => {
-                        let line = layer.style.line.as_ref().unwrap();
+                        let line = style.line.as_ref().unwrap();
                         if parts.iter().any(|part| in_stroke(part, false, line, &seen)) {
                             paint = over(scene, paint, line.color);
                         }
                     }
                     Shape::Polygon(rings) => {
-                        let fill = layer.style.fill.as_ref();
+                        let fill = style.fill.as_ref();
                         let turns = winding(rings, seen.plan);
                         let inside = fill.map_or(Rule::EvenOdd, |f| f.rule).contains(turns);
                         if let Some(fill) = fill.filter(|_| inside) {
                             paint = over(scene, paint, fill.color);
                         }
-                        if let Some(outline) = &layer.style.outline {
+                        if let Some(outline) = &style.outline {
                             let wanted = match outline.mode {
                                 OutlineMode::Inset => inside,
                                 OutlineMode::Normal => true,
@@ -613,7 +613,9 @@ fn the_pixels_centres_see_what_exact_visibility_says() {
         let stage = Stage::new(scene, surface).unwrap();
         let names = ["depth".to_owned(), "triangle".to_owned()];
         let prepared = technique::prepare(Kind::InverseProjection, &stage).unwrap();
-        let frame = prepared.frame(&FrameOptions { tile: 16, buffers: &names, progress: &|_| {} }).unwrap();
+        let frame = prepared
+            .frame(&stage.view().unwrap(), &FrameOptions { tile: 16, buffers: &names, progress: &|_| {} })
+            .unwrap();
         let plane = |name: &str| frame.planes.iter().find(|p| p.name == name).unwrap();
         assert_eq!(truth.plane("triangle").unwrap().values, plane("triangle").values, "scene {k}");
         let (Some(Plane { values: Values::F64(own), .. }), Values::F64(theirs)) =

@@ -10,7 +10,8 @@ use drapery::buffer::Buffer;
 use drapery::export::{LAYOUT, Parameters, TilePicture, tiles, triangles, vertices, write_features};
 use drapery::output::{Batch, Npy, RESULT_SCHEMA, RenderResult, write_png};
 use drapery::scene::{Ground, Imagery, TILE_TEXELS};
-use drapery::technique::{self, Frame, Kind, Stage};
+use drapery::stage::Stage;
+use drapery::technique::{self, Frame, Kind};
 use drapery::truth::Budget;
 use drapery::{Error, Result, parallel};
 use std::path::PathBuf;
@@ -64,10 +65,11 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
 /// Writes a bundle; the files are in their places when it returns.
 fn export(input: &SceneInput, (kind, budget): (Kind, &Budget), mut batch: Batch, bar: &Bar) -> Result<()> {
     let stage = input.stage(bar)?;
+    let view = stage.view()?;
     technique::applies(kind, &stage)?;
     let wish = Wish { buffers: Buffers::All, repeat: 1 };
-    let certified = Certified::of(&stage, budget, wish.repeat, bar)?;
-    let mut drawing = Drawing { stage: &stage, certified: &certified, batch: &mut batch, bar };
+    let certified = Certified::of((&stage, &view), budget, wish.repeat, bar)?;
+    let mut drawing = Drawing { stage: &stage, view: &view, certified: &certified, batch: &mut batch, bar };
     let truth = drawing.truth(&wish)?;
     let (run, frame) = drawing.run(kind, &wish)?;
     for TilePicture { name, picture } in tiles_of(&frame, &stage) {
@@ -75,7 +77,7 @@ fn export(input: &SceneInput, (kind, budget): (Kind, &Budget), mut batch: Batch,
     }
     stage_scene(&stage, &mut batch)?;
     let settings = (kind.name(), run.parameters.clone(), run.device.clone());
-    let parameters = Parameters::new((&stage.scene, &stage.mesh, &stage.view), settings).to_json()?;
+    let parameters = Parameters::new((&stage.scene, &stage.mesh, &view), settings).to_json()?;
     let scene = scene_result(&stage, &input.file);
     let notes = stage.scene.notes.clone();
     let result = RenderResult { schema: RESULT_SCHEMA, scene, notes, runs: vec![truth, run] }.to_json()?;

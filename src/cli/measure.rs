@@ -7,7 +7,9 @@ use drapery::output::{ByName, SceneResult};
 use drapery::report::{self, TRUTH, Times};
 use drapery::scene::Device;
 use drapery::scene::file::{Named, SceneFile};
-use drapery::technique::{self, Frame, FrameOptions, Kind, Prepared, Stage};
+use drapery::space::ViewFrame;
+use drapery::stage::Stage;
+use drapery::technique::{self, Frame, FrameOptions, Kind, Prepared};
 use drapery::truth::{self, Budget, Truth};
 use drapery::visibility::TILE;
 use drapery::{Error, Result};
@@ -41,10 +43,14 @@ pub(super) struct Certified {
 
 impl Certified {
     /// Computes the truth so many times.
-    pub(super) fn of(stage: &Stage, budget: &Budget, repeat: u32, bar: &Bar) -> Result<Self> {
+    pub(super) fn of(
+        (stage, view): (&Stage, &ViewFrame),
+        budget: &Budget,
+        repeat: u32,
+        bar: &Bar,
+    ) -> Result<Self> {
         bar.start(TRUTH);
-        let once =
-            || truth::certify(&stage.scene, &stage.mesh, &stage.view, budget, &|share| bar.done(share));
+        let once = || truth::certify(stage, view, budget, &|share| bar.done(share));
         let (mut truth, first) = timed(|| Ok(once()))?;
         let mut times = vec![first];
         for _ in 1..repeat {
@@ -114,7 +120,7 @@ impl Drawn {
     /// that is not the technique's.
     pub(super) fn by(
         kind: Kind,
-        stage: &Stage,
+        (stage, view): (&Stage, &ViewFrame),
         (repeat, wants_buffer): (u32, &dyn Fn(&str) -> bool),
         bar: &Bar,
     ) -> Result<Self> {
@@ -123,14 +129,14 @@ impl Drawn {
         for turn in 1..=repeat {
             let (prepared, ms) = timed(|| technique::prepare(kind, stage))?;
             prepare_ms.push(ms);
-            let (mut frame, ms) = timed(|| frame(&*prepared, &[], bar))?;
+            let (mut frame, ms) = timed(|| frame((&*prepared, view), &[], bar))?;
             frame_ms.push(ms);
             if drawn.as_ref().is_some_and(|before| before.frame.image != frame.image) {
                 return Err(unequal(kind.name()));
             }
             let buffers = buffers_of(&*prepared, wants_buffer);
             if turn == repeat && !buffers.is_empty() {
-                let with_buffers = self::frame(&*prepared, &buffers, bar)?;
+                let with_buffers = self::frame((&*prepared, view), &buffers, bar)?;
                 if with_buffers.image != frame.image {
                     return Err(unequal(kind.name()));
                 }
@@ -149,8 +155,8 @@ impl Drawn {
     }
 }
 
-fn frame(prepared: &dyn Prepared, buffers: &[String], bar: &Bar) -> Result<Frame> {
-    prepared.frame(&FrameOptions { tile: TILE, buffers, progress: &|share| bar.done(share) })
+fn frame((prepared, view): (&dyn Prepared, &ViewFrame), buffers: &[String], bar: &Bar) -> Result<Frame> {
+    prepared.frame(view, &FrameOptions { tile: TILE, buffers, progress: &|share| bar.done(share) })
 }
 
 /// The names to ask a technique for.

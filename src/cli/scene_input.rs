@@ -4,7 +4,7 @@ use super::bar::Bar;
 use super::refusal::harmless;
 use super::stop::Stop;
 use drapery::scene::file::{DEFAULT_SCENE, Override, SceneFile, TerrainSource, decode, text_of};
-use drapery::technique::Stage;
+use drapery::stage::Stage;
 use drapery::{Error, Result, source};
 use std::io::Read;
 use std::path::{Path, PathBuf};

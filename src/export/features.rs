@@ -33,7 +33,7 @@ fn properties(layer: &Layer, feature: &Feature) -> Map<String, Value> {
     let mut put = |name: &str, value: Value| all.insert(name.into(), value);
     put("layer", layer.name.clone().into());
     put("number", feature.index.into());
-    let style = &layer.style;
+    let style = layer.style_of(feature);
     let mut stroke = |line: &Line| {
         put("stroke", hex(line.color).into());
         put("stroke-opacity", line.color.0[3].into());

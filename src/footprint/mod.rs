@@ -13,7 +13,7 @@ mod stroke;
 pub use box_tree::BoxTree;
 pub use primitive::{Convex, HalfPlane, MOST_SIDES, Primitive, Sides};
 
-use crate::scene::{Color, Feature, Layer, Line, OutlineMode, Rule, SAME_VERTEX, Shape, Width};
+use crate::scene::{Color, Feature, Layer, Line, OutlineMode, Rule, SAME_VERTEX, Shape, Style, Width};
 use crate::space::{Lens, Plan, PlanBox, ViewFrame};
 use area::Area;
 
@@ -120,7 +120,7 @@ impl Footprints {
         let mut all = Building { pixel, ..Building::default() };
         for (l, layer) in layers.iter().enumerate() {
             for (f, feature) in layer.features.iter().enumerate() {
-                all.add_feature((l as u32, f as u32), layer, feature);
+                all.add_feature((l as u32, f as u32), layer.style_of(feature), feature);
             }
         }
         all.finish(is_seen)
@@ -225,7 +225,7 @@ impl Default for PixelSize {
 }
 
 impl Building {
-    fn add_feature(&mut self, (layer, feature): (u32, u32), of: &Layer, what: &Feature) {
+    fn add_feature(&mut self, (layer, feature): (u32, u32), style: &Style, what: &Feature) {
         let none = Color([0.0; 4]);
         let mut item = Item {
             layer,
@@ -238,20 +238,20 @@ impl Building {
         };
         match &what.shape {
             Shape::Line(parts) => {
-                let Some(line) = of.style.line else { return };
+                let Some(line) = style.line else { return };
                 (item.color, item.stroke) = (line.color, Some(line));
                 self.items.push(item);
                 parts.iter().for_each(|part| self.add_stroke(part, StrokeEnds::AsWritten));
             }
             Shape::Polygon(rings) => {
-                item.rule = of.style.fill.map_or(Rule::EvenOdd, |fill| fill.rule);
-                if let Some(fill) = of.style.fill {
+                item.rule = style.fill.map_or(Rule::EvenOdd, |fill| fill.rule);
+                if let Some(fill) = style.fill {
                     item.area = Some(self.areas.len() as u32);
                     (item.role, item.color) = (Role::Fill, fill.color);
                     self.items.push(item);
                     self.add_borders(rings);
                 }
-                let Some(outline) = of.style.outline else { return };
+                let Some(outline) = style.outline else { return };
                 (item.role, item.area) = (Role::Outline(side_of(outline.mode)), None);
                 (item.color, item.stroke) = (outline.line.color, Some(outline.line));
                 item.area = item.wants_polygon().map(|_| self.areas.len() as u32);

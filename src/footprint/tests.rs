@@ -8,7 +8,7 @@ fn line_style(width: f64, join: Join, cap: Cap) -> Style {
 }
 
 fn footprints(style: Style, shape: Shape) -> Footprints {
-    let layer = Layer { name: "l".into(), style, features: vec![Feature { index: 0, shape }] };
+    let layer = Layer::uniform("l", style, vec![Feature { index: 0, style: 0, shape }]);
     Footprints::new(&[layer], PixelSize::default(), &|_| true)
 }
 

@@ -6,7 +6,9 @@ use crate::buffer::{Buffer, Plane};
 use crate::error::Result;
 use crate::scene::file::{Override, SceneFile};
 use crate::source::load;
-use crate::technique::{self, FrameOptions, Kind, Stage};
+use crate::space::ViewFrame;
+use crate::stage::Stage;
+use crate::technique::{self, FrameOptions, Kind};
 use crate::truth::{self, Budget, Truth};
 use crate::visibility::TILE;
 
@@ -51,10 +53,11 @@ pub(super) fn replay(case: &Case, more: &[Override], cut: Cut) -> Result<Vec<Rep
     let file = SceneFile::read(&case.scene, &overrides)?;
     let (scene, surface) = load::load(&file, &|_| {})?;
     let stage = Stage::new(scene, surface).map_err(|error| error.in_file(&case.scene))?;
-    let mut replays = vec![certified(&stage)];
+    let view = stage.view().map_err(|error| error.in_file(&case.scene))?;
+    let mut replays = vec![certified(&stage, &view)];
     for kind in Kind::ALL {
         match technique::applies(kind, &stage) {
-            Ok(()) => replays.push(draw(kind, &stage, cut)?),
+            Ok(()) => replays.push(draw(kind, (&stage, &view), cut)?),
             Err(error) if error.is_internal() => return Err(error),
             Err(_) => {}
         }
@@ -63,8 +66,8 @@ pub(super) fn replay(case: &Case, more: &[Override], cut: Cut) -> Result<Vec<Rep
 }
 
 /// The truth of a stage; it is always cut alike, and only threads can differ.
-fn certified(stage: &Stage) -> Replay {
-    let truth = truth::certify(&stage.scene, &stage.mesh, &stage.view, &Budget::default(), &|_| {});
+fn certified(stage: &Stage, view: &ViewFrame) -> Replay {
+    let truth = truth::certify(stage, view, &Budget::default(), &|_| {});
     let planes = Truth::BUFFERS.iter().filter_map(|name| truth.plane(name));
     let mut hashes: Vec<BufferHash> =
         planes.map(|plane| BufferHash { buffer: plane.name.to_owned(), blake3: plane.hash() }).collect();
@@ -73,14 +76,14 @@ fn certified(stage: &Stage) -> Replay {
     Replay { technique: truth::NAME, image, hashes }
 }
 
-fn draw(kind: Kind, stage: &Stage, cut: Cut) -> Result<Replay> {
+fn draw(kind: Kind, (stage, view): (&Stage, &ViewFrame), cut: Cut) -> Result<Replay> {
     let prepared = technique::prepare(kind, stage)?;
     let names: Vec<String> = prepared.buffer_names().iter().map(|name| (*name).to_owned()).collect();
     let tile = match cut {
         Cut::Usual => TILE,
         Cut::Small => 24,
     };
-    let frame = prepared.frame(&FrameOptions { tile, buffers: &names, progress: &|_| {} })?;
+    let frame = prepared.frame(view, &FrameOptions { tile, buffers: &names, progress: &|_| {} })?;
     let plane = |name: &String| frame.planes.iter().find(|plane| plane.name == name);
     let hash = |plane: &Plane| BufferHash { buffer: plane.name.to_owned(), blake3: plane.hash() };
     let mut hashes: Vec<BufferHash> = names.iter().filter_map(plane).map(hash).collect();

@@ -13,8 +13,9 @@ use crate::footprint::{Footprints, PixelSize};
 use crate::parallel;
 use crate::raster::Lattice;
 use crate::resolve::{Compositor, GroundPaint, Paint};
-use crate::scene::{Device, Scene};
+use crate::scene::Device;
 use crate::space::{Plan, ViewFrame, World};
+use crate::stage::Stage;
 use crate::terrain::{Mesh, SKY};
 use crate::visibility::Sight;
 use nearby::Nearby;
@@ -32,19 +33,14 @@ pub struct Sampled {
     pub structure_bytes: usize,
 }
 
-/// Draws a scene with `n` x `n` samples a pixel, at the middles of as many equal squares. `progress` is told the share that is done
+/// Draws a view of a scene with `n` x `n` samples a pixel, at the middles of as many equal squares. `progress` is told the share that is done
 /// (0..=1), from any thread.
-pub fn sample(
-    scene: &Scene,
-    mesh: &Mesh,
-    view: &ViewFrame,
-    n: usize,
-    progress: &(dyn Fn(f64) + Sync),
-) -> Sampled {
+pub fn sample(stage: &Stage, view: &ViewFrame, n: usize, progress: &(dyn Fn(f64) + Sync)) -> Sampled {
+    let Stage { scene, mesh } = stage;
     let size = PixelSize::of(view, mesh.heights());
     let bounds = mesh.plan_bounds();
     let footprints = Footprints::new(&scene.layers, size, &|plan| plan.meets(&bounds));
-    let sampler = Sampler::new(scene, mesh, view, &footprints, n.max(1));
+    let sampler = Sampler::new(stage, view, &footprints, n.max(1));
     let (width, height) = (view.width(), view.height());
     let side = (BLOCK / n.max(1)).max(1);
     let columns = width.div_ceil(side);
@@ -89,13 +85,8 @@ struct Seen<'a> {
 }
 
 impl<'a> Sampler<'a> {
-    fn new(
-        scene: &'a Scene,
-        mesh: &'a Mesh,
-        view: &'a ViewFrame,
-        footprints: &'a Footprints,
-        n: usize,
-    ) -> Self {
+    fn new(stage: &'a Stage, view: &'a ViewFrame, footprints: &'a Footprints, n: usize) -> Self {
+        let Stage { scene, mesh } = stage;
         let compositor = Compositor::new(scene.compositing);
         Self {
             mesh,

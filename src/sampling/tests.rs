@@ -1,7 +1,7 @@
 use super::*;
 use crate::compare::{Difference, Image};
 use crate::scene::file::SceneFile;
-use crate::technique::Stage;
+use crate::stage::Stage;
 use crate::truth::{self, Budget};
 
 const SCENE: &str = r##"
@@ -30,13 +30,13 @@ fn stage() -> Stage {
 }
 
 fn sampled(stage: &Stage, n: usize) -> Sampled {
-    sample(&stage.scene, &stage.mesh, &stage.view, n, &|_| {})
+    sample(stage, &stage.view().unwrap(), n, &|_| {})
 }
 
 #[test]
 fn many_samples_come_near_the_truth() {
     let stage = stage();
-    let truth = truth::certify(&stage.scene, &stage.mesh, &stage.view, &Budget::default(), &|_| {});
+    let truth = truth::certify(&stage, &stage.view().unwrap(), &Budget::default(), &|_| {});
     let expected = crate::report::expected(&truth).unwrap();
     let rmse = |n| {
         let colors = sampled(&stage, n).colors.values().as_flattened().to_vec();
@@ -53,9 +53,10 @@ fn a_sample_alone_is_judged_as_one_among_many() {
     let stage = stage();
     // Blocks of one pixel hold other samples together than blocks of 256.
     let whole = sampled(&stage, 2);
-    let size = PixelSize::of(&stage.view, stage.mesh.heights());
+    let size = PixelSize::of(&stage.view().unwrap(), stage.mesh.heights());
     let footprints = Footprints::new(&stage.scene.layers, size, &|_| true);
-    let sampler = Sampler::new(&stage.scene, &stage.mesh, &stage.view, &footprints, 2);
+    let view = stage.view().unwrap();
+    let sampler = Sampler::new(&stage, &view, &footprints, 2);
     let mut nearby = Nearby::default();
     for [x, y] in [[0, 0], [20, 16], [24, 17], [30, 20], [11, 19]] {
         let seen = sampler.see([x, y], [1, 1]);

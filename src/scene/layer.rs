@@ -3,15 +3,37 @@
 use super::Color;
 use crate::space::Plan;
 
-/// Features of one style, drawn in file order.
+/// Features of one source, drawn together.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layer {
     /// The layer's name.
     pub name: String,
-    /// How its features look.
-    pub style: Style,
+    /// How its features look: each names one of these.
+    pub styles: Vec<Style>,
     /// Its features in draw order.
     pub features: Vec<Feature>,
+}
+
+impl Layer {
+    /// A layer whose features all look alike.
+    pub fn uniform(name: impl Into<String>, style: Style, features: Vec<Feature>) -> Self {
+        Self { name: name.into(), styles: vec![style], features }
+    }
+
+    /// Whether a line or an outline is so many pixels wide: its footprint then depends on the view.
+    pub fn has_width_in_pixels(&self) -> bool {
+        let lines = |style: &Style| [style.line, style.outline.map(|outline| outline.line)];
+        let mut lines = self.styles.iter().flat_map(lines).flatten();
+        lines.any(|line| matches!(line.width, Width::Pixels(_)))
+    }
+
+    /// How one of its features looks.
+    ///
+    /// # Panics
+    /// When the feature is of another layer, with more styles.
+    pub fn style_of(&self, feature: &Feature) -> &Style {
+        &self.styles[feature.style as usize]
+    }
 }
 
 /// One feature: a road, a lake.
@@ -19,6 +41,8 @@ pub struct Layer {
 pub struct Feature {
     /// Its number in the file, from 0.
     pub index: usize,
+    /// Which of its layer's styles it has.
+    pub style: u32,
     /// Its geometry.
     pub shape: Shape,
 }

@@ -1,7 +1,7 @@
 //! The techniques, each beside its paper, and what they have in common.
 //!
-//! Input: a [`Stage`]. Output: a [`Frame`]: the picture, the buffers that were asked for, and counts. A technique is
-//! prepared once (structures that do not depend on the camera) and then draws frames; neither step looks at a clock,
+//! Input: a [`Stage`] and views of it. Output: a [`Frame`]: the picture, the buffers that were asked for, and counts. A technique is
+//! prepared once (structures that do not depend on the view) and then draws frames of any view; neither step looks at a clock,
 //! at the number of threads or at another technique. Refuses: scenes that the technique's paper does not cover, with the reason.
 
 pub mod clipmap;
@@ -10,32 +10,8 @@ pub mod stencil_volume;
 
 use crate::buffer::{Buffer, Plane};
 use crate::error::Result;
-use crate::scene::{Scene, Surface};
 use crate::space::ViewFrame;
-use crate::terrain::Mesh;
-
-/// A scene ready to be drawn: its terrain as a mesh, its camera as a view.
-#[derive(Debug)]
-pub struct Stage {
-    /// The scene.
-    pub scene: Scene,
-    /// The terrain.
-    pub mesh: Mesh,
-    /// The view.
-    pub view: ViewFrame,
-}
-
-impl Stage {
-    /// Triangulates the terrain and sets up the view.
-    ///
-    /// # Errors
-    /// When the surface has no triangle or the camera no view.
-    pub fn new(scene: Scene, surface: Surface) -> Result<Self> {
-        let mesh = Mesh::new(surface, scene.diagonal)?;
-        let view = scene.camera.view(&scene.image)?;
-        Ok(Self { scene, mesh, view })
-    }
-}
+use crate::stage::Stage;
 
 /// A technique's name in the contract.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -86,11 +62,11 @@ pub struct Frame {
 
 /// A technique with its structures built.
 pub trait Prepared: Sync {
-    /// Draws a frame.
+    /// Draws a frame of a view.
     ///
     /// # Errors
-    /// When a buffer that is asked for cannot be made.
-    fn frame(&self, options: &FrameOptions) -> Result<Frame>;
+    /// When the technique has no room for so large a picture, or a buffer that is asked for cannot be made.
+    fn frame(&self, view: &ViewFrame, options: &FrameOptions) -> Result<Frame>;
 
     /// Bytes of the structures that the technique built (without the terrain's).
     fn structure_bytes(&self) -> usize;

@@ -35,9 +35,9 @@ use crate::footprint::{Footprints, Item, PixelSize};
 use crate::math;
 use crate::parallel;
 use crate::resolve::code_values;
-use crate::scene::Scene;
 use crate::space::{ViewFrame, World};
-use crate::terrain::{Mesh, SKY};
+use crate::stage::Stage;
+use crate::terrain::SKY;
 use setting::Setting;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use tile::{Frustum, TILE, TileTruth, certify_tile};
@@ -209,14 +209,9 @@ impl Truth {
     }
 }
 
-/// Computes the truth of a scene. `progress` is told the share that is done (0..=1), from any thread.
-pub fn certify(
-    scene: &Scene,
-    mesh: &Mesh,
-    view: &ViewFrame,
-    budget: &Budget,
-    progress: &(dyn Fn(f64) + Sync),
-) -> Truth {
+/// Computes the truth of a view of a scene. `progress` is told the share that is done (0..=1), from any thread.
+pub fn certify(stage: &Stage, view: &ViewFrame, budget: &Budget, progress: &(dyn Fn(f64) + Sync)) -> Truth {
+    let Stage { scene, mesh } = stage;
     let heights = mesh.heights();
     let size = PixelSize::of(view, heights);
     let (width, height) = (view.width(), view.height());

@@ -7,7 +7,7 @@ use super::shape::Ground;
 use crate::footprint::{Footprints, HalfPlane, PixelSize};
 use crate::interval::Ball;
 use crate::resolve::{Compositor, GroundPaint, Paint};
-use crate::scene::{self, BlendMode, Color, Imagery, Layer, Scene};
+use crate::scene::{self, BlendMode, Color, Imagery, Scene, Style};
 use crate::space::Plan;
 use crate::terrain::Mesh;
 use std::ops::RangeInclusive;
@@ -52,7 +52,8 @@ impl<'a> Setting<'a> {
             _ => GroundColors::OfTriangles(GroundPaint::new(&scene.ground, mesh, compositor)),
         };
         let paints = footprints.items().iter().map(|item| compositor.paint(item.color)).collect();
-        let crowds = scene.layers.iter().flat_map(colors).map(|c| compositor.paint(opaque(c))).collect();
+        let styles = scene.layers.iter().flat_map(|layer| &layer.styles);
+        let crowds = styles.flat_map(colors).map(|c| compositor.paint(opaque(c))).collect();
         let sky = compositor.paint(scene.image.background);
         let mode = scene.compositing.mode;
         Self { budget, footprints, pixel_size, compositor, mode, paints, sky, crowds, ground }
@@ -96,9 +97,8 @@ impl<'a> Setting<'a> {
     }
 }
 
-/// The colours that a layer's style names.
-fn colors(layer: &Layer) -> impl Iterator<Item = Color> {
-    let style = &layer.style;
+/// The colours that a style names.
+fn colors(style: &Style) -> impl Iterator<Item = Color> {
     let (fill, outline) = (style.fill.map(|f| f.color), style.outline.map(|o| o.line.color));
     [fill, outline, style.line.map(|l| l.color)].into_iter().flatten()
 }

@@ -6,7 +6,8 @@
 use drapery::compare::{Difference, Image, Metrics};
 use drapery::report;
 use drapery::scene::file::{Override, SceneFile};
-use drapery::technique::{self, Frame, FrameOptions, Kind, Stage};
+use drapery::stage::Stage;
+use drapery::technique::{self, Frame, FrameOptions, Kind};
 use drapery::truth::{self, Budget, Truth};
 
 /// A scene of 96 x 64 pixels over a terrain, with these layers and other keys.
@@ -29,12 +30,14 @@ pub fn stage(text: &str, changes: &[&str]) -> Stage {
 pub fn frame_of(kind: Kind, stage: &Stage, buffers: &[&str]) -> Frame {
     let prepared = technique::prepare(kind, stage).unwrap_or_else(|e| panic!("{e}"));
     let buffers: Vec<String> = buffers.iter().map(|b| (*b).to_owned()).collect();
-    prepared.frame(&FrameOptions { tile: 128, buffers: &buffers, progress: &|_| {} }).unwrap()
+    prepared
+        .frame(&stage.view().unwrap(), &FrameOptions { tile: 128, buffers: &buffers, progress: &|_| {} })
+        .unwrap()
 }
 
 /// The truth of a stage.
 pub fn truth_of(stage: &Stage) -> Truth {
-    truth::certify(&stage.scene, &stage.mesh, &stage.view, &Budget::default(), &|_| {})
+    truth::certify(stage, &stage.view().unwrap(), &Budget::default(), &|_| {})
 }
 
 /// How far a picture is from the truth.

@@ -9,7 +9,9 @@ use drapery::output::{Batch, BufferResult, ByName, ErrorResult, ImageResult, Npy
 use drapery::output::{absolute, look, write_png};
 use drapery::report::TRUTH;
 use drapery::scene::Device;
-use drapery::technique::{Frame, Kind, Stage};
+use drapery::space::ViewFrame;
+use drapery::stage::Stage;
+use drapery::technique::{Frame, Kind};
 use drapery::truth::Truth;
 
 /// The buffers that hold plan coordinates: scene-local in memory, absolute in files.
@@ -25,6 +27,7 @@ pub(in crate::cli) struct Wish {
 /// Draws a stage into a batch of files.
 pub(in crate::cli) struct Drawing<'a> {
     pub(in crate::cli) stage: &'a Stage,
+    pub(in crate::cli) view: &'a ViewFrame,
     pub(in crate::cli) certified: &'a Certified,
     pub(in crate::cli) batch: &'a mut Batch,
     pub(in crate::cli) bar: &'a Bar,
@@ -59,7 +62,7 @@ impl Drawing<'_> {
     pub(in crate::cli) fn run(&mut self, kind: Kind, wish: &Wish) -> Result<(RunResult, Frame)> {
         self.bar.start(kind.name());
         let wants_buffer = |name: &str| wish.buffers.wants(name);
-        let drawn = Drawn::by(kind, self.stage, (wish.repeat, &wants_buffer), self.bar)?;
+        let drawn = Drawn::by(kind, (self.stage, self.view), (wish.repeat, &wants_buffer), self.bar)?;
         let name = kind.name();
         let path = format!("{name}.png");
         self.batch.stage(&path, |to| write_png(&drawn.frame.image, to))?;

@@ -77,14 +77,15 @@ fn render(
     bar: &Bar,
 ) -> Result<Vec<RunResult>> {
     let stage = input.stage(bar)?;
+    let view = stage.view()?;
     let kinds = techniques::applying(asked, &stage, bar)?;
     let wish = Wish {
         buffers: techniques::buffers(&arguments.buffers, asked.truth, &kinds, &stage)?,
         repeat: arguments.repeat,
     };
-    let certified = Certified::of(&stage, budget, if asked.truth { wish.repeat } else { 1 }, bar)?;
+    let certified = Certified::of((&stage, &view), budget, if asked.truth { wish.repeat } else { 1 }, bar)?;
 
-    let mut drawing = Drawing { stage: &stage, certified: &certified, batch: &mut batch, bar };
+    let mut drawing = Drawing { stage: &stage, view: &view, certified: &certified, batch: &mut batch, bar };
     let truth = if asked.truth { Some(drawing.truth(&wish)) } else { None };
     let techniques = kinds.iter().map(|kind| Ok(drawing.run(*kind, &wish)?.0));
     let runs: Result<Vec<RunResult>> = truth.into_iter().chain(techniques).collect();

@@ -3,7 +3,8 @@
 use crate::cli::bar::Bar;
 use crate::cli::measure::applicable;
 use clap::ValueEnum;
-use drapery::technique::{self, Kind, Stage};
+use drapery::stage::Stage;
+use drapery::technique::{self, Kind};
 use drapery::truth::Truth;
 use drapery::{Error, Result};
 

@@ -12,7 +12,9 @@ use drapery::report::{self, Errors, Exhibit, Run, SUPERSAMPLING, SceneReport, TR
 use drapery::resolve::code_values;
 use drapery::sampling::{Sampled, sample};
 use drapery::scene::{Device, TechniqueSettings};
-use drapery::technique::{self, Kind, Stage};
+use drapery::space::ViewFrame;
+use drapery::stage::Stage;
+use drapery::technique::{self, Kind};
 use drapery::truth::Budget;
 use drapery::{Error, Result};
 
@@ -35,6 +37,7 @@ pub(super) struct Measured {
 pub(super) struct Measuring<'a> {
     input: &'a SceneInput,
     stage: Stage,
+    view: ViewFrame,
     certified: Certified,
     repeat: u32,
     bar: &'a Bar,
@@ -46,8 +49,9 @@ impl<'a> Measuring<'a> {
     /// Loads the scene and computes its truth.
     pub(super) fn new(input: &'a SceneInput, budget: &Budget, repeat: u32, bar: &'a Bar) -> Result<Self> {
         let stage = input.stage(bar)?;
-        let certified = Certified::of(&stage, budget, repeat, bar)?;
-        Ok(Self { input, stage, certified, repeat, bar, runs: Vec::new(), exhibits: Vec::new() })
+        let view = stage.view()?;
+        let certified = Certified::of((&stage, &view), budget, repeat, bar)?;
+        Ok(Self { input, stage, view, certified, repeat, bar, runs: Vec::new(), exhibits: Vec::new() })
     }
 
     /// The truth as a run, and narrower ones: what certainty costs.
@@ -60,7 +64,7 @@ impl<'a> Measuring<'a> {
         let budget = self.certified.budget;
         for width in WIDTHS.into_iter().filter(|width| *width < budget.width) {
             let narrower = Budget { width, ..budget };
-            let certified = Certified::of(&self.stage, &narrower, self.repeat, self.bar)?;
+            let certified = Certified::of((&self.stage, &self.view), &narrower, self.repeat, self.bar)?;
             self.runs.push(truth_run(&certified, vec![format!("width={width}")])?.0);
         }
         Ok(())
@@ -91,7 +95,7 @@ impl<'a> Measuring<'a> {
             let what = format!("note: {} {} is left out: {}", kind.name(), varied.join(" "), error.what());
             return if error.is_internal() { Err(error) } else { Ok((self.bar.say(&what), None).1) };
         }
-        let drawn = Drawn::by(kind, &self.stage, (self.repeat, &|_| false), self.bar)?;
+        let drawn = Drawn::by(kind, (&self.stage, &self.view), (self.repeat, &|_| false), self.bar)?;
         let image = &drawn.frame.image;
         let difference = self.certified.difference(&Image::from_rgba8(image)?)?;
         let run = Run {
@@ -116,7 +120,7 @@ impl<'a> Measuring<'a> {
 
     /// Plain supersampling with more and more samples.
     pub(super) fn supersampling(&mut self) -> Result<()> {
-        let pixels = self.stage.view.width() * self.stage.view.height();
+        let pixels = self.view.width() * self.view.height();
         let mut notable = Notable::default();
         for n in SAMPLES.into_iter().filter(|n| *n == 1 || n * n * pixels <= MOST_SAMPLES) {
             self.bar.start(&format!("{SUPERSAMPLING} {n} x {n}"));
@@ -149,8 +153,7 @@ impl<'a> Measuring<'a> {
 
     /// A supersampled picture, drawn as often as is asked for.
     fn sampled(&self, n: usize) -> Result<(Sampled, Times)> {
-        let Stage { scene, mesh, view } = &self.stage;
-        let once = || timed(|| Ok(sample(scene, mesh, view, n, &|share| self.bar.done(share))));
+        let once = || timed(|| Ok(sample(&self.stage, &self.view, n, &|share| self.bar.done(share))));
         let (sampled, first) = once()?;
         let mut times = vec![first];
         for _ in 1..self.repeat {
@@ -172,8 +175,8 @@ impl<'a> Measuring<'a> {
     pub(super) fn finish(self) -> Measured {
         let mut report = SceneReport {
             scene: scene_result(&self.stage, &self.input.file),
-            width: self.stage.view.width(),
-            height: self.stage.view.height(),
+            width: self.view.width(),
+            height: self.view.height(),
             notes: self.stage.scene.notes.clone(),
             reference_width_max: self.certified.truth.widest(),
             runs: self.runs,

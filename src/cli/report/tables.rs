@@ -10,7 +10,8 @@ use drapery::report::tables::{
 };
 use drapery::scene::Shape;
 use drapery::space::Plan;
-use drapery::technique::{Stage, clipmap};
+use drapery::stage::Stage;
+use drapery::technique::clipmap;
 use drapery::{Error, Result};
 
 /// Measures all data sets.
@@ -80,9 +81,10 @@ fn counted(stage: &Stage) -> [usize; 3] {
     let [mut features, mut segments, mut vertices] = [0; 3];
     for layer in &stage.scene.layers {
         for feature in &layer.features {
+            let style = layer.style_of(feature);
             let (parts, is_ring) = match &feature.shape {
-                Shape::Line(parts) if layer.style.line.is_some() => (parts, false),
-                Shape::Polygon(rings) if layer.style.outline.is_some() => (rings, true),
+                Shape::Line(parts) if style.line.is_some() => (parts, false),
+                Shape::Polygon(rings) if style.outline.is_some() => (rings, true),
                 _ => continue,
             };
             let of_part = |part: &Vec<Plan>| if is_ring { part.len() } else { part.len().saturating_sub(1) };

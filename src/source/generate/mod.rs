@@ -39,7 +39,7 @@ pub fn features(generator: &VectorGenerator, terrain: PlanBox) -> Vec<Feature> {
         VectorKind::Parcels => parcels::parcels(generator, window),
         VectorKind::Mosaic { class, holes } => mosaic::mosaic(generator, class, holes, window),
     };
-    shapes.into_iter().enumerate().map(|(index, shape)| Feature { index, shape }).collect()
+    shapes.into_iter().enumerate().map(|(index, shape)| Feature { index, style: 0, shape }).collect()
 }
 
 #[cfg(test)]

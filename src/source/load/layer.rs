@@ -52,7 +52,7 @@ fn layer(
             }
             let shift = terrain.place.shift(spec.offset);
             let numbered = shapes.iter().cloned().enumerate();
-            let features = numbered.map(|(index, shape)| Feature { index, shape });
+            let features = numbered.map(|(index, shape)| Feature { index, style: 0, shape });
             features.map(|feature| moved(feature, &Map::AsIs, shift)).collect::<Result<_>>()?
         }
         LayerSource::Generate(generator) => {
@@ -64,11 +64,8 @@ fn layer(
                 .collect::<Result<_>>()?
         }
     };
-    Ok(Layer {
-        name: spec.name.clone(),
-        style: spec.style,
-        features: on_terrain(features, &spec.style, terrain, notes),
-    })
+    let features = on_terrain(features, &spec.style, terrain, notes);
+    Ok(Layer::uniform(&spec.name, spec.style, features))
 }
 
 /// Generated features, made in local coordinates: the same bits wherever the scene lies.

@@ -43,7 +43,7 @@ use crate::scene::{Scene, Surface};
 /// use drapery::scene::file::{DEFAULT_SCENE, SceneFile};
 /// let file = SceneFile::parse(DEFAULT_SCENE, None, &[])?;
 /// let (scene, surface) = drapery::source::load::load(&file, &|_| ())?;
-/// let stage = drapery::technique::Stage::new(scene, surface)?;
+/// let stage = drapery::stage::Stage::new(scene, surface)?;
 /// assert_eq!(stage.scene.origin, glam::DVec2::ZERO);
 /// # Ok::<(), drapery::Error>(())
 /// ```

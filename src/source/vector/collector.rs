@@ -79,7 +79,7 @@ impl Collector {
         if parts.is_empty() {
             return self.leave_out_empty();
         }
-        self.features.push(Feature { index: self.current(), shape: shape(parts) });
+        self.features.push(Feature { index: self.current(), style: 0, shape: shape(parts) });
     }
 
     /// Says what was left out and what looks wrong.

@@ -42,12 +42,13 @@ pub mod tile;
 pub use cache::CacheCounts;
 pub use sequences::{Sequences, StripOf};
 
-use super::{Frame, FrameOptions, Prepared, Stage};
+use super::{Frame, FrameOptions, Prepared};
 use crate::error::Result;
 use crate::parallel;
 use crate::scene::Clipmap;
 use crate::scene::file::Named;
 use crate::space::{Plan, ViewFrame};
+use crate::stage::Stage;
 use cache::TileCache;
 use geometry::Geometry;
 use std::sync::{Mutex, PoisonError};
@@ -78,7 +79,7 @@ impl<'s> Prepare<'s> {
         Ok(Self { stage, settings, texture, geometry, cache: Mutex::default() })
     }
 
-    /// Draws a frame of any view of the stage, with the tiles that earlier frames have left; the picture is the same without them. Says
+    /// Draws a frame of a view, with the tiles that earlier frames have left; the picture is the same without them. Says
     /// what the cache did.
     pub fn frame_of(&self, view: &ViewFrame, options: &FrameOptions) -> Result<(Frame, CacheCounts)> {
         frame::draw(self, view, options)
@@ -149,8 +150,8 @@ pub fn applies(_stage: &Stage) -> Result<()> {
 }
 
 impl Prepared for Prepare<'_> {
-    fn frame(&self, options: &FrameOptions) -> Result<Frame> {
-        Ok(self.frame_of(&self.stage.view, options)?.0)
+    fn frame(&self, view: &ViewFrame, options: &FrameOptions) -> Result<Frame> {
+        Ok(self.frame_of(view, options)?.0)
     }
 
     fn structure_bytes(&self) -> usize {

@@ -40,7 +40,8 @@ impl Prepare<'_> {
         let mut all = Sequences::default();
         for (number, layer) in self.stage.scene.layers.iter().enumerate() {
             for (feature, of) in layer.features.iter().enumerate() {
-                let (line, parts, is_ring) = match (&of.shape, &layer.style.line, &layer.style.outline) {
+                let style = layer.style_of(of);
+                let (line, parts, is_ring) = match (&of.shape, &style.line, &style.outline) {
                     (Shape::Line(parts), Some(line), _) => (line, parts, false),
                     (Shape::Polygon(rings), _, Some(outline)) => (&outline.line, rings, true),
                     _ => continue,

@@ -4,7 +4,7 @@
 //! (Fig. 4d); every edge keeps the side that faces away from the line (Fig. 4e). The paper draws no round caps or joins ("in order to
 //! eradicate heavy loss in performance"), so a layer's `join` and `cap` are not asked, but for `square` caps.
 
-use crate::scene::{Cap, Feature, Layer, Line, OutlineMode, Rule, Shape, Width, distinct_vertices};
+use crate::scene::{Cap, Feature, Layer, Line, OutlineMode, Rule, Shape, Style, Width, distinct_vertices};
 use crate::space::Plan;
 use glam::DVec2;
 
@@ -57,17 +57,17 @@ impl Areas {
         let mut all = Self::default();
         for (layer_index, layer) in layers.iter().enumerate() {
             for (feature_index, feature) in layer.features.iter().enumerate() {
-                all.add_feature((layer_index as u32, feature_index as u32), layer, feature);
+                all.add_feature((layer_index as u32, feature_index as u32), layer.style_of(feature), feature);
             }
         }
         all
     }
 
-    fn add_feature(&mut self, from: (u32, u32), layer: &Layer, feature: &Feature) {
+    fn add_feature(&mut self, from: (u32, u32), style: &Style, feature: &Feature) {
         match &feature.shape {
-            Shape::Polygon(rings) => self.add_polygon(from, layer, rings),
+            Shape::Polygon(rings) => self.add_polygon(from, style, rings),
             Shape::Line(parts) => {
-                if let Some(line) = &layer.style.line {
+                if let Some(line) = &style.line {
                     self.begin(from, Some(line.color), Rule::NonZero);
                     parts.iter().for_each(|part| self.add_line(part, line));
                 }
@@ -75,8 +75,8 @@ impl Areas {
         }
     }
 
-    fn add_polygon(&mut self, from: (u32, u32), layer: &Layer, rings: &[Vec<Plan>]) {
-        let (fill, outline) = (layer.style.fill, layer.style.outline);
+    fn add_polygon(&mut self, from: (u32, u32), style: &Style, rings: &[Vec<Plan>]) {
+        let (fill, outline) = (style.fill, style.outline);
         let needs_inside = outline.is_some_and(|o| o.mode != OutlineMode::Normal);
         let mut inside = None;
         if fill.is_some() || needs_inside {
@@ -195,16 +195,14 @@ fn side_chain(points: &[Plan], half: f64, is_closed: bool) -> Vec<Plan> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Color, Join, Style};
+    use crate::scene::{Color, Join};
 
     fn expanded(points: &[(f64, f64)], cap: Cap) -> Vec<Edge> {
         let line = Line { color: Color([1.0; 4]), width: Width::Metres(2.0), join: Join::Bevel, cap };
         let part = points.iter().map(|&(x, y)| Plan::new(x, y)).collect();
-        let layer = Layer {
-            name: String::new(),
-            style: Style { line: Some(line), ..Style::default() },
-            features: vec![Feature { index: 0, shape: Shape::Line(vec![part]) }],
-        };
+        let style = Style { line: Some(line), ..Style::default() };
+        let feature = Feature { index: 0, style: 0, shape: Shape::Line(vec![part]) };
+        let layer = Layer::uniform("line", style, vec![feature]);
         Areas::of_layers(&[layer]).edges
     }
 

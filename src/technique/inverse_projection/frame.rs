@@ -9,8 +9,9 @@ use crate::parallel;
 use crate::raster::Lattice;
 use crate::resolve::{Compositor, GroundPaint, Paint, code_values};
 use crate::scene::{Corners, InverseProjection, Silhouette};
-use crate::space::{Plan, PlanBox};
-use crate::technique::{Frame, FrameOptions, Stage};
+use crate::space::{Plan, PlanBox, ViewFrame};
+use crate::stage::Stage;
+use crate::technique::{Frame, FrameOptions};
 use crate::terrain::SKY;
 use crate::visibility::{Hit, Sight};
 use std::ops::Range;
@@ -24,12 +25,17 @@ const F: u8 = 2;
 /// Up to so many areas partly in a pixel, samples are told apart by which of them they lie in.
 const FEW: usize = 4;
 
-/// Draws a frame.
-pub fn draw(stage: &Stage, settings: &InverseProjection, index: &EdgeIndex, options: &FrameOptions) -> Frame {
-    let centres = Seen::new(stage, &Lattice::centres(&stage.view, 1), options.tile);
+/// Draws a frame of a view.
+pub fn draw(
+    (stage, view): (&Stage, &ViewFrame),
+    settings: &InverseProjection,
+    index: &EdgeIndex,
+    options: &FrameOptions,
+) -> Frame {
+    let centres = Seen::new((stage, view), &Lattice::centres(view, 1), options.tile);
     let corners = match settings.corners {
         Corners::Centres => None,
-        Corners::True => Some(Seen::new(stage, &Lattice::corners(&stage.view), options.tile)),
+        Corners::True => Some(Seen::new((stage, view), &Lattice::corners(view), options.tile)),
     };
     (options.progress)(0.5);
     let compositor = Compositor::new(stage.scene.compositing);
@@ -45,7 +51,7 @@ pub fn draw(stage: &Stage, settings: &InverseProjection, index: &EdgeIndex, opti
         centres,
         corners,
     };
-    let (width, height) = (stage.view.width(), stage.view.height());
+    let (width, height) = (view.width(), view.height());
     let done = AtomicUsize::new(0);
     let rows = parallel::map_indices(height, |y| {
         let row = drawing.row(y, width);
@@ -81,6 +87,7 @@ struct Wants {
 /// What a lattice sees, with the plan points at hand.
 struct Seen<'a> {
     stage: &'a Stage,
+    view: &'a ViewFrame,
     lattice: Lattice,
     sight: Sight<'a>,
     /// Rows from the top; infinite where the sky is seen.
@@ -127,14 +134,14 @@ struct Involved {
 }
 
 impl<'a> Seen<'a> {
-    fn new(stage: &'a Stage, lattice: &Lattice, tile: usize) -> Self {
-        let mut sight = Sight::new(&stage.view, &stage.mesh, &stage.scene.device, *lattice, tile);
+    fn new((stage, view): (&'a Stage, &'a ViewFrame), lattice: &Lattice, tile: usize) -> Self {
+        let mut sight = Sight::new(view, &stage.mesh, &stage.scene.device, *lattice, tile);
         sight.see();
         let mut plan = vec![Plan::new(f64::INFINITY, f64::INFINITY); lattice.columns * lattice.rows];
         parallel::for_each_chunk(&mut plan, lattice.columns, |row, points| {
             sight.plan_of_row(row, points);
         });
-        Self { stage, lattice: *lattice, sight, plan }
+        Self { stage, view, lattice: *lattice, sight, plan }
     }
 
     #[inline(always)]
@@ -151,9 +158,9 @@ impl<'a> Seen<'a> {
         let length = (self.plan(to) - self.plan(from)).length_squared();
         let limit = SILHOUETTE_RATIO * SILHOUETTE_RATIO;
         let expected = |id: u32, at: (usize, usize), seen_from: (usize, usize)| {
-            let ray = self.stage.view.ray(self.lattice.at(seen_from.0, seen_from.1));
+            let ray = self.view.ray(self.lattice.at(seen_from.0, seen_from.1));
             let hit: Option<Hit> =
-                self.stage.mesh.triangle(id).map(|t| crate::visibility::hit(&self.stage.view, &ray, &t));
+                self.stage.mesh.triangle(id).map(|t| crate::visibility::hit(self.view, &ray, &t));
             // A plane that the neighbour's ray misses would reach to the horizon.
             hit.filter(|h| h.depth > 0.0).map_or(f64::INFINITY, |h| (h.plan - self.plan(at)).length_squared())
         };

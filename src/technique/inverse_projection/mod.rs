@@ -25,10 +25,12 @@ mod frame;
 mod judgment;
 mod quadrilateral;
 
-use super::{Frame, FrameOptions, Prepared, Stage};
+use super::{Frame, FrameOptions, Prepared};
 use crate::error::{Error, Result};
+use crate::scene::InverseProjection;
 use crate::scene::file::Named;
-use crate::scene::{InverseProjection, Width};
+use crate::space::ViewFrame;
+use crate::stage::Stage;
 use edge_index::EdgeIndex;
 use expansion::Areas;
 
@@ -67,12 +69,7 @@ impl<'s> Prepare<'s> {
 /// # Errors
 /// The reason why it cannot.
 pub fn applies(stage: &Stage) -> Result<()> {
-    let in_pixels = |width: Width| matches!(width, Width::Pixels(_));
-    let dynamic = stage.scene.layers.iter().find(|layer| {
-        layer.style.line.is_some_and(|l| in_pixels(l.width))
-            || layer.style.outline.is_some_and(|o| in_pixels(o.line.width))
-    });
-    match dynamic {
+    match stage.scene.layers.iter().find(|layer| layer.has_width_in_pixels()) {
         None => Ok(()),
         Some(layer) => Err(Error::new(format!(
             "inverse-projection draws widths in metres (She 3.1), layer `{}` has width_px",
@@ -83,8 +80,8 @@ pub fn applies(stage: &Stage) -> Result<()> {
 }
 
 impl Prepared for Prepare<'_> {
-    fn frame(&self, options: &FrameOptions) -> Result<Frame> {
-        Ok(frame::draw(self.stage, &self.settings, &self.index, options))
+    fn frame(&self, view: &ViewFrame, options: &FrameOptions) -> Result<Frame> {
+        Ok(frame::draw((self.stage, view), &self.settings, &self.index, options))
     }
 
     fn structure_bytes(&self) -> usize {

@@ -17,7 +17,7 @@ use super::heights::{Region, heights_under};
 use super::stroke::Stroke;
 use crate::parallel;
 use crate::scene::{
-    Color, Feature, Grouping, Layer, Outline, OutlineMode, Rule, Shape, StencilVolume, VolumeJoins,
+    Color, Feature, Grouping, Layer, Outline, OutlineMode, Rule, Shape, StencilVolume, Style, VolumeJoins,
 };
 use crate::space::{Plan, PlanBox, World};
 use crate::terrain::Mesh;
@@ -85,7 +85,7 @@ impl Extrusion {
         let mut all = Self::default();
         for layer in layers {
             for feature in &layer.features {
-                all.add_feature(layer, feature, settings.joins);
+                all.add_feature(layer.style_of(feature), feature, settings.joins);
             }
         }
         let levels = parallel::map(&all.volumes, |volume| all.levels(mesh, volume));
@@ -111,11 +111,11 @@ impl Extrusion {
         rings.iter().map(|ring| &self.corners[ring.start as usize..ring.end as usize])
     }
 
-    fn add_feature(&mut self, layer: &Layer, feature: &Feature, joins: VolumeJoins) {
+    fn add_feature(&mut self, style: &Style, feature: &Feature, joins: VolumeJoins) {
         match &feature.shape {
-            Shape::Polygon(rings) => self.add_polygon(layer, rings, joins),
+            Shape::Polygon(rings) => self.add_polygon(style, rings, joins),
             Shape::Line(parts) => {
-                let Some(line) = &layer.style.line else { return };
+                let Some(line) = &style.line else { return };
                 let first = self.volumes.len();
                 if let Some(stroke) = Stroke::new(line, joins) {
                     parts.iter().for_each(|part| stroke.open(part, &mut |ring| self.add_convex(ring)));
@@ -125,16 +125,16 @@ impl Extrusion {
         }
     }
 
-    fn add_polygon(&mut self, layer: &Layer, rings: &[Vec<Plan>], joins: VolumeJoins) {
-        let rule = layer.style.fill.map_or(Rule::EvenOdd, |fill| fill.rule);
-        let outline = layer.style.outline;
+    fn add_polygon(&mut self, style: &Style, rings: &[Vec<Plan>], joins: VolumeJoins) {
+        let rule = style.fill.map_or(Rule::EvenOdd, |fill| fill.rule);
+        let outline = style.outline;
         let needs_inside = outline.is_some_and(|o| o.mode != OutlineMode::Normal);
         let first = self.volumes.len();
-        if layer.style.fill.is_some() || needs_inside {
+        if style.fill.is_some() || needs_inside {
             self.add_volume(rings);
         }
         let inside = first as u32..self.volumes.len() as u32;
-        if let Some(fill) = layer.style.fill {
+        if let Some(fill) = style.fill {
             self.add_object(fill.color, rule, first, None);
         }
         if let Some(outline) = outline {

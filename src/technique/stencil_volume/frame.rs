@@ -11,8 +11,9 @@ use crate::parallel;
 use crate::raster::{Lattice, TileView};
 use crate::resolve::{Compositor, GroundPaint, Paint, code_values};
 use crate::scene::{FarPlane, Overflow, Rule, StencilVolume, VolumeCaps};
-use crate::space::Plan;
-use crate::technique::{Frame, FrameOptions, Stage};
+use crate::space::{Plan, ViewFrame};
+use crate::stage::Stage;
+use crate::technique::{Frame, FrameOptions};
 use crate::terrain::SKY;
 use crate::visibility::Sight;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -20,9 +21,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// The most samples a side of a tile: single precision resolves them (see [`TileView`]).
 const MOST: usize = 512;
 
-/// Draws a frame.
-pub fn draw(stage: &Stage, extrusion: &Extrusion, options: &FrameOptions) -> Frame {
-    let drawing = Drawing::new(stage, extrusion, options);
+/// Draws a frame of a view.
+pub fn draw((stage, view): (&Stage, &ViewFrame), extrusion: &Extrusion, options: &FrameOptions) -> Frame {
+    let drawing = Drawing::new((stage, view), extrusion, options);
     (options.progress)(0.3);
     let n = drawing.settings.samples as usize;
     let side = options.tile.clamp(1, MOST / n) * n;
@@ -31,8 +32,8 @@ pub fn draw(stage: &Stage, extrusion: &Extrusion, options: &FrameOptions) -> Fra
     let done = AtomicUsize::new(0);
     let tiles = parallel::map_indices(bins.len(), |k| {
         let across = drawing.lattice.columns.div_ceil(side);
-        let view = TileView::new(&stage.view, &drawing.lattice, (k % across * side, k / across * side), side);
-        let drawn = drawing.tile(view, &bins[k]);
+        let tile = TileView::new(view, &drawing.lattice, (k % across * side, k / across * side), side);
+        let drawn = drawing.tile(tile, &bins[k]);
         let done = done.fetch_add(1, Ordering::Relaxed) + 1;
         (options.progress)(0.3 + 0.7 * done as f64 / bins.len() as f64);
         drawn
@@ -59,6 +60,8 @@ fn bins(entries: &[Entry], lattice: &Lattice, side: usize) -> Vec<Vec<Entry>> {
 pub struct Drawing<'a> {
     /// The scene.
     pub stage: &'a Stage,
+    /// From where it is seen.
+    pub view: &'a ViewFrame,
     /// The parameters.
     pub settings: StencilVolume,
     /// The volumes.
@@ -100,14 +103,18 @@ struct SampleTraces {
 }
 
 impl<'a> Drawing<'a> {
-    fn new(stage: &'a Stage, extrusion: &'a Extrusion, options: &FrameOptions) -> Self {
+    fn new(
+        (stage, view): (&'a Stage, &'a ViewFrame),
+        extrusion: &'a Extrusion,
+        options: &FrameOptions,
+    ) -> Self {
         let settings = stage.scene.technique.stencil_volume;
-        let lattice = lattice(stage, settings.samples);
+        let lattice = lattice(view, settings.samples);
         let device = &stage.scene.device;
-        let mut sight = Sight::new(&stage.view, &stage.mesh, device, lattice, options.tile);
+        let mut sight = Sight::new(view, &stage.mesh, device, lattice, options.tile);
         sight.see();
         let compositor = Compositor::new(stage.scene.compositing);
-        let looks = Looks::new(stage, &lattice, &settings, extrusion);
+        let looks = Looks::new((stage, view), &lattice, &settings, extrusion);
         let wants = |name: &str| options.buffers.iter().any(|b| b == name);
         let is_curious = TRACES[1..].iter().any(|name| wants(name));
         let cancels = settings.overflow == Overflow::Wrap
@@ -121,6 +128,7 @@ impl<'a> Drawing<'a> {
         };
         Self {
             stage,
+            view,
             settings,
             extrusion,
             sight,
@@ -264,7 +272,7 @@ impl<'a> Drawing<'a> {
     }
 
     fn frame(&self, tiles: &[Drawn], options: &FrameOptions) -> Frame {
-        let view = &self.stage.view;
+        let view = self.view;
         let mut image = vec![[0; 4]; view.width() * view.height()];
         for tile in tiles {
             for (r, row) in tile.image.chunks_exact(tile.size.0).enumerate() {
@@ -305,7 +313,7 @@ impl<'a> Drawing<'a> {
     }
 
     fn colors(&self, tiles: &[Drawn]) -> Plane {
-        let (width, height) = (self.stage.view.width(), self.stage.view.height());
+        let (width, height) = (self.view.width(), self.view.height());
         let mut values = vec![0.0; width * height * 4];
         for tile in tiles {
             for (r, row) in tile.colors.chunks_exact(tile.size.0 * 4).enumerate() {
@@ -363,14 +371,14 @@ struct Ground {
 pub const TRACES: [&str; 4] = ["stencil", "stencil-front", "stencil-back", "overdraw"];
 
 /// n x n samples a pixel.
-fn lattice(stage: &Stage, n: u32) -> Lattice {
+fn lattice(view: &ViewFrame, n: u32) -> Lattice {
     let step = 1.0 / f64::from(n);
     Lattice {
         x: step / 2.0,
         y: step / 2.0,
         step,
-        columns: stage.view.width() * n as usize,
-        rows: stage.view.height() * n as usize,
+        columns: view.width() * n as usize,
+        rows: view.height() * n as usize,
     }
 }
 

@@ -25,10 +25,12 @@ mod tests;
 mod tile;
 mod view;
 
-use super::{Frame, FrameOptions, Prepared, Stage};
+use super::{Frame, FrameOptions, Prepared};
 use crate::error::{Error, Result};
 use crate::scene::file::Named;
-use crate::scene::{Layer, OutlineMode, Width};
+use crate::scene::{Layer, OutlineMode};
+use crate::space::ViewFrame;
+use crate::stage::Stage;
 use extrusion::Extrusion;
 
 /// The most samples of a picture: each takes 20 bytes while a frame is drawn.
@@ -72,27 +74,19 @@ impl<'s> Prepare<'s> {
 /// # Errors
 /// The reason why it cannot.
 pub fn applies(stage: &Stage) -> Result<()> {
-    let in_pixels = |width: Width| matches!(width, Width::Pixels(_));
-    let is_dynamic = |layer: &&Layer| {
-        layer.style.line.is_some_and(|l| in_pixels(l.width))
-            || layer.style.outline.is_some_and(|o| in_pixels(o.line.width))
-    };
-    if let Some(layer) = stage.scene.layers.iter().find(is_dynamic) {
+    if let Some(layer) = stage.scene.layers.iter().find(|layer| layer.has_width_in_pixels()) {
         return Err(Error::new(format!(
             "stencil-volume extrudes footprints that do not depend on the view, layer `{}` has width_px",
             layer.name
         ))
         .help("give the layer width_m, or leave the technique out"));
     }
-    let n = stage.scene.technique.stencil_volume.samples as usize;
-    let samples = stage.view.width() * stage.view.height() * n * n;
-    if samples > MOST_SAMPLES {
-        return Err(Error::new(format!(
-            "stencil-volume has no room for {samples} samples: at most 2^27 in all"
-        ))
-        .help("use fewer samples a pixel, or a smaller image"));
-    }
-    let is_cut = |layer: &&Layer| layer.style.outline.is_some_and(|o| o.mode != OutlineMode::Normal);
+    let image = &stage.scene.image;
+    has_room((image.width, image.height), stage.scene.technique.stencil_volume.samples)?;
+    let is_cut = |layer: &&Layer| {
+        let mut outlines = layer.styles.iter().filter_map(|style| style.outline);
+        outlines.any(|outline| outline.mode != OutlineMode::Normal)
+    };
     match stage.scene.layers.iter().find(is_cut) {
         Some(layer) if stage.scene.device.stencil_bits < 2 => Err(Error::new(format!(
             "the outline of layer `{}` needs a second bit of the stencil, to be cut to its polygon",
@@ -103,9 +97,24 @@ pub fn applies(stage: &Stage) -> Result<()> {
     }
 }
 
+/// Whether there is room for n x n samples in each pixel of a picture.
+///
+/// # Errors
+/// When there is not.
+fn has_room((width, height): (usize, usize), n: u32) -> Result<()> {
+    let samples = width * height * n as usize * n as usize;
+    if samples <= MOST_SAMPLES {
+        return Ok(());
+    }
+    Err(Error::new(format!("stencil-volume has no room for {samples} samples: at most 2^27 in all"))
+        .help("use fewer samples a pixel, or a smaller image"))
+}
+
 impl Prepared for Prepare<'_> {
-    fn frame(&self, options: &FrameOptions) -> Result<Frame> {
-        Ok(frame::draw(self.stage, &self.extrusion, options))
+    fn frame(&self, view: &ViewFrame, options: &FrameOptions) -> Result<Frame> {
+        let settings = &self.stage.scene.technique.stencil_volume;
+        has_room((view.width(), view.height()), settings.samples)?;
+        Ok(frame::draw((self.stage, view), &self.extrusion, options))
     }
 
     fn structure_bytes(&self) -> usize {

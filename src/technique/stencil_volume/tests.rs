@@ -8,7 +8,8 @@ use crate::scene::{
     StencilVolume, Style, Surface, VolumeJoins, Width,
 };
 use crate::space::{Plan, Ray, World};
-use crate::technique::{self, FrameOptions, Kind, Stage};
+use crate::stage::Stage;
+use crate::technique::{self, FrameOptions, Kind};
 use crate::terrain::SKY;
 use dashu::rational::RBig;
 use proptest::prelude::*;
@@ -69,7 +70,9 @@ fn stencil(
     stage.scene.technique.stencil_volume = settings;
     let buffers: Vec<String> = buffers.iter().map(|b| (*b).to_owned()).collect();
     let prepared = technique::prepare(Kind::StencilVolume, stage).unwrap();
-    let frame = prepared.frame(&FrameOptions { tile: 40, buffers: &buffers, progress: &|_| {} }).unwrap();
+    let frame = prepared
+        .frame(&stage.view().unwrap(), &FrameOptions { tile: 40, buffers: &buffers, progress: &|_| {} })
+        .unwrap();
     let plane = frame.planes.iter().find(|p| p.name == "stencil").unwrap();
     let Values::U16(values) = &plane.values else { panic!("counts are 16 bits") };
     (values.clone(), frame.image)
@@ -84,19 +87,22 @@ fn check(stage: &mut Stage, settings: StencilVolume) -> usize {
         stage.scene.technique.stencil_volume = settings;
         let prepared = technique::prepare(Kind::StencilVolume, stage).unwrap();
         let wanted = ["triangle".to_owned()];
-        let frame = prepared.frame(&FrameOptions { tile: 64, buffers: &wanted, progress: &|_| {} }).unwrap();
+        let frame = prepared
+            .frame(&stage.view().unwrap(), &FrameOptions { tile: 64, buffers: &wanted, progress: &|_| {} })
+            .unwrap();
         match &frame.planes[0].values {
             Values::U32(ids) => ids.clone(),
             other => panic!("{other:?}"),
         }
     };
-    let columns = stage.view.width() * settings.samples as usize;
+    let view = stage.view().unwrap();
+    let columns = view.width() * settings.samples as usize;
     let points: Vec<Option<[RBig; 2]>> = ids
         .iter()
         .enumerate()
         .map(|(k, id)| {
             let (c, r) = ((k % columns) as f64, (k / columns) as f64);
-            let ray = stage.view.ray(crate::space::Screen::new((c + 0.5) / n, (r + 0.5) / n));
+            let ray = view.ray(crate::space::Screen::new((c + 0.5) / n, (r + 0.5) / n));
             (*id != SKY).then(|| hit(&ray, &stage.mesh.triangle(*id).unwrap()))
         })
         .collect();
@@ -177,8 +183,8 @@ fn layers() -> impl Strategy<Value = Vec<Layer>> {
         let points = points.into_iter().map(|(x, y)| Plan::new(x, y)).collect();
         let shapes = [Shape::Polygon(rings), Shape::Line(vec![points])];
         let features =
-            shapes.into_iter().enumerate().map(|(index, shape)| Feature { index, shape }).collect();
-        vec![Layer { name: "all".into(), style, features }]
+            shapes.into_iter().enumerate().map(|(index, shape)| Feature { index, style: 0, shape }).collect();
+        vec![Layer::uniform("all", style, features)]
     })
 }
 
@@ -241,7 +247,7 @@ fn stage(setting: &Setting) -> Option<Stage> {
         }
         (surface, _) => surface,
     };
-    Stage::new(scene, surface).ok()
+    Stage::new(scene, surface).ok().filter(|stage| stage.view().is_ok())
 }
 
 proptest! {
@@ -257,11 +263,9 @@ proptest! {
 fn fixed(text: &str, rings: Vec<Vec<(f64, f64)>>) -> Stage {
     let rings = rings.into_iter().map(|r| r.into_iter().map(|(x, y)| Plan::new(x, y)).collect()).collect();
     let fill = Fill { color: Color([1.0, 0.0, 0.0, 1.0]), rule: Rule::EvenOdd };
-    let layer = Layer {
-        name: "polygon".into(),
-        style: Style { fill: Some(fill), ..Style::default() },
-        features: vec![Feature { index: 0, shape: Shape::Polygon(rings) }],
-    };
+    let style = Style { fill: Some(fill), ..Style::default() };
+    let feature = Feature { index: 0, style: 0, shape: Shape::Polygon(rings) };
+    let layer = Layer::uniform("polygon", style, vec![feature]);
     let setting = Setting {
         text: text.into(),
         layers: vec![layer],
@@ -301,7 +305,7 @@ fn samples_on_corners_and_edges_of_neighbours_have_one_owner() {
         let halves = [[0, 1, 2], [0, 2, 3]];
         for triangle in halves {
             let ring = triangle.map(|k| corners[k]).to_vec();
-            features.push(Feature { index: features.len(), shape: Shape::Polygon(vec![ring]) });
+            features.push(Feature { index: features.len(), style: 0, shape: Shape::Polygon(vec![ring]) });
         }
     }
     stage.scene.layers[0].features = features;
@@ -309,7 +313,6 @@ fn samples_on_corners_and_edges_of_neighbours_have_one_owner() {
         [Projection::Orthographic { height_m: 16.0 }, Projection::Perspective { fov_y_deg: 23.792_845 }]
     {
         stage.scene.camera.projection = projection;
-        stage.view = stage.scene.camera.view(&stage.scene.image).unwrap();
         let inside = check(&mut stage, StencilVolume::default());
         if matches!(projection, Projection::Orthographic { .. }) {
             assert_eq!(inside, 15 * 15, "each sample of the squares has one owner");

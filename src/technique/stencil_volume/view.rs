@@ -12,7 +12,7 @@ use crate::parallel;
 use crate::raster::{Lattice, TileView};
 use crate::scene::{Counting, FarPlane, Overflow, StencilVolume, VolumeCaps};
 use crate::space::{Plan, Screen, ViewFrame, World};
-use crate::technique::Stage;
+use crate::stage::Stage;
 use glam::DVec3;
 
 /// A volume in the list of what is drawn.
@@ -63,8 +63,13 @@ struct Look {
 
 impl Looks {
     /// Looks at all volumes.
-    pub fn new(stage: &Stage, lattice: &Lattice, settings: &StencilVolume, extrusion: &Extrusion) -> Self {
-        let viewer = Viewer::new(stage, lattice, settings);
+    pub fn new(
+        at: (&Stage, &ViewFrame),
+        lattice: &Lattice,
+        settings: &StencilVolume,
+        extrusion: &Extrusion,
+    ) -> Self {
+        let viewer = Viewer::new(at, lattice, settings);
         let looks = parallel::map(&extrusion.volumes, |volume| viewer.look(extrusion, volume));
         let method = |look: &Look| match settings.method {
             Counting::Automatic if look.is_near => Method::ZFail,
@@ -116,8 +121,7 @@ struct Viewer<'a> {
 }
 
 impl<'a> Viewer<'a> {
-    fn new(stage: &'a Stage, lattice: &'a Lattice, settings: &StencilVolume) -> Self {
-        let frame = &stage.view;
+    fn new((stage, frame): (&Stage, &'a ViewFrame), lattice: &'a Lattice, settings: &StencilVolume) -> Self {
         let is_sound = settings.overflow == Overflow::Wrap
             && settings.caps == VolumeCaps::Both
             && settings.method != Counting::ZPass

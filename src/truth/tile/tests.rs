@@ -97,10 +97,9 @@ fn layer(dice: &mut Dice) -> Layer {
             }]),
             false => Shape::Polygon((0..1 + dice.below(2)).map(|_| points(dice, 5)).collect()),
         };
-        Feature { index, shape }
+        Feature { index, style: 0, shape }
     });
-    let features = features.collect();
-    Layer { name: "layer".into(), style, features }
+    Layer::uniform("layer", style, features.collect())
 }
 
 /// A scene of a few rough triangles and a few features, seen from near.
@@ -358,18 +357,19 @@ fn items_at(layers: &[Layer], frame: &ViewFrame, seen: &Seen) -> Vec<bool> {
     let mut all = Vec::new();
     for layer in layers {
         for feature in &layer.features {
+            let style = layer.style_of(feature);
             match &feature.shape {
                 Shape::Line(parts) => {
-                    let line = layer.style.line.as_ref().unwrap();
+                    let line = style.line.as_ref().unwrap();
                     all.push(parts.iter().any(|part| in_stroke(part, false, line, frame, seen)));
                 }
                 Shape::Polygon(rings) => {
-                    let rule = layer.style.fill.map_or(Rule::EvenOdd, |fill| fill.rule);
+                    let rule = style.fill.map_or(Rule::EvenOdd, |fill| fill.rule);
                     let is_inside = in_rings(rings, rule, &seen.plan);
-                    if layer.style.fill.is_some() {
+                    if style.fill.is_some() {
                         all.push(is_inside);
                     }
-                    if let Some(outline) = &layer.style.outline {
+                    if let Some(outline) = &style.outline {
                         let counts = match outline.mode {
                             OutlineMode::Inset => is_inside,
                             OutlineMode::Normal => true,

@@ -111,7 +111,7 @@ impl LayerItems {
                     reach: 1.0,
                 })
             };
-            let style = &layer.style;
+            let style = &layer.styles[0];
             let fill = style.fill.map(|f| FillStyle {
                 ink: Ink::new(compositor.paint(f.color), compositing.mode),
                 rule: f.rule,

@@ -1,0 +1,37 @@
+//! A scene and its terrain as a mesh: what the truth, supersampling and every technique draw, from any view.
+//!
+//! Input: a [`Scene`] and its [`Surface`]. Output: a [`Stage`]. The view is no part of it: one stage, and whatever is prepared of it,
+//! serves many frames. Refuses: a surface without a triangle.
+
+use crate::error::Result;
+use crate::scene::{Scene, Surface};
+use crate::space::ViewFrame;
+use crate::terrain::Mesh;
+
+/// A scene ready to be drawn.
+#[derive(Debug)]
+pub struct Stage {
+    /// The scene.
+    pub scene: Scene,
+    /// The terrain.
+    pub mesh: Mesh,
+}
+
+impl Stage {
+    /// Triangulates the terrain.
+    ///
+    /// # Errors
+    /// When the surface has no triangle, or too many.
+    pub fn new(scene: Scene, surface: Surface) -> Result<Self> {
+        let mesh = Mesh::new(surface, scene.diagonal)?;
+        Ok(Self { scene, mesh })
+    }
+
+    /// The view of the scene's own camera on its own picture.
+    ///
+    /// # Errors
+    /// When the camera shows nothing (eye = target, `up` along the view, an angle out of range).
+    pub fn view(&self) -> Result<ViewFrame> {
+        self.scene.camera.view(&self.scene.image)
+    }
+}
