@@ -4,7 +4,7 @@
 //!
 //! 1. [`source`] reads what a scene file ([`scene::file`]) names: terrain and vectors, brought to one plan by [`crs`];
 //! 2. [`scene`] is what is drawn, in memory, in scene-local coordinates ([`space`]);
-//! 3. [`terrain`] makes a mesh with bounding boxes of the heights; both together are a [`stage`];
+//! 3. [`draw_list`] decides what is painted; [`terrain`] makes a mesh with bounding boxes of the heights; together they are a [`stage`];
 //! 4. [`raster`] and [`visibility`] find, exactly, which triangle each sample sees, and where;
 //! 5. [`technique`] draws, each beside its paper; [`resolve`] composes colours;
 //! 6. [`output`] writes pictures, buffers and numbers;
@@ -38,6 +38,7 @@
 pub mod buffer;
 pub mod compare;
 pub mod crs;
+pub mod draw_list;
 mod error;
 pub mod export;
 pub mod footprint;

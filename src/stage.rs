@@ -1,8 +1,9 @@
-//! A scene and its terrain as a mesh: what the truth, supersampling and every technique draw, from any view.
+//! A scene, what is painted of it, and its terrain as a mesh: what the truth, supersampling and every technique draw, from any view.
 //!
 //! Input: a [`Scene`] and its [`Surface`]. Output: a [`Stage`]. The view is no part of it: one stage, and whatever is prepared of it,
-//! serves many frames. Refuses: a surface without a triangle.
+//! serves many frames. Refuses: a surface without a triangle, more than can be numbered.
 
+use crate::draw_list::DrawList;
 use crate::error::Result;
 use crate::scene::{Scene, Surface};
 use crate::space::ViewFrame;
@@ -11,20 +12,23 @@ use crate::terrain::Mesh;
 /// A scene ready to be drawn.
 #[derive(Debug)]
 pub struct Stage {
-    /// The scene.
+    /// The scene. Its layers have no features any more: those are in the draw list.
     pub scene: Scene,
+    /// What is painted.
+    pub draw_list: DrawList,
     /// The terrain.
     pub mesh: Mesh,
 }
 
 impl Stage {
-    /// Triangulates the terrain.
+    /// Decides what is painted and triangulates the terrain.
     ///
     /// # Errors
-    /// When the surface has no triangle, or too many.
-    pub fn new(scene: Scene, surface: Surface) -> Result<Self> {
+    /// When the surface has no triangle, or too many, or the layers have more than can be numbered.
+    pub fn new(mut scene: Scene, surface: Surface) -> Result<Self> {
+        let draw_list = DrawList::new(&mut scene.layers)?;
         let mesh = Mesh::new(surface, scene.diagonal)?;
-        Ok(Self { scene, mesh })
+        Ok(Self { scene, draw_list, mesh })
     }
 
     /// The view of the scene's own camera on its own picture.

@@ -16,7 +16,8 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("scene", &["space", "buffer"]),
     ("source", &["scene", "space", "crs", "buffer", "parallel"]),
     ("terrain", &["scene", "space", "parallel"]),
-    ("stage", &["terrain", "scene", "space"]),
+    ("draw_list", &["scene", "space", "parallel"]),
+    ("stage", &["draw_list", "terrain", "scene", "space"]),
     ("raster", &["terrain", "scene", "space", "predicate", "parallel"]),
     ("visibility", &["raster", "terrain", "scene", "space", "predicate", "parallel", "buffer"]),
     ("resolve", &["terrain", "scene", "space", "buffer"]),
@@ -27,6 +28,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "resolve",
             "raster",
             "stage",
+            "draw_list",
             "terrain",
             "scene",
             "space",
@@ -37,7 +39,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ),
     ("output", &["buffer"]),
     ("interval", &[]),
-    ("footprint", &["scene", "space", "interval", "predicate", "parallel"]),
+    ("footprint", &["draw_list", "scene", "space", "interval", "predicate", "parallel"]),
     // No technique, and nothing that decides for one: neither `raster` nor `visibility`.
     (
         "truth",
@@ -46,6 +48,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "interval",
             "resolve",
             "stage",
+            "draw_list",
             "terrain",
             "scene",
             "space",
@@ -79,6 +82,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "resolve",
             "raster",
             "stage",
+            "draw_list",
             "terrain",
             "scene",
             "space",
@@ -86,7 +90,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "buffer",
         ],
     ),
-    ("export", &["raster", "terrain", "scene", "space", "output", "buffer"]),
+    ("export", &["draw_list", "raster", "terrain", "scene", "space", "output", "buffer"]),
     ("report", &["truth", "technique", "compare", "output", "buffer"]),
 ];
 const ANYONE: &[&str] = &["error", "math", "Error", "Result", "Position"];

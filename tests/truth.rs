@@ -317,7 +317,7 @@ fn the_coverage_of_each_feature_is_known_below_an_opaque_one_too() {
             "{item}: [{low}, {high}]"
         );
     }
-    assert_eq!(truth.items()[1].layer, 1);
+    assert_eq!(stage.draw_list.items()[1].layer, 1);
     // A corner of the small square: a quarter of a quarter pixel is in it, all of the pixel in the large one.
     let corner = coverage.at(1, 1);
     let small = corner.items.iter().find(|c| c.item == 0).unwrap();

@@ -1,5 +1,6 @@
 //! Exact winding numbers of a polygon, by buckets of its height.
 
+use crate::draw_list::{DrawList, Item};
 use crate::predicate::orient2d;
 use crate::space::{Plan, PlanBox};
 use std::ops::Range;
@@ -10,7 +11,6 @@ const EDGES_A_BUCKET: usize = 4;
 /// A polygon's edges, sorted into buckets of y.
 #[derive(Debug)]
 pub(super) struct Area {
-    item: u32,
     bounds: PlanBox,
     /// Where each bucket begins in `edges`, and where the last ends.
     starts: Vec<u32>,
@@ -19,14 +19,15 @@ pub(super) struct Area {
 }
 
 impl Area {
-    /// The edges from each point of some ranges to the next point.
-    pub(super) fn new(points: &[Plan], ranges: impl Iterator<Item = Range<u32>> + Clone, item: u32) -> Self {
-        let vertices = || ranges.clone().flatten();
+    /// The edges of an item's border: from each vertex of its rings to the one behind it.
+    pub(super) fn new(list: &DrawList, item: &Item) -> Self {
+        let points = list.vertices();
+        let vertices = || list.area(item).iter().flat_map(|ring| ring.first..ring.first + ring.count);
         let bounds = PlanBox::around(vertices().map(|k| points[k as usize]));
         let count = vertices().count();
         let mut buckets = (count / EDGES_A_BUCKET).max(1);
         loop {
-            let area = Self { item, bounds, starts: vec![0; buckets + 1], edges: Vec::new() };
+            let area = Self { bounds, starts: vec![0; buckets + 1], edges: Vec::new() };
             let entries: usize = vertices().map(|k| area.buckets_of(points, k).count()).sum();
             // Long edges lie in many buckets: fewer buckets keep the whole linear in the number of edges.
             if entries <= 4 * count || buckets == 1 {
@@ -72,11 +73,6 @@ impl Area {
         let (low, high) = (self.bounds.min.y, self.bounds.max.y);
         // The cast saturates: NaN (no height at all) and what is below are 0.
         (((y - low) / (high - low) * count as f64) as usize).min(count - 1)
-    }
-
-    /// The item it bounds.
-    pub(super) fn item(&self) -> u32 {
-        self.item
     }
 
     /// The box around it.

@@ -36,10 +36,10 @@ pub struct Sampled {
 /// Draws a view of a scene with `n` x `n` samples a pixel, at the middles of as many equal squares. `progress` is told the share that is done
 /// (0..=1), from any thread.
 pub fn sample(stage: &Stage, view: &ViewFrame, n: usize, progress: &(dyn Fn(f64) + Sync)) -> Sampled {
-    let Stage { scene, mesh } = stage;
+    let Stage { draw_list, mesh, .. } = stage;
     let size = PixelSize::of(view, mesh.heights());
     let bounds = mesh.plan_bounds();
-    let footprints = Footprints::new(&scene.layers, size, &|plan| plan.meets(&bounds));
+    let footprints = Footprints::new(draw_list, size, &|plan| plan.meets(&bounds));
     let sampler = Sampler::new(stage, view, &footprints, n.max(1));
     let (width, height) = (view.width(), view.height());
     let side = (BLOCK / n.max(1)).max(1);
@@ -68,11 +68,11 @@ pub fn sample(stage: &Stage, view: &ViewFrame, n: usize, progress: &(dyn Fn(f64)
 struct Sampler<'a> {
     mesh: &'a Mesh,
     view: &'a ViewFrame,
-    footprints: &'a Footprints,
+    footprints: &'a Footprints<'a>,
     n: usize,
     compositor: Compositor,
     ground: GroundPaint<'a>,
-    /// The paint of each item.
+    /// The paint of each style of items.
     paints: Vec<Paint>,
     sky: Paint,
 }
@@ -85,8 +85,8 @@ struct Seen<'a> {
 }
 
 impl<'a> Sampler<'a> {
-    fn new(stage: &'a Stage, view: &'a ViewFrame, footprints: &'a Footprints, n: usize) -> Self {
-        let Stage { scene, mesh } = stage;
+    fn new(stage: &'a Stage, view: &'a ViewFrame, footprints: &'a Footprints<'a>, n: usize) -> Self {
+        let Stage { scene, draw_list, mesh } = stage;
         let compositor = Compositor::new(scene.compositing);
         Self {
             mesh,
@@ -95,7 +95,7 @@ impl<'a> Sampler<'a> {
             n,
             compositor,
             ground: GroundPaint::new(&scene.ground, mesh, compositor),
-            paints: footprints.items().iter().map(|item| compositor.paint(item.color)).collect(),
+            paints: draw_list.styles().iter().map(|style| compositor.paint(style.paint)).collect(),
             sky: compositor.paint(scene.image.background),
         }
     }
@@ -158,7 +158,8 @@ impl<'a> Sampler<'a> {
         let holding =
             nearby.items().iter().filter(|item| nearby.holds(self.footprints, item, (plan, &from_eye)));
         holding.fold(self.ground.at(id, plan), |below, item| {
-            self.compositor.over(below, self.paints[item.number as usize])
+            let style = self.footprints.list().items()[item.number as usize].style;
+            self.compositor.over(below, self.paints[style as usize])
         })
     }
 }

@@ -54,7 +54,7 @@ fn a_sample_alone_is_judged_as_one_among_many() {
     // Blocks of one pixel hold other samples together than blocks of 256.
     let whole = sampled(&stage, 2);
     let size = PixelSize::of(&stage.view().unwrap(), stage.mesh.heights());
-    let footprints = Footprints::new(&stage.scene.layers, size, &|_| true);
+    let footprints = Footprints::new(&stage.draw_list, size, &|_| true);
     let view = stage.view().unwrap();
     let sampler = Sampler::new(&stage, &view, &footprints, 2);
     let mut nearby = Nearby::default();

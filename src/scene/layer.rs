@@ -169,24 +169,3 @@ pub enum Cap {
     /// A half disc.
     Round,
 }
-
-/// Vertices of a stroke nearer to each other than this are one vertex, metres: far below any width that can be seen, far above
-/// the rounding of plan coordinates, so that a duplicate written with an error has no direction of its own.
-pub const SAME_VERTEX: f64 = 1e-9;
-
-/// A polyline without the vertices that are the same as the one before; one that ends where it begins ends there exactly.
-pub fn distinct_vertices(points: &[Plan]) -> Vec<Plan> {
-    let is_same = |a: Plan, b: Plan| (a - b).length() <= SAME_VERTEX;
-    let mut all: Vec<Plan> = Vec::with_capacity(points.len());
-    for &p in points {
-        if all.last().is_none_or(|last| !is_same(*last, p)) {
-            all.push(p);
-        }
-    }
-    if let [first, _, .., last] = &mut all[..]
-        && is_same(*first, *last)
-    {
-        *last = *first;
-    }
-    all
-}

@@ -16,8 +16,7 @@ pub use clipmap::{
     TILE_TEXELS, TexelFormat, TextureFilter, WideLines,
 };
 pub use layer::{
-    Cap, Feature, Fill, Join, Layer, Line, Outline, OutlineMode, Rule, SAME_VERTEX, Shape, Style, Width,
-    distinct_vertices,
+    Cap, Feature, Fill, Join, Layer, Line, Outline, OutlineMode, Rule, Shape, Style, Width,
 };
 pub use settings::{
     BlendMode, BlendSpace, Color, Compositing, Corners, DepthFormat, Device, ImageSettings,

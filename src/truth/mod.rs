@@ -31,7 +31,7 @@ mod visible;
 
 use crate::buffer::{Buffer, Plane, Values};
 use crate::error::{Error, Result};
-use crate::footprint::{Footprints, Item, PixelSize};
+use crate::footprint::{Footprints, PixelSize};
 use crate::math;
 use crate::parallel;
 use crate::resolve::code_values;
@@ -87,7 +87,7 @@ impl Default for Budget {
 /// What an item covers of a pixel, as a share of the pixel's area.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ItemCoverage {
-    /// The item's number in [`Truth::items`].
+    /// The item's number in the draw list.
     pub item: u32,
     /// At least.
     pub low: f64,
@@ -164,7 +164,6 @@ pub struct Truth {
     pub tally: Tally,
     /// Bytes of the footprints and their index.
     pub structure_bytes: usize,
-    items: Vec<Item>,
 }
 
 impl Truth {
@@ -178,11 +177,6 @@ impl Truth {
     pub fn widest(&self) -> f64 {
         let widths = self.low.values().iter().zip(self.high.values());
         widths.flat_map(|(l, h)| (0..4).map(|c| h[c] - l[c])).fold(0.0, |most, w| math::max(w, most))
-    }
-
-    /// The sets of plan points that were drawn, in draw order.
-    pub fn items(&self) -> &[Item] {
-        &self.items
     }
 
     /// The names of the buffers that [`Truth::plane`] gives, from the first stage to the last.
@@ -211,14 +205,14 @@ impl Truth {
 
 /// Computes the truth of a view of a scene. `progress` is told the share that is done (0..=1), from any thread.
 pub fn certify(stage: &Stage, view: &ViewFrame, budget: &Budget, progress: &(dyn Fn(f64) + Sync)) -> Truth {
-    let Stage { scene, mesh } = stage;
+    let Stage { scene, draw_list, mesh } = stage;
     let heights = mesh.heights();
     let size = PixelSize::of(view, heights);
     let (width, height) = (view.width(), view.height());
     let whole = Frustum::new(view, [0.0, 0.0], [width as f64, height as f64]);
     let bounds = mesh.plan_bounds();
     let footprints =
-        Footprints::new(&scene.layers, size, &|plan| plan.meets(&bounds) && whole.meets_plan(plan, heights));
+        Footprints::new(draw_list, size, &|plan| plan.meets(&bounds) && whole.meets_plan(plan, heights));
     let setting = Setting::new(scene, mesh, (&footprints, size), *budget);
     let (columns, rows) = (width.div_ceil(TILE), height.div_ceil(TILE));
     let done = AtomicUsize::new(0);
@@ -273,6 +267,5 @@ fn assembled(
         coverage: budget.coverage.then(|| Buffer::from_values(width, height, coverage)),
         tally,
         structure_bytes: footprints.bytes(),
-        items: footprints.items().to_vec(),
     }
 }

@@ -407,7 +407,7 @@ pub(super) type Claim = (Polygon, u32, Vec<(u32, Option<bool>)>);
 /// The paint of a piece's items over a base.
 fn composed(setting: &Setting, base: PaintRange, states: &[State]) -> PaintRange {
     states.iter().fold(base, |below, state| {
-        let over = below.under(setting.paints[state.item as usize], setting.mode);
+        let over = below.under(setting.paint_of(state.item), setting.mode);
         if state.known() == Known::In { over } else { over.hull(&below) }
     })
 }

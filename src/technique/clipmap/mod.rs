@@ -2,7 +2,7 @@
 //! textures", Smart Tools and Apps for Graphics.
 //!
 //! Input: a [`Stage`]. Output: a picture whose ground carries a texture of the vectors:
-//! 1. the layers are kept in memory as one of the paper's solutions needs them (`geometry`, 4.1 to 4.4), lines tessellated into strips
+//! 1. the items are kept in memory as one of the paper's solutions needs them (`geometry`, 4.1 to 4.4), lines tessellated into strips
 //!    ([`tessellation`], 4.2);
 //! 2. the texture is virtual: levels cut into tiles ([`texture`], 2); a frame finds which tiles its pixels touch (`sampling`, `frame`);
 //! 3. those are made, each once ([`tile`]): layers in order, thin lines as line primitives, the others as polygons (Algorithm 2),
@@ -23,7 +23,7 @@
 //! - tiny-skia fills an item as one path: with it polygons are blended once, whatever `overlaps` says.
 //! - Line primitives have neither joins nor caps, nor have Algorithm 1's strips caps; `joints = "style"` has both.
 //!
-//! Refuses: nothing but more vertices or features than can be numbered.
+//! Refuses: nothing but more vertices than can be numbered.
 
 mod cache;
 mod frame;
@@ -55,27 +55,27 @@ use std::sync::{Mutex, PoisonError};
 use texture::{ClipRegion, TileKey, VirtualTexture};
 use tile::{TileCounts, TileMaker, Workbench};
 
-/// The technique with its layers in memory.
+/// The technique with its lines and areas in memory.
 #[derive(Debug)]
 pub struct Prepare<'s> {
     stage: &'s Stage,
     settings: Clipmap,
     texture: VirtualTexture,
-    geometry: Geometry,
+    geometry: Geometry<'s>,
     /// Tiles that were made for earlier frames.
     cache: Mutex<TileCache>,
 }
 
 impl<'s> Prepare<'s> {
-    /// Keeps the layers as the solution needs them.
+    /// Keeps lines and areas as the solution needs them.
     ///
     /// # Errors
-    /// When there are more vertices or features than can be numbered.
+    /// When there are more vertices than can be numbered.
     pub fn new(stage: &'s Stage) -> Result<Self> {
         let scene = &stage.scene;
         let settings = scene.technique.clipmap;
         let texture = VirtualTexture::over(&stage.mesh.plan_bounds(), settings.virtual_size);
-        let geometry = Geometry::new(&scene.layers, &settings, scene.compositing, &texture.bounds())?;
+        let geometry = Geometry::new(&stage.draw_list, &settings, scene.compositing, &texture.bounds())?;
         Ok(Self { stage, settings, texture, geometry, cache: Mutex::default() })
     }
 

@@ -2,6 +2,7 @@
 
 use super::SILHOUETTE_RATIO;
 use super::edge_index::{EdgeIndex, Winding};
+use super::expansion::AreaId;
 use super::judgment::{Judge, NearEdge};
 use super::quadrilateral::Quadrilateral;
 use crate::buffer::{Buffer, Plane, Values};
@@ -44,7 +45,7 @@ pub fn draw(
         settings,
         judge: Judge { index, rule: settings.point_in_polygon },
         ground: GroundPaint::new(&stage.scene.ground, &stage.mesh, compositor),
-        paints: index.areas().iter().map(|a| a.color.map(|c| compositor.paint(c))).collect(),
+        paints: stage.draw_list.styles().iter().map(|style| compositor.paint(style.paint)).collect(),
         sky: compositor.paint(stage.scene.image.background),
         compositor,
         wants: Wants { colors: wants("color"), quads: wants("quad") },
@@ -67,8 +68,8 @@ struct Drawing<'a> {
     settings: &'a InverseProjection,
     judge: Judge<'a>,
     ground: GroundPaint<'a>,
-    /// What each area is painted with.
-    paints: Vec<Option<Paint>>,
+    /// The paint of each style of items.
+    paints: Vec<Paint>,
     sky: Paint,
     compositor: Compositor,
     wants: Wants,
@@ -128,7 +129,7 @@ struct Lists {
 
 /// An area that has a part in a pixel.
 struct Involved {
-    area: u32,
+    area: AreaId,
     /// Its edges that meet the pixel, as a range of the list of near edges; empty: the whole pixel lies in the area.
     near: Range<usize>,
 }
@@ -282,7 +283,7 @@ impl Drawing<'_> {
         if lists.involved.is_empty() {
             return Pixel { paint: ground, class: N, edges: 0, quad };
         }
-        let is_covered = lists.involved.iter().any(|i| self.paints[i.area as usize].is_some());
+        let is_covered = lists.involved.iter().any(|i| self.judge.index.painted_by(i.area).is_some());
         let paint = self.compose(ground, &lists.involved, |_| true);
         Pixel { paint, class: if is_covered { F } else { N }, edges: 0, quad }
     }
@@ -333,9 +334,9 @@ impl Drawing<'_> {
         lists.involved.clear();
         let mut start = 0;
         let mut windings = lists.windings.iter().peekable();
-        let mut take_whole_below = |limit: u32, involved: &mut Vec<Involved>| {
+        let mut take_whole_below = |limit: AreaId, involved: &mut Vec<Involved>| {
             while let Some(w) = windings.next_if(|w| w.area <= limit) {
-                if w.area < limit && index.areas()[w.area as usize].rule.contains(w.turns) {
+                if w.area < limit && index.rule_of(w.area).contains(w.turns) {
                     involved.push(Involved { area: w.area, near: 0..0 });
                 }
             }
@@ -347,20 +348,20 @@ impl Drawing<'_> {
             lists.involved.push(Involved { area, near: start..end });
             start = end;
         }
-        take_whole_below(u32::MAX, &mut lists.involved);
+        take_whole_below(AreaId::LAST, &mut lists.involved);
     }
 
     /// The colour of the ground and every involved area that `is_in` says contains the sample, in draw order.
     fn compose(&self, ground: Paint, involved: &[Involved], is_in: impl Fn(usize) -> bool) -> Paint {
         let mut paint = ground;
         for (at, Involved { area, .. }) in involved.iter().enumerate() {
-            let Some(source) = self.paints[*area as usize] else { continue };
-            let cut = self.judge.index.areas()[*area as usize].cut;
-            let is_kept = |(area, wanted): (u32, bool)| {
+            let Some(style) = self.judge.index.painted_by(*area) else { continue };
+            let cut = self.judge.index.cut_of(*area);
+            let is_kept = |(area, wanted): (AreaId, bool)| {
                 involved.binary_search_by_key(&area, |i| i.area).is_ok_and(&is_in) == wanted
             };
             if is_in(at) && cut.is_none_or(is_kept) {
-                paint = self.compositor.over(paint, source);
+                paint = self.compositor.over(paint, self.paints[style as usize]);
             }
         }
         paint
@@ -429,7 +430,7 @@ impl Drawing<'_> {
         let seen = self.centres.sight.counts();
         let sum = |f: &dyn Fn(&Counts) -> u64| rows.iter().map(|r| f(&r.counts)).sum();
         vec![
-            ("areas", self.judge.index.areas().len() as u64),
+            ("areas", self.judge.index.area_count() as u64),
             ("edges", self.judge.index.edge_count() as u64),
             ("pixels_n", sum(&|c| c.classes[N as usize])),
             ("pixels_p", sum(&|c| c.classes[P as usize])),

@@ -32,7 +32,6 @@ use crate::scene::file::Named;
 use crate::space::ViewFrame;
 use crate::stage::Stage;
 use edge_index::EdgeIndex;
-use expansion::Areas;
 
 /// A quadrilateral's side may be so many times longer than the longer of the sides that the planes of its two ends
 /// would give it, before it counts as spanning a silhouette.
@@ -43,23 +42,17 @@ const SILHOUETTE_RATIO: f64 = 8.0;
 pub struct Prepare<'s> {
     stage: &'s Stage,
     settings: InverseProjection,
-    index: EdgeIndex,
+    index: EdgeIndex<'s>,
 }
 
 impl<'s> Prepare<'s> {
     /// Expands lines and builds the index of edges.
     ///
     /// # Errors
-    /// When a layer's width is in pixels.
+    /// When a layer's width is in pixels, or there are more edges than can be numbered.
     pub fn new(stage: &'s Stage) -> Result<Self> {
         applies(stage)?;
-        let areas = Areas::of_layers(&stage.scene.layers);
-        if areas.edges.len() > u32::MAX as usize / 2 {
-            return Err(
-                Error::new("more edges than this program can number").help("give the terrain a `window`")
-            );
-        }
-        let index = EdgeIndex::new(areas, &stage.mesh.plan_bounds());
+        let index = EdgeIndex::new(&stage.draw_list, &stage.mesh.plan_bounds())?;
         Ok(Self { stage, settings: stage.scene.technique.inverse_projection, index })
     }
 }

@@ -65,7 +65,7 @@ pub struct Drawing<'a> {
     /// The parameters.
     pub settings: StencilVolume,
     /// The volumes.
-    pub extrusion: &'a Extrusion,
+    pub extrusion: &'a Extrusion<'a>,
     /// What the samples see.
     pub sight: Sight<'a>,
     /// How fragments are found.
@@ -81,6 +81,7 @@ pub struct Drawing<'a> {
     looks: Looks,
     ground: GroundPaint<'a>,
     sky: Paint,
+    /// The paint of each style of items.
     paints: Vec<Paint>,
     wants_colors: bool,
 }
@@ -105,7 +106,7 @@ struct SampleTraces {
 impl<'a> Drawing<'a> {
     fn new(
         (stage, view): (&'a Stage, &'a ViewFrame),
-        extrusion: &'a Extrusion,
+        extrusion: &'a Extrusion<'a>,
         options: &FrameOptions,
     ) -> Self {
         let settings = stage.scene.technique.stencil_volume;
@@ -140,7 +141,7 @@ impl<'a> Drawing<'a> {
             looks,
             ground: GroundPaint::new(&stage.scene.ground, &stage.mesh, compositor),
             sky: compositor.paint(stage.scene.image.background),
-            paints: extrusion.objects.iter().map(|o| compositor.paint(o.color)).collect(),
+            paints: stage.draw_list.styles().iter().map(|style| compositor.paint(style.paint)).collect(),
             wants_colors: wants("color"),
         }
     }
@@ -173,14 +174,14 @@ impl<'a> Drawing<'a> {
 
     /// The paint and the rule of a pass.
     pub fn paint_of(&self, pass: u32) -> (Paint, Rule) {
-        let first = self.extrusion.passes[pass as usize].objects[0] as usize;
-        (self.paints[first], self.extrusion.objects[first].rule)
+        let first = self.extrusion.passes[pass as usize].objects[0];
+        let style = self.stage.draw_list.items()[first as usize].style;
+        (self.paints[style as usize], self.extrusion.rule_of(first))
     }
 
     /// The rule of the polygon that a pass is cut to, and whether what lies inside is kept.
     pub fn cut_of(&self, pass: u32) -> Option<(Rule, bool)> {
-        let first = self.extrusion.passes[pass as usize].objects[0] as usize;
-        self.extrusion.objects[first].cut.as_ref().map(|(_, rule, keeps_inside)| (*rule, *keeps_inside))
+        self.extrusion.cut_of(self.extrusion.passes[pass as usize].objects[0])
     }
 
     /// Whether the planes to look at show a pass.

@@ -40,18 +40,18 @@ const MOST_SAMPLES: usize = 1 << 27;
 #[derive(Debug)]
 pub struct Prepare<'s> {
     stage: &'s Stage,
-    extrusion: Extrusion,
+    extrusion: Extrusion<'s>,
 }
 
 impl<'s> Prepare<'s> {
-    /// Extrudes the scene's layers.
+    /// Extrudes the scene's items.
     ///
     /// # Errors
     /// When the technique does not draw such a scene, or there is too much in it.
     pub fn new(stage: &'s Stage) -> Result<Self> {
         applies(stage)?;
         let settings = &stage.scene.technique.stencil_volume;
-        let extrusion = Extrusion::new(&stage.scene.layers, &stage.mesh, settings);
+        let extrusion = Extrusion::new(&stage.draw_list, &stage.mesh, settings);
         if extrusion.corners.len() > u32::MAX as usize / 2 {
             return Err(Error::new("more corners of volumes than this program can number")
                 .help("give the terrain a `window`"));

@@ -96,7 +96,7 @@ impl Looks {
         let mut entries = Vec::new();
         for (pass, objects) in extrusion.passes.iter().enumerate() {
             for object in objects.objects.iter().map(|o| &extrusion.objects[*o as usize]) {
-                let cutters = object.cut.iter().flat_map(|(volumes, ..)| volumes.clone());
+                let cutters = object.cutters.clone();
                 let all = cutters.map(|v| (v, true)).chain(object.volumes.clone().map(|v| (v, false)));
                 entries.extend(all.filter_map(|(volume, is_cutter)| {
                     let window = self.windows[volume as usize]?;

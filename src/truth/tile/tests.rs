@@ -2,6 +2,7 @@
 //! hold the point is found again from the definitions of `docs/semantics.md`, without a rounding.
 
 use super::*;
+use crate::draw_list::DrawList;
 use crate::footprint::{Footprints, PixelSize};
 use crate::scene::file::SceneFile;
 use crate::scene::{
@@ -405,7 +406,8 @@ fn violations(seed: u64, count: usize) -> Vec<String> {
             continue;
         };
         let size = PixelSize::of(&frame, mesh.heights());
-        let footprints = Footprints::new(&scene.layers, size, &|_| true);
+        let list = DrawList::new(&mut scene.layers.clone()).unwrap();
+        let footprints = Footprints::new(&list, size, &|_| true);
         let budget = Budget { width: 0.02, depth: 8, coverage: true };
         let setting = Setting::new(&scene, &mesh, (&footprints, size), budget);
         let triangles: Vec<(u32, [World; 3])> =
