@@ -2,7 +2,7 @@
 
 use super::style::{StyleParts, StyleTable};
 use super::vertices::{Ends, add_distinct, are_distinct};
-use super::{Chain, DrawList, Item};
+use super::{Chain, DrawList, Item, ItemStyle};
 use crate::error::{Error, Result};
 use crate::parallel;
 use crate::scene::{Feature, Layer, Shape};
@@ -35,7 +35,7 @@ pub(super) fn of_layers(layers: &mut [Layer]) -> Result<DrawList> {
         made(block, parts)
     });
     let mut all = joined(made)?;
-    all.styles = table.styles;
+    all.take_styles(&table.styles);
     Ok(all)
 }
 
@@ -160,6 +160,18 @@ impl DrawList {
             let first = self.vertices.len() as u32;
             let (count, is_closed) = add_distinct(points, ends, &mut self.vertices);
             self.chains.push(Chain { first, count, part: part as u32, is_closed });
+        }
+    }
+
+    /// Takes those of some styles that items have, in the order of the items.
+    fn take_styles(&mut self, styles: &[ItemStyle]) {
+        let mut numbers = vec![None; styles.len()];
+        for item in &mut self.items {
+            let number = &mut numbers[item.style as usize];
+            item.style = *number.get_or_insert_with(|| {
+                self.styles.push(styles[item.style as usize]);
+                self.styles.len() as u32 - 1
+            });
         }
     }
 

@@ -95,7 +95,7 @@ impl DrawList {
         (0..).zip(&self.items)
     }
 
-    /// How items look, each style once.
+    /// How items look: each style that an item has, once.
     pub fn styles(&self) -> &[ItemStyle] {
         &self.styles
     }

@@ -1,7 +1,5 @@
 use super::*;
-use crate::scene::{
-    Cap, Color, Feature, Fill, Join, Line, Outline, OutlineMode, Rule, Shape, Style, Width,
-};
+use crate::scene::{Cap, Color, Feature, Fill, Join, Line, Outline, OutlineMode, Rule, Shape, Style, Width};
 use proptest::prelude::*;
 
 const RED: Color = Color([1.0, 0.0, 0.0, 0.5]);
@@ -61,7 +59,8 @@ fn a_polygon_makes_its_fill_and_then_its_outline_and_a_line_makes_a_line() {
     let everything = Style { line: lined().line, ..filled_and_outlined(Rule::EvenOdd, OutlineMode::Normal) };
     let shapes = vec![(0, Shape::Polygon(vec![plan(&SQUARE)])), (0, Shape::Line(vec![plan(&SQUARE)]))];
     let list = list(vec![everything], shapes);
-    let told: Vec<(u32, Role)> = list.numbered().map(|(k, item)| (item.feature, list.style_of(k).role)).collect();
+    let told: Vec<(u32, Role)> =
+        list.numbered().map(|(k, item)| (item.feature, list.style_of(k).role)).collect();
     assert_eq!(told, [(0, Role::Fill), (0, Role::Outline), (1, Role::Line)]);
 }
 
@@ -82,7 +81,8 @@ fn items_keep_the_order_of_layers_and_features_and_know_where_they_are_from() {
     let many: Vec<usize> = (0..3000).rev().collect();
     let mut layers = [layer(&[7, 3]), layer(&[]), layer(&many)];
     let list = DrawList::new(&mut layers).unwrap();
-    let told: Vec<[u32; 3]> = list.items().iter().map(|item| [item.layer, item.feature, item.number]).collect();
+    let told: Vec<[u32; 3]> =
+        list.items().iter().map(|item| [item.layer, item.feature, item.number]).collect();
     assert_eq!(told[..3], [[0, 0, 7], [0, 1, 3], [2, 0, 2999]]);
     assert!(told[2..].iter().enumerate().all(|(k, item)| *item == [2, k as u32, 2999 - k as u32]));
     let is_square = |item: &Item| list.vertices_of(&list.strokes(item)[0]) == plan(&SQUARE);
@@ -94,7 +94,10 @@ fn items_keep_the_order_of_layers_and_features_and_know_where_they_are_from() {
 fn a_border_is_its_ring_as_it_is_with_its_first_vertex_behind_it() {
     let list = polygon(filled(Rule::EvenOdd), &[&TWICE, &HOLE]);
     let rings = list.area(&list.items()[0]);
-    assert_eq!(rings.iter().map(|ring| (ring.part, ring.is_closed)).collect::<Vec<_>>(), [(0, true), (1, true)]);
+    assert_eq!(
+        rings.iter().map(|ring| (ring.part, ring.is_closed)).collect::<Vec<_>>(),
+        [(0, true), (1, true)]
+    );
     assert_eq!(list.vertices_of(&rings[0]), plan(&TWICE));
     assert_eq!(list.path_of(&rings[1]), plan(&[HOLE[0], HOLE[1], HOLE[2], HOLE[0]]));
 }
@@ -193,7 +196,10 @@ fn a_line_that_ends_where_it_begins_with_three_distinct_vertices_is_a_ring() {
 fn a_line_there_and_back_stays_open_and_ends_exactly_where_it_begins() {
     let there_and_back = vec![(0.0, 0.0), (9.0, 0.0), (0.0, 0.0)];
     assert_eq!(only_stroke(&line(&there_and_back)), (there_and_back.clone(), false));
-    assert_eq!(only_stroke(&line(&[(0.0, 0.0), (9.0, 0.0), (9.0, 0.0), (1e-10, 0.0)])), (there_and_back, false));
+    assert_eq!(
+        only_stroke(&line(&[(0.0, 0.0), (9.0, 0.0), (9.0, 0.0), (1e-10, 0.0)])),
+        (there_and_back, false)
+    );
 }
 
 #[test]
@@ -219,12 +225,20 @@ fn equal_styles_are_held_once_and_others_apart() {
     let of_pixels = Line { width: Width::Pixels(2.0), ..stroke(BLUE, 2.0) };
     let of_pixels = Style { line: Some(of_pixels), ..Style::default() };
     let styles = vec![lined(), wider, lined(), of_pixels, outlined(OutlineMode::Normal)];
-    let features = (0..4).map(|style| (style, Shape::Line(vec![plan(&SQUARE)]))).collect();
+    let lines = (0..4).map(|style| (style, Shape::Line(vec![plan(&SQUARE)])));
+    let features = lines.chain([(4, Shape::Polygon(vec![plan(&SQUARE)]))]).collect();
     let list = list(styles, features);
-    assert_eq!(list.items().iter().map(|item| item.style).collect::<Vec<_>>(), [0, 1, 0, 2]);
-    assert_eq!(list.styles().len(), 4, "an outline is not a line, though it looks like one");
+    let numbers: Vec<u32> = list.items().iter().map(|item| item.style).collect();
+    assert_eq!(numbers, [0, 1, 0, 2, 3], "an outline is not a line, though it looks like one");
     let widths: Vec<Width> = list.styles().iter().filter_map(|style| Some(style.stroke?.width)).collect();
     assert_eq!(widths, [Width::Metres(2.0), Width::Metres(3.0), Width::Pixels(2.0), Width::Metres(2.0)]);
+}
+
+#[test]
+fn a_style_that_no_item_has_is_left_out() {
+    let everything = Style { line: lined().line, ..filled_and_outlined(Rule::EvenOdd, OutlineMode::Normal) };
+    let list = list(vec![filled(Rule::NonZero), everything], vec![(1, Shape::Line(vec![plan(&SQUARE)]))]);
+    assert_eq!(list.styles().iter().map(|style| style.role).collect::<Vec<_>>(), [Role::Line]);
 }
 
 fn points() -> impl Strategy<Value = Vec<Plan>> {

@@ -115,3 +115,55 @@ fn parts(list: &DrawList, items: &[Item]) -> Vec<Chain> {
     parts.dedup_by_key(|chain| chain.part);
     parts
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Cap, Feature, Fill, Outline, Rule, Shape, Style};
+
+    fn written(style: Style, shapes: Vec<Shape>) -> Value {
+        let features = shapes.into_iter().enumerate();
+        let features = features.map(|(index, shape)| Feature { index, style: 0, shape }).collect();
+        let mut layers = [Layer::uniform("layer", style, features)];
+        let list = DrawList::new(&mut layers).unwrap();
+        let mut text = Vec::new();
+        write_features((&layers, &list), DVec2::new(100.0, 0.0), &mut text).unwrap();
+        serde_json::from_slice(&text).unwrap()
+    }
+
+    fn plan(points: &[(f64, f64)]) -> Vec<Plan> {
+        points.iter().map(|&(x, y)| Plan::new(x, y)).collect()
+    }
+
+    fn style(mode: OutlineMode, has_fill: bool) -> Style {
+        let color = Color([0.0, 0.0, 0.0, 1.0]);
+        let line = Line { color, width: Width::Metres(1.0), join: Join::Round, cap: Cap::Butt };
+        let fill = has_fill.then_some(Fill { color, rule: Rule::EvenOdd });
+        Style { fill, outline: Some(Outline { line, mode }), line: None }
+    }
+
+    #[test]
+    fn a_polygon_has_all_rings_that_its_fill_and_its_outline_have_closed_and_in_their_order() {
+        let rings =
+            [&[(0.0, 0.0)][..], &[(0.0, 0.0), (4.0, 0.0), (4.0, 0.0), (0.0, 4.0)], &[(1.0, 1.0), (2.0, 1.0)]];
+        let polygon = || vec![Shape::Polygon(rings.map(plan).to_vec())];
+        let rings = |style| written(style, polygon())["features"][0]["geometry"]["coordinates"].to_string();
+        let with =
+            |big: &str| format!("[[[100.0,0.0],[100.0,0.0]],{big},[[101.0,1.0],[102.0,1.0],[101.0,1.0]]]");
+        let as_is = with("[[100.0,0.0],[104.0,0.0],[104.0,0.0],[100.0,4.0],[100.0,0.0]]");
+        assert_eq!(rings(style(OutlineMode::Normal, true)), as_is);
+        assert_eq!(rings(style(OutlineMode::Inset, false)), as_is);
+        let distinct = with("[[100.0,0.0],[104.0,0.0],[100.0,4.0],[100.0,0.0]]");
+        assert_eq!(rings(style(OutlineMode::Normal, false)), distinct, "nothing but the stroke is drawn");
+    }
+
+    #[test]
+    fn what_nothing_paints_is_left_out_and_the_others_keep_their_numbers() {
+        let line = || Shape::Line(vec![plan(&[(0.0, 0.0), (1.0, 0.0)])]);
+        let polygon = || Shape::Polygon(vec![plan(&[(0.0, 0.0), (4.0, 0.0), (0.0, 4.0)])]);
+        let all = written(style(OutlineMode::Offset, true), vec![line(), polygon()]);
+        let [feature] = &all["features"].as_array().unwrap()[..] else { panic!("{all}") };
+        assert_eq!(feature["properties"]["number"], 1);
+        assert_eq!(feature["properties"]["outline-mode"], "offset");
+    }
+}

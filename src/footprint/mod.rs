@@ -77,7 +77,8 @@ const NO_AREA: u32 = u32::MAX;
 impl<'l> Footprints<'l> {
     /// The items of a list; parts and polygons whose box `is_seen` denies are left out.
     pub fn new(list: &'l DrawList, pixel: PixelSize, is_seen: &IsSeen) -> Self {
-        let with_area = || list.numbered().filter(|(_, item)| !item.area.is_empty()).map(|(number, _)| number);
+        let with_area =
+            || list.numbered().filter(|(_, item)| !item.area.is_empty()).map(|(number, _)| number);
         let owners: Vec<u32> = with_area().filter(|item| list.area_owner(*item) == *item).collect();
         let areas = parallel::map(&owners, |owner| Area::new(list, &list.items()[*owner as usize]));
         let mut area_of = vec![NO_AREA; list.items().len()];

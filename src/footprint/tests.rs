@@ -124,7 +124,8 @@ fn a_cut_outline_is_bounded_by_the_polygon_of_its_fill_which_is_there_once() {
     assert_eq!(all.areas.len(), 1);
     assert!(all.polygon_holds(1, Plan::new(1.0, 1.0)) && !all.polygon_holds(1, Plan::new(3.0, 3.0)));
     assert_eq!((all.wants_polygon(1), all.wants_stroke(1)), (Some(true), true));
-    let of_outline: Vec<u32> = all.parts.iter().filter(|part| part.item == 1).map(|part| part.chain).collect();
+    let of_outline: Vec<u32> =
+        all.parts.iter().filter(|part| part.item == 1).map(|part| part.chain).collect();
     assert_eq!(of_outline, [0, 0, 0, 1, 1, 1], "its polygon's edges, then its stroke's segments");
 }
 

@@ -15,9 +15,7 @@ pub use clipmap::{
     Clipmap, Joints, LineFilter, LinePrimitives, OffsetForm, Overlaps, PixelWidth, PolygonRaster, Solution,
     TILE_TEXELS, TexelFormat, TextureFilter, WideLines,
 };
-pub use layer::{
-    Cap, Feature, Fill, Join, Layer, Line, Outline, OutlineMode, Rule, Shape, Style, Width,
-};
+pub use layer::{Cap, Feature, Fill, Join, Layer, Line, Outline, OutlineMode, Rule, Shape, Style, Width};
 pub use settings::{
     BlendMode, BlendSpace, Color, Compositing, Corners, DepthFormat, Device, ImageSettings,
     InverseProjection, PointInPolygon, Precision, Silhouette, TechniqueSettings,

@@ -67,9 +67,7 @@ pub(super) fn first_state(
         Some(_) if has_edges => Known::Open,
         // No edge is near: the polygon holds all of the fragment, or none.
         Some(wanted) => match ground.hit(middle(points)) {
-            hit if hit.error < f64::INFINITY => {
-                known(footprints.polygon_holds(item, hit.plan) == wanted)
-            }
+            hit if hit.error < f64::INFINITY => known(footprints.polygon_holds(item, hit.plan) == wanted),
             _ => Known::Open,
         },
     };

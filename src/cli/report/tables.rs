@@ -81,7 +81,8 @@ fn counted(stage: &Stage) -> [usize; 3] {
     let (list, [mut features, mut segments, mut vertices]) = (&stage.draw_list, [0; 3]);
     for (number, item) in list.numbered() {
         let role = list.style_of(number).role;
-        let path = |chain: &Chain| if role == Role::Line { list.path_of(chain) } else { list.vertices_of(chain) };
+        let path =
+            |chain: &Chain| if role == Role::Line { list.path_of(chain) } else { list.vertices_of(chain) };
         features += usize::from(role != Role::Fill);
         segments += list.strokes(item).iter().map(|chain| chain.segments() as usize).sum::<usize>();
         vertices += list.strokes(item).iter().map(|chain| path(chain).len()).sum::<usize>();

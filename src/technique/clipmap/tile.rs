@@ -6,9 +6,7 @@ use super::tessellation::{Pair, Sagitta, Strips};
 use super::texture::{TILE, TileKey, VirtualTexture};
 use crate::draw_list::Side;
 use crate::math;
-use crate::scene::{
-    Clipmap, Device, PixelWidth, Precision, Solution, TexelFormat, WideLines, Width,
-};
+use crate::scene::{Clipmap, Device, PixelWidth, Precision, Solution, TexelFormat, WideLines, Width};
 use crate::space::{Plan, PlanBox, Texel};
 
 /// Vertices of a ring that are looked at together: where all lie on one side of the tile, only the first is kept.

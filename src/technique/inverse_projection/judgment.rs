@@ -63,9 +63,7 @@ impl Judge<'_> {
     pub fn contains(&self, area: AreaId, near: &[NearEdge], sample: Plan) -> bool {
         match self.rule {
             PointInPolygon::EdgeNormals => flag(sample, near) > 0,
-            PointInPolygon::Winding => {
-                self.index.rule_of(area).contains(self.index.winding_of(area, sample))
-            }
+            PointInPolygon::Winding => self.index.rule_of(area).contains(self.index.winding_of(area, sample)),
         }
     }
 }

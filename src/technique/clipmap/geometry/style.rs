@@ -112,7 +112,8 @@ impl Styles {
                 Some(line) => stroke(style, line, ink).map(Drawn::Stroke),
             }
         };
-        let mut styles = Self { all: list.styles().iter().map(drawn).collect::<Result<_>>()?, reach: [None; 2] };
+        let mut styles =
+            Self { all: list.styles().iter().map(drawn).collect::<Result<_>>()?, reach: [None; 2] };
         styles.measure();
         Ok(styles)
     }

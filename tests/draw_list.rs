@@ -1,0 +1,335 @@
+//! One list of what is painted: truth, supersampling and every technique draw its items, whatever layer and style they are of.
+
+mod drawing;
+
+use drapery::buffer::{Plane, Values};
+use drapery::scene::file::SceneFile;
+use drapery::scene::{
+    Cap, Color, Feature, Fill, Join, Layer, Line, Outline, OutlineMode, Rule, Shape, Style, Width,
+};
+use drapery::scene::{Joints, Overlaps, PolygonRaster, Solution, TechniqueSettings, VolumeJoins};
+use drapery::space::Plan;
+use drapery::stage::Stage;
+use drapery::technique::{Frame, Kind};
+use drapery::truth::{self, Budget};
+use drawing::{count, frame_of, scene};
+use proptest::prelude::*;
+
+/// A stage of other layers than its text says.
+fn stage_of(text: &str, layers: Vec<Layer>, technique: &TechniqueSettings) -> Stage {
+    let file = SceneFile::parse(text, None, &[]).unwrap_or_else(|e| panic!("{e}"));
+    let (mut scene, surface) = drapery::source::load::load(&file, &|_| {}).unwrap_or_else(|e| panic!("{e}"));
+    scene.layers = layers;
+    scene.technique = *technique;
+    Stage::new(scene, surface).unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn plan(points: &[(f64, f64)]) -> Vec<Plan> {
+    points.iter().map(|&(x, y)| Plan::new(x, y)).collect()
+}
+
+// ---- Which items there are ----
+
+/// Metres, and pixels, a side of a cell.
+const CELL: usize = 12;
+
+/// What a shape has, besides a name.
+#[derive(Clone, Copy, PartialEq)]
+enum Has {
+    Inside,
+    Length,
+    Nothing,
+}
+
+/// Shapes around the zero point, within 3 m of it: of polygons, then of lines.
+fn shapes() -> Vec<(Shape, Has)> {
+    let square = || plan(&[(-2.75, -2.75), (2.75, -2.75), (2.75, 2.75), (-2.75, 2.75)]);
+    let repeated: Vec<Plan> =
+        square().into_iter().flat_map(|p| [p, p, Plan::new(p.x, p.y + 1e-10)]).collect();
+    let returning = [&square()[..], &square()[..1]].concat();
+    let hole = plan(&[(-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0)]);
+    let [two, dot] = [&square()[..2], &square()[..1]].map(<[Plan]>::to_vec);
+    let polygons = [
+        (vec![square()], Has::Inside),
+        (vec![square(), hole], Has::Inside),
+        (vec![repeated.clone()], Has::Inside),
+        (vec![returning.clone()], Has::Inside),
+        (vec![two.clone(), square(), dot.clone()], Has::Inside),
+        (vec![two.clone()], Has::Length),
+        (vec![dot.clone()], Has::Nothing),
+    ];
+    let lines = [
+        (vec![square()], Has::Length),
+        (vec![repeated], Has::Length),
+        (vec![returning], Has::Length),
+        (vec![[&two[..], &dot].concat()], Has::Length),
+        (vec![dot.clone(), vec![dot[0]; 3]], Has::Nothing),
+    ];
+    let polygons = polygons.into_iter().map(|(rings, has)| (Shape::Polygon(rings), has));
+    polygons.chain(lines.into_iter().map(|(lines, has)| (Shape::Line(lines), has))).collect()
+}
+
+/// Every style there is, but for colours and widths.
+fn styles() -> Vec<Style> {
+    let line = Line {
+        color: Color([0.0, 0.0, 0.0, 1.0]),
+        width: Width::Metres(2.0),
+        join: Join::Round,
+        cap: Cap::Round,
+    };
+    let fill = Fill { color: Color([1.0, 0.0, 0.0, 1.0]), rule: Rule::EvenOdd };
+    let modes = [OutlineMode::Inset, OutlineMode::Normal, OutlineMode::Offset];
+    let outlines = modes.map(|mode| Some(Outline { line, mode }));
+    let mut all = Vec::new();
+    for fill in [None, Some(fill)] {
+        for outline in outlines.into_iter().chain([None]) {
+            all.extend([None, Some(line)].map(|line| Style { fill, outline, line }));
+        }
+    }
+    all
+}
+
+/// Whether anything of a feature can be seen.
+fn is_painted(shape: &Shape, has: Has, style: &Style) -> bool {
+    match shape {
+        Shape::Line(_) => style.line.is_some(),
+        Shape::Polygon(_) if has == Has::Inside => style.fill.is_some() || style.outline.is_some(),
+        // Nothing is inside.
+        Shape::Polygon(_) => style.outline.is_some_and(|outline| outline.mode != OutlineMode::Inset),
+    }
+}
+
+#[test]
+fn truth_and_techniques_paint_the_same_items_of_every_shape_in_every_style_of_one_layer() {
+    let (shapes, styles) = (shapes(), styles());
+    let (columns, rows) = (styles.len(), shapes.len());
+    let (width, height) = (columns * CELL, rows * CELL);
+    let text = format!(
+        "schema = 1\nimage = {{ width = {width}, height = {height} }}\n\
+         terrain = {{ generate = {{ kind = \"plane\", posts = [3, 3], cell_m = 120.0 }}, color = \"#ffffff\" }}\n\
+         camera = {{ eye = [0, 0, 100], target = [0, 0, 0], up = [0, 1, 0], projection = \"orthographic\", height_m = {height} }}"
+    );
+    let (mut features, mut expected) = (Vec::new(), Vec::new());
+    for (row, (shape, has)) in shapes.iter().enumerate() {
+        for (column, style) in styles.iter().enumerate() {
+            let x = (column * CELL + CELL / 2) as f64 - width as f64 / 2.0;
+            let y = height as f64 / 2.0 - (row * CELL + CELL / 2) as f64;
+            let mut shape = shape.clone();
+            let (Shape::Polygon(parts) | Shape::Line(parts)) = &mut shape;
+            parts.iter_mut().flatten().for_each(|p| *p = Plan::new(p.x + x, p.y + y));
+            expected.push((is_painted(&shape, *has, style), *has));
+            features.push(Feature { index: features.len(), style: column as u32, shape });
+        }
+    }
+    let mut technique = TechniqueSettings::default();
+    technique.stencil_volume.joins = VolumeJoins::Style;
+    technique.clipmap.virtual_size = 2048;
+    technique.clipmap.joints = Joints::Style;
+    let layer = Layer { name: "all".into(), styles, features };
+    let stage = stage_of(&text, vec![layer], &technique);
+
+    let budget = Budget { coverage: true, ..Budget::new(0.01, 10).unwrap() };
+    let truth = truth::certify(&stage, &stage.view().unwrap(), &budget, &|_| {});
+    let frames = Kind::ALL.map(|kind| (kind.name(), kind, frame_of(kind, &stage, &["strips"])));
+    let images = frames.iter().map(|(name, kind, frame)| (*name, Some(*kind), &frame.image));
+    let right = truth.image();
+    for (name, kind, image) in images.chain([("truth", None, &right)]) {
+        for (cell, (is_painted, has)) in expected.iter().enumerate() {
+            let (x, y) = (cell % columns * CELL, cell / columns * CELL);
+            let mut pixels = (0..CELL * CELL).map(|k| image.at(x + k % CELL, y + k / CELL));
+            let is_seen = pixels.any(|pixel| pixel[1] < 200);
+            // Inverse projection draws segments alone.
+            let can_be = *has != Has::Nothing || kind != Some(Kind::InverseProjection);
+            assert_eq!(
+                is_seen,
+                *is_painted && can_be,
+                "{name}: shape {}, style {}",
+                cell / columns,
+                cell % columns
+            );
+        }
+    }
+
+    // All count the same items, and number them alike.
+    let list = &stage.draw_list;
+    let frame = |kind: Kind| &frames.iter().find(|(_, of, _)| *of == kind).unwrap().2;
+    assert_eq!(count(frame(Kind::StencilVolume), "objects"), list.items().len() as u64);
+    let is_cut_alone = |item: &u32| list.style_of(*item).cut.is_some() && list.area_owner(*item) == *item;
+    let cut_alone = (0..list.items().len() as u32).filter(is_cut_alone).count();
+    assert_eq!(count(frame(Kind::InverseProjection), "areas"), (list.items().len() + cut_alone) as u64);
+    assert_eq!(strips(frame(Kind::Clipmap)), strokes(&stage));
+    let of_pixels = truth.coverage.as_ref().unwrap().values().iter();
+    let mut covering: Vec<u32> = of_pixels
+        .flat_map(|pixel| &pixel.items)
+        .filter(|entry| entry.low > 0.0)
+        .map(|entry| entry.item)
+        .collect();
+    covering.sort_unstable();
+    covering.dedup();
+    let covers = |item: &u32| {
+        let of = &list.items()[*item as usize];
+        let (has, style) = (expected[of.feature as usize].1, list.style_of(*item));
+        match (style.stroke, style.cut) {
+            (None, _) | (_, Some(drapery::draw_list::Side::Inside)) => has == Has::Inside,
+            _ => true,
+        }
+    };
+    assert_eq!(covering, (0..list.items().len() as u32).filter(covers).collect::<Vec<_>>());
+}
+
+/// The layers, features and parts of the strips of a frame of the clipmap, each once.
+fn strips(frame: &Frame) -> Vec<[u32; 3]> {
+    let Values::U32(values) = &frame.planes[0].values else { panic!("strips are whole numbers") };
+    let mut all: Vec<[u32; 3]> = values.chunks(5).map(|row| [row[0], row[1], row[2]]).collect();
+    all.dedup();
+    all
+}
+
+/// Those of a draw list's strokes, without dots.
+fn strokes(stage: &Stage) -> Vec<[u32; 3]> {
+    let list = &stage.draw_list;
+    let of = |item| list.strokes(item).iter().map(move |chain| (item, chain));
+    let strokes = list.items().iter().flat_map(of).filter(|(_, chain)| chain.segments() > 0);
+    strokes
+        .map(|(item, chain): (&drapery::draw_list::Item, _)| [item.layer, item.feature, chain.part])
+        .collect()
+}
+
+// ---- Styles of one layer, or of many ----
+
+fn color() -> impl Strategy<Value = Color> {
+    let channel = || prop_oneof![Just(0.0), Just(1.0), 0.0..1.0f64];
+    (channel(), channel(), channel(), prop_oneof![Just(1.0), 0.2..0.9f64])
+        .prop_map(|(r, g, b, a)| Color([r, g, b, a]))
+}
+
+fn line(has_pixels: bool) -> impl Strategy<Value = Line> {
+    let join = prop_oneof![Just(Join::Round), Just(Join::Bevel), Just(Join::Miter { limit: 3.0 })];
+    let cap = prop_oneof![Just(Cap::Butt), Just(Cap::Square), Just(Cap::Round)];
+    (color(), 2.0..40.0f64, any::<bool>(), join, cap).prop_map(move |(color, width, is_thin, join, cap)| {
+        let width = if has_pixels && is_thin { Width::Pixels(width / 10.0) } else { Width::Metres(width) };
+        Line { color, width, join, cap }
+    })
+}
+
+fn style(has_pixels: bool) -> impl Strategy<Value = Style> {
+    let rule = prop_oneof![Just(Rule::EvenOdd), Just(Rule::NonZero)];
+    let mode = prop_oneof![Just(OutlineMode::Inset), Just(OutlineMode::Normal), Just(OutlineMode::Offset)];
+    let fill = (color(), rule).prop_map(|(color, rule)| Fill { color, rule });
+    let outline = (line(has_pixels), mode).prop_map(|(line, mode)| Outline { line, mode });
+    (prop::option::of(fill), prop::option::of(outline), prop::option::of(line(has_pixels)))
+        .prop_map(|(fill, outline, line)| Style { fill, outline, line })
+}
+
+fn points() -> impl Strategy<Value = Vec<Plan>> {
+    prop::collection::vec((-240.0..240.0f64, -240.0..240.0f64), 2..7).prop_map(|points| plan(&points))
+}
+
+/// Features of a layer that has some styles.
+fn mixed(has_pixels: bool) -> impl Strategy<Value = Layer> {
+    let shape = prop_oneof![
+        prop::collection::vec(points(), 1..3).prop_map(Shape::Polygon),
+        prop::collection::vec(points(), 1..3).prop_map(Shape::Line),
+    ];
+    let features = prop::collection::vec((shape, 0..5u32), 3..9);
+    (prop::collection::vec(style(has_pixels), 5), features).prop_map(|(styles, features)| {
+        let features = features.into_iter().enumerate();
+        let features = features.map(|(index, (shape, style))| Feature { index, style, shape }).collect();
+        Layer { name: "mixed".into(), styles, features }
+    })
+}
+
+/// The same features in layers of one style each.
+fn split(layer: &Layer) -> Vec<Layer> {
+    let runs = layer.features.chunk_by(|a, b| a.style == b.style);
+    let of_run = |run: &[Feature]| {
+        let features = run.iter().map(|feature| Feature { style: 0, ..feature.clone() }).collect();
+        Layer::uniform("one", layer.styles[run[0].style as usize], features)
+    };
+    runs.map(of_run).collect()
+}
+
+/// What a frame is, but for the numbers of layers and features.
+fn told(frame: &Frame) -> (Vec<String>, Vec<(&'static str, u64)>) {
+    let plane = |plane: &Plane| {
+        let mut plane = plane.clone();
+        if let ("strips", Values::U32(values)) = (plane.name, &mut plane.values) {
+            values.chunks_mut(5).for_each(|row| row[..2].fill(0));
+        }
+        format!("{} {}", plane.name, plane.hash())
+    };
+    let image = format!("image {}", frame.image.hash());
+    (frame.planes.iter().map(plane).chain([image]).collect(), frame.counts.clone())
+}
+
+const HILLS: &str = r#"kind = "fbm", seed = 6, posts = [17, 17], cell_m = 40.0, height_m = 120.0"#;
+const CAMERA: &str = "eye = [60, -520, 420], target = [0, -20, 30]";
+
+/// Whether two stages have the same pictures by truth, supersampling and the techniques.
+fn assert_same(layer: &Layer, technique: &TechniqueSettings, kinds: &[Kind]) {
+    let text = scene(HILLS, CAMERA, "").replace("width = 96, height = 64", "width = 48, height = 32");
+    let stages = [vec![layer.clone()], split(layer)].map(|layers| stage_of(&text, layers, technique));
+    for kind in kinds {
+        let frames = stages.each_ref().map(|stage| {
+            let names = drapery::technique::prepare(*kind, stage).unwrap().buffer_names();
+            told(&frame_of(*kind, stage, names))
+        });
+        assert_eq!(frames[0], frames[1], "{kind:?}, {technique:?}");
+    }
+}
+
+/// The same by the truth and by supersampling.
+fn assert_same_truth(layer: &Layer) {
+    let text = scene(HILLS, CAMERA, "").replace("width = 96, height = 64", "width = 48, height = 32");
+    let [mixed, split] = [vec![layer.clone()], split(layer)].map(|layers| {
+        let stage = stage_of(&text, layers, &TechniqueSettings::default());
+        let view = stage.view().unwrap();
+        let budget = Budget { coverage: true, ..Budget::default() };
+        let truth = truth::certify(&stage, &view, &budget, &|_| {});
+        (truth, drapery::sampling::sample(&stage, &view, 3, &|_| {}).colors)
+    });
+    assert_eq!((&mixed.0.low, &mixed.0.high), (&split.0.low, &split.0.high));
+    assert_eq!((&mixed.0.estimate, &mixed.0.coverage), (&split.0.estimate, &split.0.coverage));
+    assert_eq!(mixed.1, split.1, "supersampling");
+}
+
+/// Settings of the clipmap: each of the solutions, drawn in different ways.
+fn clipmaps() -> impl Iterator<Item = TechniqueSettings> {
+    let ways = [
+        (Solution::Lines, PolygonRaster::Aliased, Joints::Combined, Overlaps::Blend),
+        (Solution::Polygons, PolygonRaster::Exact, Joints::Style, Overlaps::Once),
+        (Solution::Both, PolygonRaster::Aliased, Joints::BevelInner, Overlaps::Blend),
+        (Solution::Wireframe, PolygonRaster::TinySkia, Joints::BevelStrip, Overlaps::Blend),
+        (Solution::Adjacency, PolygonRaster::Exact, Joints::Combined, Overlaps::Blend),
+        (Solution::Offsets, PolygonRaster::Aliased, Joints::Style, Overlaps::Once),
+    ];
+    ways.into_iter().map(|(solution, polygons, joints, overlaps)| {
+        let mut technique = TechniqueSettings::default();
+        technique.clipmap.virtual_size = 512;
+        technique.clipmap.solution = solution;
+        technique.clipmap.polygons = polygons;
+        technique.clipmap.joints = joints;
+        technique.clipmap.overlaps = overlaps;
+        technique
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(12))]
+    #[test]
+    fn a_layer_of_many_styles_is_drawn_as_layers_of_one_style_each(layer in mixed(false)) {
+        assert_same_truth(&layer);
+        let mut technique = TechniqueSettings::default();
+        assert_same(&layer, &technique, &[Kind::StencilVolume, Kind::InverseProjection]);
+        technique.stencil_volume.joins = VolumeJoins::Style;
+        technique.stencil_volume.grouping = drapery::scene::Grouping::Color;
+        technique.inverse_projection.point_in_polygon = drapery::scene::PointInPolygon::Winding;
+        assert_same(&layer, &technique, &[Kind::StencilVolume, Kind::InverseProjection]);
+    }
+
+    #[test]
+    fn the_clipmap_and_the_truth_draw_them_so_with_widths_in_pixels_among_them(layer in mixed(true)) {
+        assert_same_truth(&layer);
+        clipmaps().for_each(|technique| assert_same(&layer, &technique, &[Kind::Clipmap]));
+    }
+}
