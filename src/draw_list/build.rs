@@ -12,6 +12,9 @@ use std::ops::Range;
 /// Features that are one piece of work.
 const FEATURES_AT_A_TIME: usize = 1024;
 
+/// Blocks that are in memory together.
+const BLOCKS_AT_A_TIME: usize = 64;
+
 /// The most items, chains and vertices: twice an item's number, and what lies behind a chain's end, can be numbered too.
 const MOST: usize = u32::MAX as usize / 2;
 
@@ -30,11 +33,19 @@ struct Block {
 pub(super) fn of_layers(layers: &mut [Layer]) -> Result<DrawList> {
     let mut table = StyleTable::default();
     let parts: Vec<Vec<StyleParts>> = layers.iter().map(|layer| table.parts_of(layer)).collect();
-    let made = parallel::map_owned(blocks(layers), |block| {
-        let parts = &parts[block.layer];
-        made(block, parts)
-    });
-    let mut all = joined(made)?;
+    let features = layers.iter().flat_map(|layer| &layer.features);
+    let mut all = DrawList::default();
+    all.vertices.reserve_exact(features.map(|feature| vertices_of(&feature.shape)).sum());
+    let mut blocks = blocks(layers).into_iter();
+    loop {
+        // Not all at once: a block's features go when its list is made, its list when it is added.
+        let some: Vec<Block> = blocks.by_ref().take(BLOCKS_AT_A_TIME).collect();
+        if some.is_empty() {
+            break;
+        }
+        let made = parallel::map_owned(some, |block| made(&parts[block.layer], block));
+        made.into_iter().try_for_each(|block| all.append(block))?;
+    }
     all.take_styles(&table.styles);
     Ok(all)
 }
@@ -54,7 +65,7 @@ fn blocks(layers: &mut [Layer]) -> Vec<Block> {
 }
 
 /// What a block becomes.
-fn made(block: Block, parts: &[StyleParts]) -> DrawList {
+fn made(parts: &[StyleParts], block: Block) -> DrawList {
     let mut list = DrawList::default();
     list.vertices.reserve_exact(block.features.iter().map(|feature| vertices_of(&feature.shape)).sum());
     for (k, feature) in block.features.into_iter().enumerate() {
@@ -81,23 +92,12 @@ fn vertices_of(shape: &Shape) -> usize {
     parts.iter().map(|part| part.len() + 1).sum()
 }
 
-/// All blocks as one list.
-fn joined(blocks: Vec<DrawList>) -> Result<DrawList> {
-    let count = |of: fn(&DrawList) -> usize| blocks.iter().map(of).sum::<usize>();
-    let (items, chains) = (count(|list| list.items.len()), count(|list| list.chains.len()));
-    let vertices = count(|list| list.vertices.len());
-    for (count, what) in [(items, "features"), (chains, "lines and rings"), (vertices, "vertices")] {
-        if count > MOST {
-            return Err(Error::new(format!("more {what} than this program can number"))
-                .help("give the terrain a `window`"));
-        }
+/// Whether so many can be numbered.
+fn check(count: usize, what: &str) -> Result<()> {
+    if count <= MOST {
+        return Ok(());
     }
-    let mut all = DrawList::default();
-    all.items.reserve_exact(items);
-    all.chains.reserve_exact(chains);
-    all.vertices.reserve_exact(vertices);
-    blocks.into_iter().for_each(|block| all.append(block));
-    Ok(all)
+    Err(Error::new(format!("more {what} than this program can number")).help("give the terrain a `window`"))
 }
 
 impl DrawList {
@@ -180,7 +180,10 @@ impl DrawList {
     }
 
     /// Adds a block after these.
-    fn append(&mut self, block: Self) {
+    fn append(&mut self, block: Self) -> Result<()> {
+        check(self.items.len() + block.items.len(), "features")?;
+        check(self.chains.len() + block.chains.len(), "lines and rings")?;
+        check(self.vertices.len() + block.vertices.len(), "vertices")?;
         let (chains, vertices) = (self.chains.len() as u32, self.vertices.len() as u32);
         let moved = |range: &Range<u32>| range.start + chains..range.end + chains;
         let items = block.items.into_iter();
@@ -192,5 +195,6 @@ impl DrawList {
         let chain = |chain: Chain| Chain { first: chain.first + vertices, ..chain };
         self.chains.extend(block.chains.into_iter().map(chain));
         self.vertices.extend(block.vertices);
+        Ok(())
     }
 }
