@@ -4,7 +4,7 @@
 //! `cargo bench --bench inverse_projection`
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
-use drapery::scene::file::SceneFile;
+use drapery::scene_file::SceneFile;
 use drapery::stage::Stage;
 use drapery::technique::{self, FrameOptions, Kind};
 use std::hint::black_box;

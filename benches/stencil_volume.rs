@@ -4,9 +4,9 @@
 //! `cargo bench --bench stencil_volume`
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
-use drapery::scene::file::SceneFile;
 use drapery::scene::{Cap, Color, Diagonal, Feature, Grouping, Join, Layer, Line, Posts, Shape, Style};
 use drapery::scene::{Surface, Width};
+use drapery::scene_file::SceneFile;
 use drapery::space::Plan;
 use drapery::stage::Stage;
 use drapery::technique::{self, FrameOptions, Kind};

@@ -5,7 +5,7 @@ mod drawing;
 use drapery::buffer::Values;
 use drapery::compare::{Image, Metrics};
 use drapery::math;
-use drapery::scene::file::{Override, SceneFile};
+use drapery::scene_file::{Override, SceneFile};
 use drapery::space::ViewFrame;
 use drapery::stage::Stage;
 use drapery::technique::{Frame, FrameOptions, Kind, clipmap::Prepare};

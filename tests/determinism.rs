@@ -4,7 +4,7 @@
 //! then said in the commit. (Goldens hold those of all techniques.)
 
 use drapery::buffer::Plane;
-use drapery::scene::file::SceneFile;
+use drapery::scene_file::SceneFile;
 use drapery::stage::Stage;
 use drapery::technique::{self, FrameOptions, Kind};
 

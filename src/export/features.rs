@@ -1,7 +1,7 @@
 //! Features as GeoJSON (RFC 7946, but in the scene's plan coordinates), styled in the words of the simplestyle specification and
 //! of the scene file.
 
-use crate::scene::file::Named;
+use crate::parameter::Named;
 use crate::scene::{Color, Feature, Join, Layer, Line, Shape, Width};
 use crate::space::Plan;
 use glam::DVec2;

@@ -4,7 +4,7 @@ use super::case::Case;
 use super::manifest::{BufferHash, Entry};
 use crate::buffer::{Buffer, Plane};
 use crate::error::Result;
-use crate::scene::file::{Override, SceneFile};
+use crate::scene_file::{Override, SceneFile};
 use crate::source::load;
 use crate::space::ViewFrame;
 use crate::stage::Stage;

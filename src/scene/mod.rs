@@ -1,11 +1,10 @@
 //! What is drawn: terrain data, vector layers, camera, styles and the machine to imitate.
 //!
 //! Input: nothing (plain data). Output: [`Scene`], which every later room reads and none changes. It refuses nothing
-//! itself; [`mod@file`] checks what a person wrote and `source` checks what the files hold.
+//! itself; [`crate::scene_file`] checks what a person wrote and `source` checks what the files hold.
 
 mod camera;
 mod clipmap;
-pub mod file;
 mod layer;
 mod settings;
 mod stencil;

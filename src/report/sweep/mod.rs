@@ -85,7 +85,7 @@ pub fn words(changes: &[&str]) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::file::{Override, SceneFile};
+    use crate::scene_file::{Override, SceneFile};
 
     const SCENE: &str = "schema = 1\nterrain.generate = { kind = \"plane\" }\n";
 

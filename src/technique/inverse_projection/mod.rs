@@ -27,8 +27,8 @@ mod quadrilateral;
 
 use super::{Frame, FrameOptions, Prepared};
 use crate::error::{Error, Result};
+use crate::parameter::Named;
 use crate::scene::InverseProjection;
-use crate::scene::file::Named;
 use crate::space::ViewFrame;
 use crate::stage::Stage;
 use edge_index::EdgeIndex;

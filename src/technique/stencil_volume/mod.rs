@@ -27,7 +27,7 @@ mod view;
 
 use super::{Frame, FrameOptions, Prepared};
 use crate::error::{Error, Result};
-use crate::scene::file::Named;
+use crate::parameter::Named;
 use crate::scene::{Layer, OutlineMode};
 use crate::space::ViewFrame;
 use crate::stage::Stage;

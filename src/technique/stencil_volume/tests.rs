@@ -2,11 +2,11 @@
 
 use super::extrusion::{Extrusion, Volume};
 use crate::buffer::Values;
-use crate::scene::file::SceneFile;
 use crate::scene::{
     Cap, Color, Counting, Feature, Fill, Join, Layer, Line, Outline, OutlineMode, Projection, Rule, Shape,
     StencilVolume, Style, Surface, VolumeJoins, Width,
 };
+use crate::scene_file::SceneFile;
 use crate::space::{Plan, Ray, World};
 use crate::stage::Stage;
 use crate::technique::{self, FrameOptions, Kind};

@@ -12,7 +12,7 @@ use crate::error::{Error, Result};
 /// word that is taken as a string; no value removes the key.
 ///
 /// ```
-/// use drapery::scene::file::{Override, SceneFile};
+/// use drapery::scene_file::{Override, SceneFile};
 /// let text = "schema = 1\n[terrain]\ngenerate = { kind = \"plane\" }\n[image]\nwidth = 64\nheight = 48\n";
 /// let change = Override::parse("image.width=32").unwrap();
 /// let scene = SceneFile::parse(text, None, &[change]).unwrap();

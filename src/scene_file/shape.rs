@@ -1,6 +1,6 @@
 //! The vocabulary in which [`super::keys`] describes the scene file.
 
-use crate::scene::file::names::Named;
+use crate::parameter::Named;
 
 /// What a value must look like.
 #[derive(Debug, Clone, Copy)]

@@ -3,9 +3,9 @@
 use super::{data_file, rectangle};
 use crate::error::Result;
 use crate::scene::Color;
-use crate::scene::file::names::{ShadeName, TerrainName};
-use crate::scene::file::section::{Section, Taken};
-use crate::scene::file::spec::{GroundSpec, TerrainGenerator, TerrainKind, TerrainSource, TerrainSpec};
+use crate::scene_file::names::{ShadeName, TerrainName};
+use crate::scene_file::section::{Section, Taken};
+use crate::scene_file::spec::{GroundSpec, TerrainGenerator, TerrainKind, TerrainSource, TerrainSpec};
 use glam::DVec2;
 
 /// The most posts that a generated terrain may have.

@@ -2,10 +2,10 @@
 
 use super::{data_file, rectangle, stem};
 use crate::error::Result;
-use crate::scene::file::names::{JoinName, VectorName};
-use crate::scene::file::section::{Section, Taken};
-use crate::scene::file::spec::{LayerSource, LayerSpec, VectorGenerator, VectorKind};
 use crate::scene::{Cap, Color, Fill, Join, Line, Outline, Shape, Style, Width};
+use crate::scene_file::names::{JoinName, VectorName};
+use crate::scene_file::section::{Section, Taken};
+use crate::scene_file::spec::{LayerSource, LayerSpec, VectorGenerator, VectorKind};
 use crate::space::Plan;
 use glam::DVec2;
 use std::path::Path;
@@ -45,11 +45,7 @@ fn layer(section: &mut Section<'_>, index: usize) -> Result<LayerSpec> {
 }
 
 /// The name of a layer that states none.
-pub(in crate::scene::file) fn default_name(
-    source: Option<&str>,
-    layer: Option<&str>,
-    index: usize,
-) -> String {
+pub(in crate::scene_file) fn default_name(source: Option<&str>, layer: Option<&str>, index: usize) -> String {
     let otherwise = || format!("layer-{index}");
     match (source, layer) {
         (Some(_), Some(layer)) => layer.into(),

@@ -1,28 +1,13 @@
 //! The words of the scene file and what they stand for.
 
 use super::spec::HeightEncoding;
+use crate::parameter::Named;
 use crate::scene::{
     BlendMode, BlendSpace, Cap, Corners, Counting, DepthFormat, Diagonal, FarPlane, Grouping, Joints,
     LineFilter, LinePrimitives, OffsetForm, OutlineMode, Overflow, Overlaps, PixelWidth, PointInPolygon,
     PolygonRaster, Precision, Rule, Silhouette, Solution, TexelFormat, TextureFilter, VolumeCaps,
     VolumeJoins, WideLines,
 };
-
-/// A setting that is written as one of some words.
-pub trait Named: Copy + PartialEq + 'static {
-    /// Each word and what it stands for.
-    const NAMES: &'static [(&'static str, Self)];
-
-    /// What a word stands for.
-    fn from_name(name: &str) -> Option<Self> {
-        Self::NAMES.iter().find(|(known, _)| *known == name).map(|(_, value)| *value)
-    }
-
-    /// The word for it.
-    fn word(self) -> &'static str {
-        Self::NAMES.iter().find(|(_, value)| *value == self).map_or("", |(word, _)| word)
-    }
-}
 
 macro_rules! named {
     ($($name:ty { $($word:literal => $value:ident),+ $(,)? })+) => {

@@ -2,9 +2,9 @@
 
 use super::{POSITIVE, SEED};
 use crate::scene::Diagonal;
-use crate::scene::file::names::{ShadeName, TerrainName};
-use crate::scene::file::shape::{Range, Rule as Keys, Shape, TableShape, choice, key};
-use crate::scene::file::spec::HeightEncoding;
+use crate::scene_file::names::{ShadeName, TerrainName};
+use crate::scene_file::shape::{Range, Rule as Keys, Shape, TableShape, choice, key};
+use crate::scene_file::spec::HeightEncoding;
 
 pub(super) static TERRAIN: TableShape = TableShape {
     keys: &[

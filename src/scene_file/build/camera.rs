@@ -2,9 +2,9 @@
 
 use crate::error::{Error, Result};
 use crate::scene::Projection;
-use crate::scene::file::names::ProjectionName;
-use crate::scene::file::section::{Section, Taken};
-use crate::scene::file::spec::{CameraSpec, Spot, ViewSpec};
+use crate::scene_file::names::ProjectionName;
+use crate::scene_file::section::{Section, Taken};
+use crate::scene_file::spec::{CameraSpec, Spot, ViewSpec};
 use glam::DVec3;
 
 pub(super) fn camera(section: &mut Section<'_>) -> Result<CameraSpec> {
@@ -75,7 +75,7 @@ fn nonzero(section: &Section<'_>, up: &Taken<[f64; 3]>) -> Result<()> {
 ///
 /// # Errors
 /// When the eye is the target, or `up` is zero or parallel to the direction of view.
-pub(in crate::scene::file) fn check_view(eye: DVec3, target: DVec3, up: DVec3) -> Result<()> {
+pub(in crate::scene_file) fn check_view(eye: DVec3, target: DVec3, up: DVec3) -> Result<()> {
     // Scale first: neither tiny nor huge numbers may under- or overflow in the products.
     let scaled = |v: DVec3| v / v.abs().max_element();
     if eye == target {

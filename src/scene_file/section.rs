@@ -1,11 +1,11 @@
 //! A checked table, taken apart key by key.
 
 use super::check::is_nested;
-use super::names::Named;
 use super::place::{Origin, Place};
 use super::shape::color;
 use super::tree::{Entry, Node, Table, Value};
 use crate::error::{Error, Result};
+use crate::parameter::Named;
 use crate::scene::Color;
 use crate::space::Plan;
 

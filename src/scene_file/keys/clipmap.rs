@@ -1,9 +1,9 @@
 //! The parameters of the clipmap texture.
 
 use super::POSITIVE;
-use crate::scene::file::shape::{Range, Shape, TableShape, choice, key};
 use crate::scene::{Joints, LineFilter, LinePrimitives, OffsetForm, Overlaps, PixelWidth, PolygonRaster};
 use crate::scene::{Solution, TexelFormat, TextureFilter, WideLines};
+use crate::scene_file::shape::{Range, Shape, TableShape, choice, key};
 
 /// Texels a side: from one tile to what the paper has (5).
 const SIDES: Shape = Shape::IntegerOf(&[

@@ -1,8 +1,8 @@
 //! The parameters of the techniques.
 
 use crate::error::Result;
-use crate::scene::file::section::{Section, Taken};
 use crate::scene::{Clipmap, InverseProjection, StencilVolume, TechniqueSettings};
+use crate::scene_file::section::{Section, Taken};
 
 pub(super) fn technique(section: &mut Section<'_>) -> Result<TechniqueSettings> {
     let node = section.take_or_empty("clipmap");

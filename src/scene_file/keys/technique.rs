@@ -1,9 +1,9 @@
 //! The tables of the techniques' parameters.
 
 use super::clipmap::CLIPMAP;
-use crate::scene::file::shape::{Shape, TableShape, choice, key};
 use crate::scene::{Corners, PointInPolygon, Silhouette};
 use crate::scene::{Counting, FarPlane, Grouping, Overflow, VolumeCaps, VolumeJoins};
+use crate::scene_file::shape::{Shape, TableShape, choice, key};
 
 pub(super) static TECHNIQUE: TableShape = TableShape {
     keys: &[

@@ -7,7 +7,7 @@
 //! The keys are described once, in `keys`; the check, the JSON Schema and the suggestions read the description.
 //!
 //! ```
-//! use drapery::scene::file::SceneFile;
+//! use drapery::scene_file::SceneFile;
 //! let text = r##"
 //! schema = 1
 //! [terrain]
@@ -39,7 +39,6 @@ mod tests;
 mod tree;
 
 pub use keys::SCHEMA;
-pub use names::Named;
 pub use overrides::Override;
 pub use schema::schema;
 pub use spec::{
@@ -54,7 +53,7 @@ use std::path::Path;
 use tree::Value;
 
 /// The scene that is drawn where none is named: all of it generated, a start for one's own.
-pub const DEFAULT_SCENE: &str = include_str!("../../../golden/default/valley.toml");
+pub const DEFAULT_SCENE: &str = include_str!("../../golden/default/valley.toml");
 
 impl SceneFile {
     /// Reads a scene file's text.

@@ -73,7 +73,7 @@ fn push(out: &mut String, number: impl std::fmt::Display) {
 
 #[cfg(test)]
 mod tests {
-    use crate::scene::file::{Override, SceneFile};
+    use crate::scene_file::{Override, SceneFile};
     use std::path::Path;
 
     const TEXT: &str = "
