@@ -4,7 +4,7 @@ use super::bar::Bar;
 use drapery::buffer::Buffer;
 use drapery::compare::{Difference, Expected, Image, Metrics};
 use drapery::output::{ByName, SceneResult};
-use drapery::parameter::Named;
+use drapery::parameter::Settings;
 use drapery::report::{self, TRUTH, Times};
 use drapery::scene::Device;
 use drapery::scene_file::SceneFile;
@@ -135,7 +135,7 @@ impl Drawn {
             if drawn.as_ref().is_some_and(|before| before.frame.image != frame.image) {
                 return Err(unequal(kind.name()));
             }
-            let buffers = buffers_of(&*prepared, wants_buffer);
+            let buffers = buffers_of(kind, wants_buffer);
             if turn == repeat && !buffers.is_empty() {
                 let with_buffers = self::frame((&*prepared, view), &buffers, bar)?;
                 if with_buffers.image != frame.image {
@@ -145,7 +145,7 @@ impl Drawn {
             }
             drawn = Some(Self {
                 frame,
-                parameters: ByName::from_texts(prepared.parameters()),
+                parameters: ByName::from_pairs(kind.parameters(&stage.scene.technique)),
                 structure_bytes: prepared.structure_bytes(),
                 prepare: Times::of(Vec::new()),
                 draw: Times::of(Vec::new()),
@@ -161,21 +161,13 @@ fn frame((prepared, view): (&dyn Prepared, &ViewFrame), buffers: &[String], bar:
 }
 
 /// The names to ask a technique for.
-fn buffers_of(prepared: &dyn Prepared, wants: &dyn Fn(&str) -> bool) -> Vec<String> {
-    let names = prepared.buffer_names().iter().filter(|name| wants(name));
-    names.map(|name| (*name).to_owned()).collect()
+fn buffers_of(kind: Kind, wants: &dyn Fn(&str) -> bool) -> Vec<String> {
+    kind.buffer_names().into_iter().filter(|name| wants(name)).collect()
 }
 
 /// A device as a scene file writes it under `[device]`.
 pub(super) fn device_words(device: &Device) -> ByName {
-    ByName::from_pairs([
-        ("precision", Value::from(device.precision.word())),
-        ("subpixel_bits", device.subpixel_bits.into()),
-        ("depth", device.depth.word().into()),
-        ("stencil_bits", device.stencil_bits.into()),
-        ("max_line_width_px", device.max_line_width_px.into()),
-        ("filter_bits", device.filter_bits.into()),
-    ])
+    ByName::from_pairs(device.values())
 }
 
 /// What is told of a scene.

@@ -15,3 +15,36 @@ pub trait Named: Copy + PartialEq + 'static {
         Self::NAMES.iter().find(|(_, value)| *value == self).map_or("", |(word, _)| word)
     }
 }
+
+/// An enum whose values are written as words:
+///
+/// ```ignore
+/// words! {
+///     /// Which caps volumes have.
+///     pub enum VolumeCaps {
+///         /// Both.
+///         Both = "both",
+///         /// The bottom alone.
+///         Bottom = "bottom",
+///     }
+/// }
+/// ```
+macro_rules! words {
+    (
+        $(#[$about:meta])*
+        $visibility:vis enum $name:ident {
+            $($(#[$value_about:meta])* $value:ident = $word:literal,)+
+        }
+    ) => {
+        $(#[$about])*
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        $visibility enum $name {
+            $($(#[$value_about])* $value,)+
+        }
+
+        impl $crate::parameter::Named for $name {
+            const NAMES: &'static [(&'static str, Self)] = &[$(($word, Self::$value)),+];
+        }
+    };
+}
+pub(crate) use words;

@@ -4,26 +4,20 @@
 //! itself; [`crate::scene_file`] checks what a person wrote and `source` checks what the files hold.
 
 mod camera;
-mod clipmap;
 mod layer;
 mod settings;
-mod stencil;
 
 pub use camera::{Camera, Projection};
-pub use clipmap::{
-    Clipmap, Joints, LineFilter, LinePrimitives, OffsetForm, Overlaps, PixelWidth, PolygonRaster, Solution,
-    TILE_TEXELS, TexelFormat, TextureFilter, WideLines,
-};
 pub use layer::{
     Cap, Feature, Fill, Join, Layer, Line, Outline, OutlineMode, Rule, SAME_VERTEX, Shape, Style, Width,
     distinct_vertices,
 };
 pub use settings::{
-    BlendMode, BlendSpace, Color, Compositing, Corners, DepthFormat, Device, ImageSettings,
-    InverseProjection, PointInPolygon, Precision, Silhouette, TechniqueSettings,
+    BlendMode, BlendSpace, Color, Compositing, DepthFormat, Device, ImageSettings, Precision,
+    TechniqueSettings,
 };
-pub use stencil::{Counting, FarPlane, Grouping, Overflow, StencilVolume, VolumeCaps, VolumeJoins};
 
+use crate::parameter::words;
 use crate::space::{Plan, World};
 use glam::DVec2;
 
@@ -168,16 +162,18 @@ impl Posts {
     }
 }
 
-/// How a cell of the grid is split into two triangles.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Diagonal {
-    /// From its south-west to its north-east corner.
-    #[default]
-    SwNe,
-    /// From its north-west to its south-east corner.
-    NwSe,
-    /// `SwNe` where column + row is even, else `NwSe`.
-    Alternating,
+words! {
+    /// How a cell of the grid is split into two triangles.
+    #[derive(Default)]
+    pub enum Diagonal {
+        /// From its south-west to its north-east corner.
+        #[default]
+        SwNe = "sw-ne",
+        /// From its north-west to its south-east corner.
+        NwSe = "nw-se",
+        /// `SwNe` where column + row is even, else `NwSe`.
+        Alternating = "alternating",
+    }
 }
 
 /// The terrain's own colour: constant on a triangle or on a texel, so that the right picture stays computable.

@@ -3,10 +3,10 @@
 
 use super::keys::SCHEMA;
 use super::place::{Origin, Place};
-use super::shape::{Range, Rule, Shape, TableShape, color};
 use super::suggest;
 use super::tree::{Entry, Node, Table, Value};
 use crate::error::{Error, Result};
+use crate::parameter::{self, Range, Rule, Shape, TableShape, color};
 
 /// Judges the table called `path` (empty: the whole file).
 pub(super) fn table(
@@ -61,6 +61,7 @@ impl Check<'_> {
             (Shape::Integers(count, low, high), Value::Array(items)) if items.len() == *count => {
                 self.each(items, &Shape::Integer(*low, *high), path)
             }
+            (Shape::Or(_, inner @ Shape::Numbers(_)), Value::Array(_)) => self.value(node, inner, path),
             (Shape::Paths, Value::Array(items)) => self.paths(items, &node.place, path),
             (shape, value) if fits(shape, value) => Ok(()),
             (shape, value) => Err(self.misfit(node, shape, value, path)),
@@ -132,6 +133,9 @@ impl Check<'_> {
             }
             (Shape::Choice(names), Value::Text(text)) => suggest::nearest(text, &names())
                 .map_or(error.clone(), |near| error.help(format!("did you mean {near:?}?"))),
+            (Shape::Choice(names), Value::Flag(flag)) if names().contains(&flag.to_string().as_str()) => {
+                error.help("put it in quotes")
+            }
             (Shape::Text, Value::Integer(_) | Value::Number(_) | Value::Flag(_) | Value::Date) => {
                 error.help("put it in quotes")
             }
@@ -154,19 +158,33 @@ pub(super) fn is_nested(items: &[Node]) -> bool {
     matches!(inner, Some(Value::Array(first)) if matches!(first.first().map(|n| &n.value), Some(Value::Array(_))))
 }
 
+/// Whether a value that holds no others is of a shape.
 fn fits(shape: &Shape, value: &Value) -> bool {
     match (shape, value) {
         (Shape::Text, Value::Text(text)) => !text.is_empty(),
         (Shape::Color, Value::Text(text)) => color(text).is_some(),
-        (Shape::Choice(names), Value::Text(text)) => names().contains(&text.as_str()),
+        _ => plain(shape, value).is_some(),
+    }
+}
+
+/// The value of a parameter of this shape; `None` where it is of another.
+pub(super) fn plain(shape: &Shape, value: &Value) -> Option<parameter::Value> {
+    use parameter::Value::{Integer, Number, Numbers, Word};
+    match (shape, value) {
+        (Shape::Choice(names), Value::Text(text)) => names().into_iter().find(|name| name == text).map(Word),
         (Shape::Integer(low, high), Value::Integer(Some(n))) => {
-            (i128::from(*low)..=i128::from(*high)).contains(n)
+            i64::try_from(*n).ok().filter(|n| (*low..=*high).contains(n)).map(Integer)
         }
         (Shape::IntegerOf(numbers), Value::Integer(Some(n))) => {
-            numbers.iter().any(|known| i128::from(*known) == *n)
+            numbers.iter().copied().find(|known| i128::from(*known) == *n).map(Integer)
         }
-        (Shape::Number(range), value) => value.number().is_some_and(|number| range.contains(number)),
-        _ => false,
+        (Shape::Number(range), value) => value.number().filter(|n| range.contains(*n)).map(Number),
+        (Shape::Numbers(count), Value::Array(items)) if items.len() == *count => {
+            items.iter().map(|item| item.value.number()).collect::<Option<_>>().map(Numbers)
+        }
+        (Shape::Or(word, _), Value::Text(text)) if text == word => Some(Word(word)),
+        (Shape::Or(_, inner), value) => plain(inner, value),
+        _ => None,
     }
 }
 

@@ -31,7 +31,6 @@ mod overrides;
 mod place;
 mod schema;
 mod section;
-mod shape;
 mod spec;
 mod suggest;
 #[cfg(test)]

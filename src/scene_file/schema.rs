@@ -1,7 +1,7 @@
 //! The description of the scene file as a JSON Schema, for editors.
 
 use super::keys::{ROOT, SCHEMA};
-use super::shape::{Key, Range, Rule, Shape, TableShape};
+use crate::parameter::{Key, Range, Rule, Shape, TableShape};
 use serde_json::{Map, Value, json};
 
 /// The scene file's JSON Schema (draft 2020-12).
@@ -28,7 +28,7 @@ fn table(shape: &TableShape) -> Value {
 
 fn described(key: &Key) -> Value {
     let mut value = value(&key.shape);
-    value["description"] = json!(key.doc);
+    value["description"] = json!(key.description());
     value
 }
 
@@ -42,6 +42,7 @@ fn value(shape: &Shape) -> Value {
         Shape::Integers(count, low, high) => list(value(&Shape::Integer(*low, *high)), *count),
         Shape::Number(range) => number(*range),
         Shape::Numbers(count) => list(number(Range::Finite), *count),
+        Shape::Or(word, shape) => json!({ "anyOf": [value(shape), { "enum": [word] }] }),
         Shape::Paths => paths(),
         Shape::Table(shape) => table(shape),
         Shape::Tables(shape) => json!({ "type": "array", "items": table(shape) }),

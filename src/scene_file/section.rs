@@ -1,13 +1,13 @@
 //! A checked table, taken apart key by key.
 
-use super::check::is_nested;
+use super::check::{is_nested, plain};
 use super::place::{Origin, Place};
-use super::shape::color;
-use super::tree::{Entry, Node, Table, Value};
+use super::tree::{Entry, Node, Table, Value as Found};
 use crate::error::{Error, Result};
-use crate::parameter::Named;
+use crate::parameter::{Key, Named, Settings, Value, color};
 use crate::scene::Color;
 use crate::space::Plan;
+use std::collections::BTreeMap;
 
 /// A table whose keys are taken one by one. The check has been here before: a value that does not fit, or a key that
 /// nobody takes, is a bug of ours.
@@ -30,7 +30,7 @@ impl<'a> Section<'a> {
         node: Node,
         read: impl FnOnce(&mut Section<'a>) -> Result<T>,
     ) -> Result<T> {
-        let Value::Table(Table(entries)) = node.value else {
+        let Found::Table(Table(entries)) = node.value else {
             return Err(bug("a table"));
         };
         let mut section = Section { origin, place: node.place, entries };
@@ -43,7 +43,7 @@ impl<'a> Section<'a> {
 
     /// An empty table where none was written.
     pub(super) fn take_or_empty(&mut self, key: &str) -> Node {
-        let empty = Node { value: Value::Table(Table::default()), place: self.place.clone() };
+        let empty = Node { value: Found::Table(Table::default()), place: self.place.clone() };
         self.take(key).unwrap_or(empty)
     }
 
@@ -52,7 +52,7 @@ impl<'a> Section<'a> {
         Some(self.entries.remove(at).node)
     }
 
-    fn taken<T>(&mut self, key: &str, convert: impl FnOnce(Value) -> Option<T>) -> Result<Option<Taken<T>>> {
+    fn taken<T>(&mut self, key: &str, convert: impl FnOnce(Found) -> Option<T>) -> Result<Option<Taken<T>>> {
         let Some(Node { value, place }) = self.take(key) else {
             return Ok(None);
         };
@@ -60,7 +60,7 @@ impl<'a> Section<'a> {
         Ok(Some(Taken { value, place }))
     }
 
-    fn plain<T>(&mut self, key: &str, convert: impl FnOnce(Value) -> Option<T>) -> Result<Option<T>> {
+    fn plain<T>(&mut self, key: &str, convert: impl FnOnce(Found) -> Option<T>) -> Result<Option<T>> {
         Ok(self.taken(key, convert)?.map(|taken| taken.value))
     }
 
@@ -69,7 +69,7 @@ impl<'a> Section<'a> {
     }
 
     pub(super) fn text_at(&mut self, key: &str) -> Result<Option<Taken<String>>> {
-        self.taken(key, |value| if let Value::Text(text) = value { Some(text) } else { None })
+        self.taken(key, |value| if let Found::Text(text) = value { Some(text) } else { None })
     }
 
     pub(super) fn number(&mut self, key: &str) -> Result<Option<f64>> {
@@ -101,12 +101,31 @@ impl<'a> Section<'a> {
     }
 
     pub(super) fn name<T: Named>(&mut self, key: &str) -> Result<Option<T>> {
-        self.plain(key, |value| if let Value::Text(text) = value { T::from_name(&text) } else { None })
+        self.plain(key, |value| if let Found::Text(text) = value { T::from_name(&text) } else { None })
+    }
+
+    /// The value of a parameter.
+    pub(super) fn value_at(&mut self, key: &Key) -> Result<Option<Taken<Value>>> {
+        self.taken(key.name, |found| plain(&key.shape, &found))
+    }
+
+    /// The settings of a table of this one.
+    pub(super) fn settings<S: Settings>(&mut self) -> Result<S> {
+        let node = self.take_or_empty(S::NAME);
+        Section::read(self.origin, node, |table| {
+            let mut said = BTreeMap::new();
+            for key in S::TABLE.keys {
+                if let Some(Taken { value, .. }) = table.value_at(key)? {
+                    said.insert(key.name, value);
+                }
+            }
+            Ok(S::from_values(&|name| said.get(name).cloned()))
+        })
     }
 
     pub(super) fn color(&mut self, key: &str) -> Result<Option<Color>> {
         self.plain(key, |value| {
-            if let Value::Text(text) = value { color(&text).map(Color::from_rgba8) } else { None }
+            if let Found::Text(text) = value { color(&text).map(Color::from_rgba8) } else { None }
         })
     }
 
@@ -116,7 +135,7 @@ impl<'a> Section<'a> {
 
     /// The tables of an array.
     pub(super) fn tables(&mut self, key: &str) -> Result<Option<Vec<Node>>> {
-        self.plain(key, |value| if let Value::Array(items) = value { Some(items) } else { None })
+        self.plain(key, |value| if let Found::Array(items) = value { Some(items) } else { None })
     }
 
     /// The key that is still there, and where it was written.
@@ -149,29 +168,29 @@ fn bug(expected: &str) -> Error {
     Error::internal(format!("a scene file passed its check without {expected}"))
 }
 
-fn integer<T: TryFrom<i128>>(value: Value) -> Option<T> {
+fn integer<T: TryFrom<i128>>(value: Found) -> Option<T> {
     match value {
-        Value::Integer(Some(number)) => T::try_from(number).ok(),
+        Found::Integer(Some(number)) => T::try_from(number).ok(),
         _ => None,
     }
 }
 
-fn items<T, const N: usize>(value: Value, convert: impl Fn(Value) -> Option<T>) -> Option<[T; N]> {
-    let Value::Array(items) = value else { return None };
+fn items<T, const N: usize>(value: Found, convert: impl Fn(Found) -> Option<T>) -> Option<[T; N]> {
+    let Found::Array(items) = value else { return None };
     let converted: Option<Vec<T>> = items.into_iter().map(|item| convert(item.value)).collect();
     converted?.try_into().ok()
 }
 
-fn paths(value: Value) -> Option<Vec<Vec<Plan>>> {
-    let Value::Array(items) = value else { return None };
+fn paths(value: Found) -> Option<Vec<Vec<Plan>>> {
+    let Found::Array(items) = value else { return None };
     if !is_nested(&items) {
-        return Some(vec![points(Value::Array(items))?]);
+        return Some(vec![points(Found::Array(items))?]);
     }
     items.into_iter().map(|item| points(item.value)).collect()
 }
 
-fn points(value: Value) -> Option<Vec<Plan>> {
-    let Value::Array(list) = value else { return None };
+fn points(value: Found) -> Option<Vec<Plan>> {
+    let Found::Array(list) = value else { return None };
     let point = |item: Node| items(item.value, |number| number.number()).map(|[x, y]| Plan::new(x, y));
     list.into_iter().map(point).collect()
 }

@@ -1,6 +1,7 @@
 //! What a scene file says, as plain data: checked, but no file that it names has been opened.
 
 use crate::error::Position;
+use crate::parameter::words;
 use crate::scene::{
     Color, Compositing, Device, Diagonal, ImageSettings, Projection, Shape, Style, TechniqueSettings,
 };
@@ -112,13 +113,14 @@ pub enum TerrainSource {
     Generate(TerrainGenerator),
 }
 
-/// How a PNG encodes heights.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum HeightEncoding {
-    /// R * 256 + G + B / 256 - 32768 metres.
-    Terrarium,
-    /// (R * 65536 + G * 256 + B) / 10 - 10000 metres.
-    Mapbox,
+words! {
+    /// How a PNG encodes heights.
+    pub enum HeightEncoding {
+        /// R * 256 + G + B / 256 - 32768 metres.
+        Terrarium = "terrarium",
+        /// (R * 65536 + G * 256 + B) / 10 - 10000 metres.
+        Mapbox = "mapbox",
+    }
 }
 
 /// The terrain's own colour.

@@ -1,7 +1,9 @@
 //! The scene file as people write it, rightly and wrongly.
 
 use super::*;
+use crate::parameter::{Shape as KeyShape, TableShape};
 use crate::scene::{Fill, Join, Projection, Shape, Width};
+use crate::technique::{inverse_projection, stencil_volume};
 use glam::DVec2;
 use proptest::prelude::*;
 
@@ -132,6 +134,10 @@ fn with(text: &str, overrides: &[&str]) -> Result<SceneFile> {
     SceneFile::parse(text, Some(Path::new("dir/scene.toml")), &overrides?)
 }
 
+fn inverse_projection(scene: &SceneFile) -> inverse_projection::Settings {
+    scene.technique.get()
+}
+
 fn layer(lines: &str) -> String {
     refusal(&format!("[[layer]]\nsource = \"a.shp\"\n{lines}\n"))
 }
@@ -144,10 +150,10 @@ fn every_key_can_be_written() {
 }
 
 /// Adds the dotted names of all keys of a description.
-fn described(shape: &shape::TableShape, path: &str, names: &mut Vec<String>) {
+fn described(shape: &TableShape, path: &str, names: &mut Vec<String>) {
     for key in shape.keys {
         let name = format!("{path}{}", key.name);
-        if let shape::Shape::Table(inner) | shape::Shape::Tables(inner) = key.shape {
+        if let KeyShape::Table(inner) | KeyShape::Tables(inner) = key.shape {
             described(inner, &format!("{name}."), names);
         }
         names.push(name);
@@ -215,8 +221,9 @@ fn values_arrive_where_they_belong() {
     assert_eq!(lakes.style.outline.map(|outline| outline.line.join), Some(Join::Miter { limit: 2.0 }));
     assert_eq!(scene.layers[1].name, "roads");
     assert_eq!(scene.layers[1].style.line.map(|line| line.width), Some(Width::Metres(12.0)));
-    assert_eq!(scene.technique.inverse_projection.samples, 5);
-    assert_eq!((scene.technique.stencil_volume.samples, scene.technique.stencil_volume.object), (4, Some(2)));
+    assert_eq!(inverse_projection(&scene).samples, 5);
+    let volumes: stencil_volume::Settings = scene.technique.get();
+    assert_eq!((volumes.samples, volumes.object), (4, Some(2)));
     assert_eq!(scene.device.subpixel_bits, 8);
 }
 
@@ -455,7 +462,7 @@ fn overrides_change_tables_arrays_and_named_layers() {
         (view.eye, view.target),
         (Spot::Plan(DVec3::new(1.0, 2.0, 3.0)), Spot::Plan(DVec3::new(0.0, 0.0, 5.0)))
     );
-    assert_eq!(scene.technique.inverse_projection.samples, 2);
+    assert_eq!(inverse_projection(&scene).samples, 2);
     assert_eq!(scene.layers[0].style.fill.map(|fill| fill.color.0), Some([1.0, 0.0, 0.0, 0.5]));
     assert_eq!(scene.layers[1].style.line.map(|line| line.width), Some(Width::Pixels(2.5)));
     assert_eq!(scene.name, "night view");
@@ -464,7 +471,7 @@ fn overrides_change_tables_arrays_and_named_layers() {
 #[test]
 fn an_override_makes_the_tables_that_are_missing() {
     let scene = with(CONE, &["technique.inverse-projection.samples=7", "image={width=5,height=6}"]).unwrap();
-    assert_eq!((scene.technique.inverse_projection.samples, scene.image.width), (7, 5));
+    assert_eq!((inverse_projection(&scene).samples, scene.image.width), (7, 5));
 }
 
 #[test]

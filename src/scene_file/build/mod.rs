@@ -10,7 +10,7 @@ use super::section::{Section, Taken};
 use super::spec::{DataFile, SceneFile};
 use super::tree::Node;
 use crate::error::Result;
-use crate::scene::{Color, Compositing, Device, ImageSettings};
+use crate::scene::{Color, ImageSettings};
 use std::path::Path;
 
 pub(super) use camera::check_view;
@@ -32,9 +32,9 @@ pub(super) fn scene(origin: &Origin<'_>, root: Node) -> Result<SceneFile> {
             camera: Section::read(origin, child(root, "camera"), camera::camera)?,
             terrain: Section::read(origin, child(root, "terrain"), terrain::terrain)?,
             layers: layer::layers(root)?,
-            compositing: Section::read(origin, child(root, "compositing"), compositing)?,
-            device: Section::read(origin, child(root, "device"), device)?,
-            technique: Section::read(origin, child(root, "technique"), technique::technique)?,
+            compositing: root.settings()?,
+            device: root.settings()?,
+            technique: Section::read(origin, child(root, "technique"), technique::techniques)?,
             // Of the whole tree, which is being taken apart here.
             hash: String::new(),
         })
@@ -53,25 +53,6 @@ fn image(section: &mut Section<'_>) -> Result<ImageSettings> {
     }
     let background = section.color("background")?.unwrap_or(Color([1.0; 4]));
     Ok(ImageSettings { width, height, background })
-}
-
-fn compositing(section: &mut Section<'_>) -> Result<Compositing> {
-    Ok(Compositing {
-        space: section.name("space")?.unwrap_or_default(),
-        mode: section.name("mode")?.unwrap_or_default(),
-    })
-}
-
-fn device(section: &mut Section<'_>) -> Result<Device> {
-    let exact = Device::default();
-    Ok(Device {
-        precision: section.name("precision")?.unwrap_or(exact.precision),
-        subpixel_bits: section.integer("subpixel_bits")?.unwrap_or(exact.subpixel_bits),
-        depth: section.name("depth")?.unwrap_or(exact.depth),
-        stencil_bits: section.integer("stencil_bits")?.unwrap_or(exact.stencil_bits),
-        max_line_width_px: section.number("max_line_width_px")?.unwrap_or(exact.max_line_width_px),
-        filter_bits: section.integer("filter_bits")?.unwrap_or(exact.filter_bits),
-    })
 }
 
 /// A rectangle x0, y0, x1, y1 that is not empty.

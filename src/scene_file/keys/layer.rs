@@ -1,9 +1,9 @@
 //! The keys of a layer.
 
 use super::{POSITIVE, SEED, SHARE};
+use crate::parameter::{Range, Rule as Keys, Shape, TableShape, choice, key};
 use crate::scene::{Cap, OutlineMode, Rule};
 use crate::scene_file::names::{JoinName, VectorName};
-use crate::scene_file::shape::{Range, Rule as Keys, Shape, TableShape, choice, key};
 
 pub(super) static LAYER: TableShape = TableShape {
     keys: &[

@@ -1,13 +1,12 @@
 //! Every key of the scene file, said once: the check, the JSON Schema and the suggestions all read it here.
 
-mod clipmap;
 mod layer;
 mod technique;
 mod terrain;
 
 use super::names::ProjectionName;
-use super::shape::{Range, Rule as Keys, Shape, TableShape, choice, key};
-use crate::scene::{BlendMode, BlendSpace, DepthFormat, Precision};
+use crate::parameter::{Range, Rule as Keys, Settings, Shape, TableShape, choice, key};
+use crate::scene::{Compositing, Device};
 use layer::LAYER;
 use technique::TECHNIQUE;
 use terrain::TERRAIN;
@@ -41,8 +40,8 @@ pub(super) static ROOT: TableShape = TableShape {
         key("terrain", Shape::Table(&TERRAIN), "The heights and the colour of the ground.").required(),
         key("layer", Shape::Tables(&LAYER), "Vector layers, drawn in this order."),
         key("technique", Shape::Table(&TECHNIQUE), "Parameters of the techniques."),
-        key("compositing", Shape::Table(&COMPOSITING), "How colours are composed."),
-        key("device", Shape::Table(&DEVICE), "Which machine to imitate. Default: exact mathematics."),
+        key("compositing", Shape::Table(Compositing::TABLE), "How colours are composed."),
+        key("device", Shape::Table(Device::TABLE), "Which machine to imitate. Default: exact mathematics."),
     ],
     rules: &[],
 };
@@ -78,36 +77,4 @@ static CAMERA: TableShape = TableShape {
         key("far_m", POSITIVE, "Nothing farther than this is seen. Default: no limit."),
     ],
     rules: &[Keys::AtMostOne(&["eye", "eye_geo"]), Keys::AtMostOne(&["target", "target_geo"])],
-};
-
-static COMPOSITING: TableShape = TableShape {
-    keys: &[
-        key("space", choice::<BlendSpace>(), "The values that are blended. Default: \"encoded\"."),
-        key("mode", choice::<BlendMode>(), "The formula. Default: \"over\"."),
-    ],
-    rules: &[],
-};
-
-static DEVICE: TableShape = TableShape {
-    keys: &[
-        key("precision", choice::<Precision>(), "Arithmetic. Default: \"f64\"."),
-        key(
-            "subpixel_bits",
-            Shape::IntegerOf(&[0, 4, 8]),
-            "Fractional bits of vertex positions; 0: no snapping. Default: 0.",
-        ),
-        key("depth", choice::<DepthFormat>(), "What the depth buffer holds. Default: \"f32-reversed\"."),
-        key("stencil_bits", Shape::Integer(1, 16), "Bits of the stencil buffer. Default: 8."),
-        key(
-            "max_line_width_px",
-            POSITIVE,
-            "The widest line primitive, in texels where it draws a texture. Default: 10.",
-        ),
-        key(
-            "filter_bits",
-            Shape::Integer(0, 16),
-            "Fractional bits of a texture filter's weights, 8 on most; 0: exact. Default: 0.",
-        ),
-    ],
-    rules: &[],
 };

@@ -1,9 +1,9 @@
 //! The keys of the terrain.
 
 use super::{POSITIVE, SEED};
+use crate::parameter::{Range, Rule as Keys, Shape, TableShape, choice, key};
 use crate::scene::Diagonal;
 use crate::scene_file::names::{ShadeName, TerrainName};
-use crate::scene_file::shape::{Range, Rule as Keys, Shape, TableShape, choice, key};
 use crate::scene_file::spec::HeightEncoding;
 
 pub(super) static TERRAIN: TableShape = TableShape {

@@ -67,7 +67,7 @@ pub fn load(file: &SceneFile, progress: &dyn Fn(&str)) -> Result<(Scene, Surface
         layers,
         compositing: file.compositing,
         device: file.device,
-        technique: file.technique,
+        technique: file.technique.clone(),
         notes,
     };
     Ok((scene, terrain.surface))

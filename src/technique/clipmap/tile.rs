@@ -5,10 +5,9 @@ use super::raster::{Area, Cut, RasterSettings, TilePlace, TileRaster};
 use super::tessellation::{Pair, Sagitta, Strips};
 use super::texture::{TILE, TileKey, VirtualTexture};
 use crate::math;
-use crate::scene::{
-    Clipmap, Device, OutlineMode, PixelWidth, Precision, Rule, Solution, TexelFormat, WideLines, Width,
-};
+use crate::scene::{Device, OutlineMode, Precision, Rule, Width};
 use crate::space::{Plan, PlanBox, Texel};
+use crate::technique::clipmap::{PixelWidth, Settings, Solution, TexelFormat, WideLines};
 
 /// Vertices of a ring that are looked at together: where all lie on one side of the tile, only the first is kept.
 const RING_CHUNK: usize = 64;
@@ -87,7 +86,7 @@ impl Tile {
 pub struct TileMaker<'a> {
     pub(super) geometry: &'a Geometry,
     pub(super) texture: VirtualTexture,
-    pub(super) settings: Clipmap,
+    pub(super) settings: Settings,
     pub(super) device: Device,
     /// A pixel's size at the distance of what the middle of the picture shows, metres: what widths in pixels are multiples of where
     /// they follow the distance.
@@ -156,7 +155,7 @@ impl TexelMap {
 
 impl Workbench {
     /// For tiles of a size.
-    fn new(size: usize, settings: &Clipmap) -> Self {
+    fn new(size: usize, settings: &Settings) -> Self {
         let place = TilePlace { origin: (0, 0), size: (size, size) };
         let raster = RasterSettings {
             polygons: settings.polygons,

@@ -16,10 +16,9 @@
 use super::heights::{Region, heights_under};
 use super::stroke::Stroke;
 use crate::parallel;
-use crate::scene::{
-    Color, Feature, Grouping, Layer, Outline, OutlineMode, Rule, Shape, StencilVolume, Style, VolumeJoins,
-};
+use crate::scene::{Color, Feature, Layer, Outline, OutlineMode, Rule, Shape, Style};
 use crate::space::{Plan, PlanBox, World};
+use crate::technique::stencil_volume::{Grouping, Settings, VolumeJoins};
 use crate::terrain::Mesh;
 use std::ops::Range;
 
@@ -81,7 +80,7 @@ pub struct Extrusion {
 
 impl Extrusion {
     /// Extrudes all layers.
-    pub fn new(layers: &[Layer], mesh: &Mesh, settings: &StencilVolume) -> Self {
+    pub fn new(layers: &[Layer], mesh: &Mesh, settings: &Settings) -> Self {
         let mut all = Self::default();
         for layer in layers {
             for feature in &layer.features {

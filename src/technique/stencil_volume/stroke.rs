@@ -7,8 +7,9 @@
 
 use crate::math;
 use crate::predicate::orient2d;
-use crate::scene::{Cap, Join, Line, VolumeJoins, Width, distinct_vertices};
+use crate::scene::{Cap, Join, Line, Width, distinct_vertices};
 use crate::space::Plan;
+use crate::technique::stencil_volume::VolumeJoins;
 use glam::DVec2;
 
 /// Corners of the polygon that stands for a disc.

@@ -2,9 +2,10 @@
 
 use super::{MOST, too_many};
 use crate::error::Result;
-use crate::scene::{Clipmap, PolygonRaster, Rule};
+use crate::scene::Rule;
 use crate::space::{Plan, PlanBox};
 use crate::technique::clipmap::simple;
+use crate::technique::clipmap::{PolygonRaster, Settings};
 
 /// A polygon.
 #[derive(Debug, Clone, Copy)]
@@ -38,7 +39,7 @@ impl Areas {
         rings: &[Vec<Plan>],
         rule: Rule,
         is_filled: bool,
-        settings: &Clipmap,
+        settings: &Settings,
     ) {
         let mut rings: Vec<Vec<Plan>> = rings.iter().filter(|ring| ring.len() > 2).cloned().collect();
         let plan = PlanBox::around(rings.iter().flatten().copied());

@@ -18,11 +18,9 @@ use super::tessellation::Polyline;
 use crate::error::{Error, Result};
 use crate::math;
 use crate::parallel;
-use crate::scene::{
-    Clipmap, Compositing, Feature, Joints, Layer, OutlineMode, Rule, Shape, Solution, Width,
-    distinct_vertices,
-};
+use crate::scene::{Compositing, Feature, Layer, OutlineMode, Rule, Shape, Width, distinct_vertices};
 use crate::space::{Plan, PlanBox};
+use crate::technique::clipmap::{Joints, Settings, Solution};
 use areas::Areas;
 use strokes::Strokes;
 
@@ -54,7 +52,7 @@ impl Geometry {
     /// When there is more than can be numbered.
     pub(super) fn new(
         layers: &[Layer],
-        settings: &Clipmap,
+        settings: &Settings,
         compositing: Compositing,
         square: &PlanBox,
     ) -> Result<Self> {
@@ -204,7 +202,7 @@ struct Block {
 
 impl Block {
     /// Adds the items of features, of which the first has the number `first` in its layer.
-    fn add(&mut self, styles: &LayerItems, settings: &Clipmap, first: usize, features: &[Feature]) {
+    fn add(&mut self, styles: &LayerItems, settings: &Settings, first: usize, features: &[Feature]) {
         for (k, feature) in features.iter().enumerate() {
             let [fill, outline, line] = styles.items(first + k);
             match &feature.shape {

@@ -3,9 +3,10 @@
 use super::{MOST, too_many};
 use crate::error::Result;
 use crate::resolve::Compositor;
-use crate::scene::{Clipmap, Compositing, Layer, Line, OutlineMode, Rule, Solution, Width};
+use crate::scene::{Compositing, Layer, Line, OutlineMode, Rule, Width};
 use crate::technique::clipmap::raster::Ink;
 use crate::technique::clipmap::tessellation::Rule as Tessellation;
+use crate::technique::clipmap::{Settings, Solution};
 
 /// What a stroke's layer keeps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -94,7 +95,7 @@ impl LayerItems {
     /// When there are too many features.
     pub(super) fn of_layers(
         layers: &[Layer],
-        settings: &Clipmap,
+        settings: &Settings,
         compositing: Compositing,
     ) -> Result<Vec<Self>> {
         let compositor = Compositor::new(compositing);

@@ -1,28 +1,6 @@
-//! Which settings of each technique are tried: tables of data, a file a technique.
-//!
-//! A setting is a list of changes to the scene file (`path=value`), so that every row of a report can be drawn again by
-//! `drapery render --set`. To add a technique: a file with its [`Sweep`], and its line in [`of`].
+//! Which settings of each technique are tried: each technique declares its own.
 
-mod clipmap;
-mod inverse_projection;
-mod stencil_volume;
-
-use crate::technique::Kind;
-
-/// The changes of one setting: `path=value`.
-pub type Step = &'static [&'static str];
-
-/// Settings of one thing, in the order of a line of the plot.
-pub type Axis = &'static [Step];
-
-/// What is tried of a technique. (The scene's own settings are tried always.)
-#[derive(Debug, Clone, Copy)]
-pub struct Sweep {
-    /// Every step of the first with every step of the others; each combination of the others is a line of the plot.
-    pub crossed: &'static [Axis],
-    /// One at a time, all else as in the scene.
-    pub alone: &'static [Axis],
-}
+use crate::technique::sweep::{Step, Sweep};
 
 /// A setting to try.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -33,44 +11,25 @@ pub struct Variation {
     pub line: Option<String>,
 }
 
-/// The machines that are imitated: single precision, then what graphics processors add to it.
-const MACHINES: Axis = &[
-    &["device.precision=f32"],
-    &["device.precision=f32", "device.subpixel_bits=8"],
-    &["device.precision=f32", "device.subpixel_bits=8", "device.depth=unorm24"],
-    &["device.precision=f32", "device.subpixel_bits=4", "device.depth=unorm16"],
-];
-
-/// What is tried of a technique.
-pub fn of(kind: Kind) -> Sweep {
-    match kind {
-        Kind::Clipmap => clipmap::SWEEP,
-        Kind::InverseProjection => inverse_projection::SWEEP,
-        Kind::StencilVolume => stencil_volume::SWEEP,
-    }
-}
-
-impl Sweep {
-    /// All settings, the scene's own first. Some may be the same where the scene has one of the values itself.
-    pub fn variations(&self) -> Vec<Variation> {
-        let mut all = vec![Variation::default()];
-        if let Some((along, across)) = self.crossed.split_first() {
-            let mut lines: Vec<Vec<&str>> = vec![Vec::new()];
-            for axis in across {
-                let longer = lines.iter().flat_map(|line| axis.iter().map(|step| [&line[..], step].concat()));
-                lines = longer.collect();
-            }
-            for line in lines {
-                let name = words(&line).join(" ");
-                let on_line =
-                    |step: &Step| Variation { changes: [step, &line[..]].concat(), line: Some(name.clone()) };
-                all.extend(along.iter().map(on_line));
-            }
+/// All settings, the scene's own first. Some may be the same where the scene has one of the values itsweep.
+pub fn variations(sweep: &Sweep) -> Vec<Variation> {
+    let mut all = vec![Variation::default()];
+    if let Some((along, across)) = sweep.crossed.split_first() {
+        let mut lines: Vec<Vec<&str>> = vec![Vec::new()];
+        for axis in across {
+            let longer = lines.iter().flat_map(|line| axis.iter().map(|step| [&line[..], step].concat()));
+            lines = longer.collect();
         }
-        let alone = self.alone.iter().flat_map(|axis| axis.iter());
-        all.extend(alone.map(|step| Variation { changes: step.to_vec(), line: None }));
-        all
+        for line in lines {
+            let name = words(&line).join(" ");
+            let on_line =
+                |step: &Step| Variation { changes: [step, &line[..]].concat(), line: Some(name.clone()) };
+            all.extend(along.iter().map(on_line));
+        }
     }
+    let alone = sweep.alone.iter().flat_map(|axis| axis.iter());
+    all.extend(alone.map(|step| Variation { changes: step.to_vec(), line: None }));
+    all
 }
 
 /// Changes as people read them: without the tables that their keys are in.
@@ -86,13 +45,14 @@ pub fn words(changes: &[&str]) -> Vec<String> {
 mod tests {
     use super::*;
     use crate::scene_file::{Override, SceneFile};
+    use crate::technique::Kind;
 
     const SCENE: &str = "schema = 1\nterrain.generate = { kind = \"plane\" }\n";
 
     #[test]
     fn every_change_is_one_of_a_technique_or_of_the_machine_and_is_understood() {
         for kind in Kind::ALL {
-            for variation in of(kind).variations() {
+            for variation in variations(&kind.declaration().sweep) {
                 let own = format!("technique.{}.", kind.name());
                 let known = |c: &&&str| c.starts_with(&own) || c.starts_with("device.");
                 assert!(variation.changes.iter().all(|c| known(&c)), "{variation:?}");
@@ -111,7 +71,7 @@ mod tests {
 
     #[test]
     fn the_sweep_of_inverse_projection_has_the_settings_that_are_asked_for() {
-        let all = of(Kind::InverseProjection).variations();
+        let all = variations(&Kind::InverseProjection.declaration().sweep);
         let labels: Vec<String> = all.iter().map(|v| words(&v.changes).join(" ")).collect();
         assert_eq!(labels[0], "");
         for n in 1..=8 {
@@ -128,7 +88,7 @@ mod tests {
     #[test]
     fn a_sweep_without_lines_is_one_thing_at_a_time() {
         let sweep = Sweep { crossed: &[], alone: &[&[&["a.b=1"], &["a.b=2"]], &[&["a.c=x", "a.d=y"]]] };
-        let changes: Vec<Vec<&str>> = sweep.variations().into_iter().map(|v| v.changes).collect();
+        let changes: Vec<Vec<&str>> = variations(&sweep).into_iter().map(|v| v.changes).collect();
         assert_eq!(changes, [vec![], vec!["a.b=1"], vec!["a.b=2"], vec!["a.c=x", "a.d=y"]]);
     }
 }

@@ -1,10 +1,10 @@
-//! The vocabulary in which [`super::keys`] describes the scene file.
+//! The vocabulary in which the keys of the scene file are described, those of settings among them.
 
-use crate::parameter::Named;
+use super::{Named, Value};
 
 /// What a value must look like.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Shape {
+pub enum Shape {
     /// Any string but the empty one.
     Text,
     /// `"#rrggbb"` or `"#rrggbbaa"`.
@@ -21,6 +21,8 @@ pub(super) enum Shape {
     Number(Range),
     /// So many finite numbers.
     Numbers(usize),
+    /// A word for "none", or the shape of what there may be.
+    Or(&'static str, &'static Shape),
     /// One list of points `[[x, y], ...]`, or a list of such lists.
     Paths,
     /// A table.
@@ -31,23 +33,33 @@ pub(super) enum Shape {
 
 /// What a table may hold.
 #[derive(Debug)]
-pub(super) struct TableShape {
-    pub(super) keys: &'static [Key],
-    pub(super) rules: &'static [Rule],
+pub struct TableShape {
+    /// Its keys.
+    pub keys: &'static [Key],
+    /// Which of them go together.
+    pub rules: &'static [Rule],
 }
 
 /// One key of a table.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Key {
-    pub(super) name: &'static str,
-    pub(super) shape: Shape,
-    pub(super) required: bool,
-    pub(super) doc: &'static str,
+pub struct Key {
+    /// The key.
+    pub name: &'static str,
+    /// What its value must look like.
+    pub shape: Shape,
+    /// Whether it may not be left out.
+    pub required: bool,
+    /// What it means: a sentence or a few.
+    pub doc: &'static str,
+    /// Of a technique's parameter: where its paper speaks of it.
+    pub section: Option<&'static str>,
+    /// Of a parameter: what holds where it is left out. (Defaults of other keys depend on more; `doc` tells them.)
+    pub default: Option<fn() -> Value>,
 }
 
 /// Which keys of a table go together.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Rule {
+pub enum Rule {
     /// Exactly one of them.
     One(&'static [&'static str]),
     /// None or one of them.
@@ -58,7 +70,7 @@ pub(super) enum Rule {
 
 /// A range of numbers.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Range {
+pub enum Range {
     /// Any finite number.
     Finite,
     /// Greater than 0.
@@ -75,7 +87,7 @@ pub(super) enum Range {
 
 impl Range {
     /// Whether it contains the number.
-    pub(super) fn contains(self, number: f64) -> bool {
+    pub fn contains(self, number: f64) -> bool {
         number.is_finite()
             && match self {
                 Range::Finite => true,
@@ -88,7 +100,7 @@ impl Range {
     }
 
     /// The range in words, to follow "must be".
-    pub(super) fn words(self) -> String {
+    pub fn words(self) -> String {
         match self {
             Range::Finite => "a finite number".into(),
             Range::Positive => "a finite number greater than 0".into(),
@@ -102,7 +114,7 @@ impl Range {
 
 impl Shape {
     /// The shape in words, to follow "must be".
-    pub(super) fn words(&self) -> String {
+    pub fn words(&self) -> String {
         match self {
             Shape::Text => "a string that is not empty".into(),
             Shape::Color => "a colour \"#rrggbb\" or \"#rrggbbaa\"".into(),
@@ -115,6 +127,7 @@ impl Shape {
             }
             Shape::Number(range) => range.words(),
             Shape::Numbers(count) => format!("an array of {count} finite numbers"),
+            Shape::Or(word, shape) => format!("{} or {word:?}", shape.words()),
             Shape::Paths => "a list of points [[x, y], ...] or a list of such lists".into(),
             Shape::Table(_) => "a table".into(),
             Shape::Tables(_) => "an array of tables".into(),
@@ -128,30 +141,39 @@ fn choice_words(names: &[&str]) -> String {
 }
 
 /// A word for a value of `T`.
-pub(super) const fn choice<T: Named>() -> Shape {
+pub const fn choice<T: Named>() -> Shape {
     Shape::Choice(|| T::NAMES.iter().map(|(name, _)| *name).collect())
 }
 
 /// A key that may be left out.
-pub(super) const fn key(name: &'static str, shape: Shape, doc: &'static str) -> Key {
-    Key { name, shape, required: false, doc }
+pub const fn key(name: &'static str, shape: Shape, doc: &'static str) -> Key {
+    Key { name, shape, required: false, doc, section: None, default: None }
 }
 
 impl Key {
     /// The key that may not be left out.
-    pub(super) const fn required(self) -> Self {
+    #[must_use]
+    pub const fn required(self) -> Self {
         Self { required: true, ..self }
+    }
+
+    /// What it means, where the paper speaks of it, and the default: text for people.
+    pub fn description(&self) -> String {
+        let section = self.section.map(|section| format!(" {section}."));
+        let default = self.default.map(|default| format!(" Default: {}.", default()));
+        [self.doc, &section.unwrap_or_default(), &default.unwrap_or_default()].concat()
     }
 }
 
 impl TableShape {
-    pub(super) fn key(&self, name: &str) -> Option<&'static Key> {
+    /// The key of this name.
+    pub fn key(&self, name: &str) -> Option<&'static Key> {
         self.keys.iter().find(|key| key.name == name)
     }
 }
 
 /// The four code values of a colour.
-pub(super) fn color(text: &str) -> Option<[u8; 4]> {
+pub fn color(text: &str) -> Option<[u8; 4]> {
     let digits = text.strip_prefix('#').filter(|digits| digits.bytes().all(|b| b.is_ascii_hexdigit()))?;
     let code = |at: usize| u8::from_str_radix(digits.get(at..at + 2)?, 16).ok();
     match digits.len() {
