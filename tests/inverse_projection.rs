@@ -7,7 +7,7 @@ use drapery::scene::{
 };
 use drapery::space::{Plan, World};
 use drapery::stage::Stage;
-use drapery::technique::inverse_projection::{Corners, PointInPolygon, Settings};
+use drapery::technique::inverse_projection::{Corners, PointInPolygon, Settings, Silhouette};
 use drapery::technique::{self, Frame, FrameOptions, Kind};
 use glam::{DVec2, DVec3};
 
@@ -211,7 +211,7 @@ fn a_silhouette_is_refused_and_not_smeared() {
             32,
         )
     };
-    let (centre, smear) = (by(drapery::scene::Silhouette::Centre), by(drapery::scene::Silhouette::Smear));
+    let (centre, smear) = (by(Silhouette::Centre), by(Silhouette::Smear));
     // The line lies hidden behind the cliff's edge.
     assert!(centre.image.values().iter().all(|p| p[0] == 255 || p[2] == 255), "nothing of it is seen");
     assert!(smear.image.values().iter().any(|p| p[0] < 255 && p[2] < 255), "the paper's smear shows it");

@@ -14,8 +14,9 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("predicate", &["space"]),
     ("crs", &["space"]),
     ("parameter", &[]),
-    ("scene", &["space", "buffer"]),
-    ("scene_file", &["scene", "space", "parameter"]),
+    ("scene", &["space", "parameter", "buffer"]),
+    // The techniques for their declarations.
+    ("scene_file", &["technique", "scene", "space", "parameter"]),
     ("source", &["scene_file", "scene", "space", "crs", "buffer", "parallel"]),
     ("terrain", &["scene", "space", "parallel"]),
     ("stage", &["terrain", "scene", "space"]),

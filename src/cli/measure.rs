@@ -4,7 +4,7 @@ use super::bar::Bar;
 use drapery::buffer::Buffer;
 use drapery::compare::{Difference, Expected, Image, Metrics};
 use drapery::output::{ByName, SceneResult};
-use drapery::parameter::Settings;
+use drapery::parameter::{Settings, Value};
 use drapery::report::{self, TRUTH, Times};
 use drapery::scene::Device;
 use drapery::scene_file::SceneFile;
@@ -14,7 +14,7 @@ use drapery::technique::{self, Frame, FrameOptions, Kind, Prepared};
 use drapery::truth::{self, Budget, Truth};
 use drapery::visibility::TILE;
 use drapery::{Error, Result};
-use serde_json::Value;
+use serde_json::Value as Json;
 use std::time::Instant;
 
 /// How exact the truth is; every run's error is its distance from it.
@@ -79,7 +79,7 @@ impl Certified {
     /// The budget by the names of [`TruthArguments`].
     pub(super) fn parameters(&self) -> ByName {
         let Budget { width, depth, .. } = self.budget;
-        ByName::from_pairs([("width", Value::from(width)), ("depth", Value::from(depth))])
+        ByName::from_pairs([("width", Json::from(width)), ("depth", Json::from(depth))])
     }
 
     /// What was done.
@@ -167,7 +167,9 @@ fn buffers_of(kind: Kind, wants: &dyn Fn(&str) -> bool) -> Vec<String> {
 
 /// A device as a scene file writes it under `[device]`.
 pub(super) fn device_words(device: &Device) -> ByName {
-    ByName::from_pairs(device.values())
+    // Its numbers have always had a point in files.
+    let spelt = |value| if let Value::Number(number) = value { number.into() } else { Json::from(value) };
+    ByName::from_pairs(device.values().into_iter().map(|(name, value)| (name, spelt(value))))
 }
 
 /// What is told of a scene.

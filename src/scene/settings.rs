@@ -1,6 +1,6 @@
 //! The settings of a scene that need no data: image, compositing, device, technique parameters.
 
-use crate::parameter::{Key, Range, Settings, Shape, TableShape, Value, settings, words};
+use crate::parameter::{Key, Range, Settings, Shape, Value, settings, words};
 use std::collections::BTreeMap;
 
 /// A colour with straight alpha, encoded (sRGB-style) values 0..=1 of red, green, blue, alpha.
@@ -130,13 +130,6 @@ impl TechniqueSettings {
         for (key, (_, value)) in S::TABLE.keys.iter().zip(settings.values()) {
             self.say(S::NAME, key, value);
         }
-    }
-
-    /// The values of all parameters of a technique by their names, in the order of its table.
-    pub fn values(&self, technique: &'static str, table: &TableShape) -> Vec<(&'static str, Value)> {
-        let said = |key: &Key| self.0.get(&(technique, key.name)).cloned();
-        let values = table.keys.iter().map(|key| (key.name, said(key).or_else(|| Some(key.default?()))));
-        values.filter_map(|(name, value)| Some((name, value?))).collect()
     }
 
     /// Says the value of one parameter of a technique; it is of the parameter's shape.

@@ -4,21 +4,19 @@ use super::sweep::Sweep;
 use super::{Kind, Prepared};
 use crate::buffer::PlaneKind;
 use crate::error::Result;
-use crate::parameter::{TableShape, Value};
+use crate::parameter::{Settings, TableShape, Value};
 use crate::scene::TechniqueSettings;
 use crate::stage::Stage;
 
 /// What is said of a technique: all that others know of it.
 #[derive(Debug)]
 pub struct Declaration {
-    /// Its name on the command line and in files.
-    pub name: &'static str,
+    /// Its name and its parameters.
+    pub parameters: Parameters,
     /// Its paper.
     pub paper: &'static str,
     /// What it is, in a line.
     pub title: &'static str,
-    /// Its parameters.
-    pub settings: &'static TableShape,
     /// What is wrong with settings each of which is right.
     pub contradiction: fn(&TechniqueSettings) -> Option<Contradiction>,
     /// The buffers that can be asked for, in the order of the technique's stages: of two that differ from what they should
@@ -30,6 +28,24 @@ pub struct Declaration {
     pub applies: fn(&Stage) -> Result<()>,
     /// Builds its structures.
     pub prepare: fn(&Stage) -> Result<Box<dyn Prepared + '_>>,
+}
+
+/// The parameters of a technique, whatever the type of its settings.
+#[derive(Debug)]
+pub struct Parameters {
+    /// The name of their table in the scene file: the technique's.
+    pub name: &'static str,
+    /// The table.
+    pub table: &'static TableShape,
+    /// Their values, as the technique reads them.
+    pub values: fn(&TechniqueSettings) -> Vec<(&'static str, Value)>,
+}
+
+impl Parameters {
+    /// Those of settings.
+    pub const fn of<S: Settings>() -> Self {
+        Self { name: S::NAME, table: S::TABLE, values: |said| said.get::<S>().values() }
+    }
 }
 
 /// Settings that contradict each other.
@@ -46,7 +62,7 @@ pub struct Contradiction {
 impl Kind {
     /// The name on the command line and in files.
     pub const fn name(self) -> &'static str {
-        self.declaration().name
+        self.declaration().parameters.name
     }
 
     /// The names of the buffers that can be asked for, in the order of the technique's stages.
@@ -56,8 +72,7 @@ impl Kind {
 
     /// The values of all its parameters by their names in the scene file.
     pub fn parameters(self, settings: &TechniqueSettings) -> Vec<(&'static str, Value)> {
-        let declaration = self.declaration();
-        settings.values(declaration.name, declaration.settings)
+        (self.declaration().parameters.values)(settings)
     }
 }
 

@@ -13,7 +13,7 @@ pub mod inverse_projection;
 pub mod stencil_volume;
 pub mod sweep;
 
-pub use declaration::{Contradiction, Declaration};
+pub use declaration::{Contradiction, Declaration, Parameters};
 
 use crate::buffer::{Buffer, Plane};
 use crate::error::Result;

@@ -9,7 +9,7 @@ pub(super) fn techniques(section: &mut Section<'_>) -> Result<TechniqueSettings>
     let mut settings = TechniqueSettings::default();
     for kind in Kind::ALL {
         let technique = kind.declaration();
-        let node = section.take_or_empty(technique.name);
+        let node = section.take_or_empty(technique.parameters.name);
         Section::read(section.origin(), node, |table| one(table, technique, &mut settings))?;
     }
     Ok(settings)
@@ -18,9 +18,9 @@ pub(super) fn techniques(section: &mut Section<'_>) -> Result<TechniqueSettings>
 /// Says what the table of one technique says.
 fn one(section: &mut Section<'_>, technique: &Declaration, settings: &mut TechniqueSettings) -> Result<()> {
     let mut places = Vec::new();
-    for key in technique.settings.keys {
+    for key in technique.parameters.table.keys {
         if let Some(Taken { value, place }) = section.value_at(key)? {
-            settings.say(technique.name, key, value);
+            settings.say(technique.parameters.name, key, value);
             places.push((key.name, place));
         }
     }

@@ -10,7 +10,8 @@ static TABLES: [Key; Kind::ALL.len()] = {
     let mut at = 0;
     while at < tables.len() {
         let technique = Kind::ALL[at].declaration();
-        tables[at] = key(technique.name, Shape::Table(technique.settings), technique.paper);
+        let table = Shape::Table(technique.parameters.table);
+        tables[at] = key(technique.parameters.name, table, technique.paper);
         at += 1;
     }
     tables

@@ -48,11 +48,10 @@ pub use settings::{
     TILE_TEXELS, TexelFormat, TextureFilter, WideLines,
 };
 
-use super::{Declaration, Frame, FrameOptions, Prepared};
+use super::{Declaration, Frame, FrameOptions, Parameters, Prepared};
 use crate::buffer::{Look, PlaneKind};
 use crate::error::Result;
 use crate::parallel;
-use crate::parameter::Settings as _;
 use crate::space::{Plan, ViewFrame};
 use crate::stage::Stage;
 use cache::TileCache;
@@ -63,10 +62,9 @@ use tile::{TileCounts, TileMaker, Workbench};
 
 /// The technique, said once.
 pub const DECLARATION: Declaration = Declaration {
-    name: Settings::NAME,
+    parameters: Parameters::of::<Settings>(),
     paper: "Taibo et al. 2014, \"Practical line rasterization for multi-resolution textures\".",
     title: "Clipmap texture (Taibo)",
-    settings: Settings::TABLE,
     contradiction: settings::contradiction,
     planes: &[
         PlaneKind::new("vertices", Look::Table).in_plan(),

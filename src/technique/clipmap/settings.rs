@@ -29,7 +29,7 @@ settings! {
         /// Texels a side of the part of each level that is at hand; beyond it coarser levels are seen.
         "Taibo 2" clip_size: u32 = 2048, SIDES;
         /// The middle of that part: plan x, plan y, absolute; "automatic": the visible point nearest to the eye.
-        "Taibo 2" center: Option<[f64; 2]> = None, Shape::Or("automatic", &Shape::Numbers(2));
+        "Tanner et al. 1998" center: Option<[f64; 2]> = None, Shape::Or("automatic", &Shape::Numbers(2));
         /// What the cache of tiles may hold, MiB; at least one tile.
         "Taibo 2" cache_mib: f64 = 1024.0, Shape::Number(Range::Positive);
         /// What a texel holds; "unorm8" rounds after each blending.

@@ -29,10 +29,9 @@ mod sweep;
 
 pub use settings::{Corners, PointInPolygon, Settings, Silhouette};
 
-use super::{Declaration, Frame, FrameOptions, Prepared};
+use super::{Declaration, Frame, FrameOptions, Parameters, Prepared};
 use crate::buffer::{Look, PlaneKind};
 use crate::error::{Error, Result};
-use crate::parameter::Settings as _;
 use crate::space::ViewFrame;
 use crate::stage::Stage;
 use edge_index::EdgeIndex;
@@ -44,10 +43,9 @@ const SILHOUETTE_RATIO: f64 = 8.0;
 
 /// The technique, said once.
 pub const DECLARATION: Declaration = Declaration {
-    name: Settings::NAME,
+    parameters: Parameters::of::<Settings>(),
     paper: "She et al. 2016, \"Rendering 2D lines on 3D terrain model\".",
     title: "Inverse projection (She)",
-    settings: Settings::TABLE,
     contradiction: |_| None,
     planes: &[
         PlaneKind::DEPTH,

@@ -29,10 +29,9 @@ mod view;
 
 pub use settings::{Counting, FarPlane, Grouping, Overflow, Settings, VolumeCaps, VolumeJoins};
 
-use super::{Declaration, Frame, FrameOptions, Prepared};
+use super::{Declaration, Frame, FrameOptions, Parameters, Prepared};
 use crate::buffer::{Look, PlaneKind};
 use crate::error::{Error, Result};
-use crate::parameter::Settings as _;
 use crate::scene::{Layer, OutlineMode};
 use crate::space::ViewFrame;
 use crate::stage::Stage;
@@ -43,10 +42,9 @@ const MOST_SAMPLES: usize = 1 << 27;
 
 /// The technique, said once.
 pub const DECLARATION: Declaration = Declaration {
-    name: Settings::NAME,
+    parameters: Parameters::of::<Settings>(),
     paper: "Schneider & Klein 2007, \"Efficient and accurate rendering of vector data on virtual landscapes\".",
     title: "Stencil volumes (Schneider & Klein)",
-    settings: Settings::TABLE,
     contradiction: |_| None,
     planes: &[
         PlaneKind::DEPTH,
