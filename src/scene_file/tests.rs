@@ -199,13 +199,16 @@ fn schema_and_parser_know_the_same_keys() {
 
 #[test]
 fn every_described_key_is_read_somewhere() {
-    // `Section::read` refuses a key that nobody takes, so that a key written in a scene that parses is read.
+    // `Section::read` refuses a key that nobody takes, so that a key written in a scene that parses is read. (Parameters of techniques
+    // are read as they are declared: tests/parameters.rs.)
     let (mut of_parser, mut of_scenes) = (Vec::new(), Vec::new());
     described(&keys::ROOT, "", &mut of_parser);
     for text in EVERY_KEY.into_iter().chain([CONE]) {
         let origin = Origin { text, path: None, overrides: &[] };
         written(&tree::parse(&origin).unwrap().value, "", &mut of_scenes);
     }
+    of_parser.retain(|name| !name.starts_with("technique."));
+    of_scenes.retain(|name| !name.starts_with("technique."));
     assert_eq!(sorted(of_parser), sorted(of_scenes));
 }
 
