@@ -4,7 +4,7 @@
 //! then said in the commit. (Goldens hold those of all techniques.)
 
 use drapery::buffer::Plane;
-use drapery::scene::file::SceneFile;
+use drapery::scene_file::SceneFile;
 use drapery::stage::Stage;
 use drapery::technique::{self, FrameOptions, Kind};
 
@@ -63,7 +63,7 @@ fn hashes(kind: Kind, text: &str, tile: usize, threads: usize) -> Vec<String> {
         let (scene, surface) = drapery::source::load::load(&file, &|_| {}).unwrap();
         let stage = Stage::new(scene, surface).unwrap();
         let prepared = technique::prepare(kind, &stage).unwrap();
-        let buffers: Vec<String> = prepared.buffer_names().iter().map(|n| (*n).to_owned()).collect();
+        let buffers = kind.buffer_names();
         let frame = prepared
             .frame(&stage.view().unwrap(), &FrameOptions { tile, buffers: &buffers, progress: &|_| {} })
             .unwrap();

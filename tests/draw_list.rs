@@ -3,14 +3,16 @@
 mod drawing;
 
 use drapery::buffer::{Plane, Values};
-use drapery::scene::file::SceneFile;
+use drapery::scene::TechniqueSettings;
 use drapery::scene::{
     Cap, Color, Feature, Fill, Join, Layer, Line, Outline, OutlineMode, Rule, Shape, Style, Width,
 };
-use drapery::scene::{Joints, Overlaps, PolygonRaster, Solution, TechniqueSettings, VolumeJoins};
+use drapery::scene_file::SceneFile;
 use drapery::space::Plan;
 use drapery::stage::Stage;
-use drapery::technique::{Frame, Kind};
+use drapery::technique::clipmap::{self, Joints, Overlaps, PolygonRaster, Solution};
+use drapery::technique::stencil_volume::{self, Grouping, VolumeJoins};
+use drapery::technique::{Frame, Kind, inverse_projection};
 use drapery::truth::{self, Budget};
 use drawing::{count, frame_of, scene};
 use proptest::prelude::*;
@@ -20,7 +22,7 @@ fn stage_of(text: &str, layers: Vec<Layer>, technique: &TechniqueSettings) -> St
     let file = SceneFile::parse(text, None, &[]).unwrap_or_else(|e| panic!("{e}"));
     let (mut scene, surface) = drapery::source::load::load(&file, &|_| {}).unwrap_or_else(|e| panic!("{e}"));
     scene.layers = layers;
-    scene.technique = *technique;
+    scene.technique = technique.clone();
     Stage::new(scene, surface).unwrap_or_else(|e| panic!("{e}"))
 }
 
@@ -122,9 +124,8 @@ fn truth_and_techniques_paint_the_same_items_of_every_shape_in_every_style_of_on
         }
     }
     let mut technique = TechniqueSettings::default();
-    technique.stencil_volume.joins = VolumeJoins::Style;
-    technique.clipmap.virtual_size = 2048;
-    technique.clipmap.joints = Joints::Style;
+    technique.set(stencil_volume::Settings { joins: VolumeJoins::Style, ..Default::default() });
+    technique.set(clipmap::Settings { virtual_size: 2048, joints: Joints::Style, ..Default::default() });
     let layer = Layer { name: "all".into(), styles, features };
     let stage = stage_of(&text, vec![layer], &technique);
 
@@ -271,8 +272,8 @@ fn assert_same(layer: &Layer, technique: &TechniqueSettings, kinds: &[Kind]) {
     let stages = [vec![layer.clone()], split(layer)].map(|layers| stage_of(&text, layers, technique));
     for kind in kinds {
         let frames = stages.each_ref().map(|stage| {
-            let names = drapery::technique::prepare(*kind, stage).unwrap().buffer_names();
-            told(&frame_of(*kind, stage, names))
+            let names: Vec<&str> = kind.declaration().planes.iter().map(|plane| plane.name).collect();
+            told(&frame_of(*kind, stage, &names))
         });
         assert_eq!(frames[0], frames[1], "{kind:?}, {technique:?}");
     }
@@ -305,11 +306,15 @@ fn clipmaps() -> impl Iterator<Item = TechniqueSettings> {
     ];
     ways.into_iter().map(|(solution, polygons, joints, overlaps)| {
         let mut technique = TechniqueSettings::default();
-        technique.clipmap.virtual_size = 512;
-        technique.clipmap.solution = solution;
-        technique.clipmap.polygons = polygons;
-        technique.clipmap.joints = joints;
-        technique.clipmap.overlaps = overlaps;
+        let defaults = clipmap::Settings::default();
+        technique.set(clipmap::Settings {
+            virtual_size: 512,
+            solution,
+            polygons,
+            joints,
+            overlaps,
+            ..defaults
+        });
         technique
     })
 }
@@ -321,9 +326,15 @@ proptest! {
         assert_same_truth(&layer);
         let mut technique = TechniqueSettings::default();
         assert_same(&layer, &technique, &[Kind::StencilVolume, Kind::InverseProjection]);
-        technique.stencil_volume.joins = VolumeJoins::Style;
-        technique.stencil_volume.grouping = drapery::scene::Grouping::Color;
-        technique.inverse_projection.point_in_polygon = drapery::scene::PointInPolygon::Winding;
+        technique.set(stencil_volume::Settings {
+            joins: VolumeJoins::Style,
+            grouping: Grouping::Color,
+            ..Default::default()
+        });
+        technique.set(inverse_projection::Settings {
+            point_in_polygon: inverse_projection::PointInPolygon::Winding,
+            ..Default::default()
+        });
         assert_same(&layer, &technique, &[Kind::StencilVolume, Kind::InverseProjection]);
     }
 

@@ -8,8 +8,8 @@
     reason = "a test says why it skips, and fails by panicking"
 )]
 
-use drapery::scene::file::SceneFile;
 use drapery::scene::{Layer, Scene, Shape, Surface};
+use drapery::scene_file::SceneFile;
 use drapery::source::load::load;
 use drapery::space::Plan;
 use drapery::stage::Stage;

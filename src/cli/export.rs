@@ -9,8 +9,9 @@ use super::stop::{Outcome, Status};
 use drapery::buffer::Buffer;
 use drapery::export::{LAYOUT, Parameters, TilePicture, tiles, triangles, vertices, write_features};
 use drapery::output::{Batch, Npy, RESULT_SCHEMA, RenderResult, write_png};
-use drapery::scene::{Ground, Imagery, TILE_TEXELS};
+use drapery::scene::{Ground, Imagery};
 use drapery::stage::Stage;
+use drapery::technique::clipmap::{Settings, TILE_TEXELS};
 use drapery::technique::{self, Frame, Kind};
 use drapery::truth::Budget;
 use drapery::{Error, Result, parallel};
@@ -111,7 +112,7 @@ fn stage_scene(stage: &Stage, batch: &mut Batch) -> Result<()> {
 /// The tiles of a frame that has such.
 fn tiles_of(frame: &Frame, stage: &Stage) -> Vec<TilePicture> {
     let plane = |name: &str| frame.planes.iter().find(|plane| plane.name == name);
-    let size = stage.scene.technique.clipmap.virtual_size;
+    let size = stage.scene.technique.get::<Settings>().virtual_size;
     match (plane("tiles"), plane("tile-keys")) {
         (Some(pictures), Some(keys)) => tiles(pictures, keys, size, TILE_TEXELS),
         _ => Vec::new(),

@@ -2,7 +2,7 @@
 //! of the scene file.
 
 use crate::draw_list::{Chain, DrawList, Item, ItemStyle, Role, Side};
-use crate::scene::file::Named;
+use crate::parameter::Named;
 use crate::scene::{Color, Join, Layer, Line, OutlineMode, Width};
 use crate::space::Plan;
 use glam::DVec2;

@@ -2,8 +2,8 @@
 
 use crate::error::{Error, Result};
 use crate::output::ByName;
+use crate::parameter::Named;
 use crate::raster::device;
-use crate::scene::file::Named;
 use crate::scene::{self, Scene};
 use crate::space::{Lens, PlanBox, ViewFrame};
 use crate::terrain::Mesh;

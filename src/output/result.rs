@@ -108,15 +108,6 @@ pub struct BufferResult {
 pub struct ByName(pub Vec<(String, Value)>);
 
 impl ByName {
-    /// Texts; those that are numbers become numbers.
-    pub fn from_texts<'a>(texts: impl IntoIterator<Item = (&'a str, String)>) -> Self {
-        let value = |text: String| match serde_json::from_str(&text) {
-            Ok(number @ Value::Number(_)) => number,
-            _ => Value::String(text),
-        };
-        Self::from_pairs(texts.into_iter().map(|(name, text)| (name, value(text))))
-    }
-
     /// Values.
     pub fn from_pairs<'a, V: Into<Value>>(pairs: impl IntoIterator<Item = (&'a str, V)>) -> Self {
         let pairs = pairs.into_iter();
@@ -162,7 +153,7 @@ mod tests {
             notes: vec!["a \"note\"".into()],
             runs: vec![RunResult {
                 technique: "inverse-projection".into(),
-                parameters: ByName::from_texts([("samples", "3".into()), ("corners", "true".into())]),
+                parameters: ByName::from_pairs([("samples", Value::from(3)), ("corners", "true".into())]),
                 device: ByName::from_pairs([("precision", "f64")]),
                 image: ImageResult {
                     path: "inverse-projection.png".into(),

@@ -1,6 +1,6 @@
 use super::*;
 use crate::compare::{Difference, Image};
-use crate::scene::file::SceneFile;
+use crate::scene_file::SceneFile;
 use crate::stage::Stage;
 use crate::truth::{self, Budget};
 

@@ -1,6 +1,7 @@
 //! Vector layers and their styles.
 
 use super::Color;
+use crate::parameter::words;
 use crate::space::Plan;
 
 /// Features of one source, drawn together.
@@ -80,14 +81,16 @@ pub struct Fill {
     pub rule: Rule,
 }
 
-/// Which points rings enclose.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Rule {
-    /// Points enclosed an odd number of times.
-    #[default]
-    EvenOdd,
-    /// Points with a winding number other than zero.
-    NonZero,
+words! {
+    /// Which points rings enclose.
+    #[derive(Default)]
+    pub enum Rule {
+        /// Points enclosed an odd number of times.
+        #[default]
+        EvenOdd = "even-odd",
+        /// Points with a winding number other than zero.
+        NonZero = "nonzero",
+    }
 }
 
 impl Rule {
@@ -110,16 +113,18 @@ pub struct Outline {
     pub mode: OutlineMode,
 }
 
-/// Which part of an outline's stroke is drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum OutlineMode {
-    /// Its intersection with the inside.
-    Inset,
-    /// All of it.
-    #[default]
-    Normal,
-    /// Its intersection with the outside.
-    Offset,
+words! {
+    /// Which part of an outline's stroke is drawn.
+    #[derive(Default)]
+    pub enum OutlineMode {
+        /// Its intersection with the inside.
+        Inset = "inset",
+        /// All of it.
+        #[default]
+        Normal = "normal",
+        /// Its intersection with the outside.
+        Offset = "offset",
+    }
 }
 
 /// A stroke along a polyline.
@@ -158,14 +163,16 @@ pub enum Join {
     Bevel,
 }
 
-/// How a line ends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Cap {
-    /// At the end point.
-    #[default]
-    Butt,
-    /// Half a width on.
-    Square,
-    /// A half disc.
-    Round,
+words! {
+    /// How a line ends.
+    #[derive(Default)]
+    pub enum Cap {
+        /// At the end point.
+        #[default]
+        Butt = "butt",
+        /// Half a width on.
+        Square = "square",
+        /// A half disc.
+        Round = "round",
+    }
 }

@@ -29,7 +29,7 @@ mod shape;
 mod tile;
 mod visible;
 
-use crate::buffer::{Buffer, Plane, Values};
+use crate::buffer::{Buffer, Look, Plane, PlaneKind, Values};
 use crate::error::{Error, Result};
 use crate::footprint::{Footprints, PixelSize};
 use crate::math;
@@ -179,14 +179,21 @@ impl Truth {
         widths.flat_map(|(l, h)| (0..4).map(|c| h[c] - l[c])).fold(0.0, |most, w| math::max(w, most))
     }
 
-    /// The names of the buffers that [`Truth::plane`] gives, from the first stage to the last.
-    pub const BUFFERS: [&'static str; 6] = ["depth", "triangle", "plan", "lo", "hi", "color"];
+    /// The buffers that [`Truth::plane`] gives, from the first stage to the last.
+    pub const PLANES: [PlaneKind; 6] = [
+        PlaneKind::DEPTH,
+        PlaneKind::TRIANGLE,
+        PlaneKind::PLAN,
+        PlaneKind::new("lo", Look::Color),
+        PlaneKind::new("hi", Look::Color),
+        PlaneKind::COLOR,
+    ];
 
     /// A buffer by its name.
     pub fn plane(&self, name: &str) -> Option<Plane> {
         let colors = |buffer: &Buffer<[f64; 4]>| (4, Values::F64(buffer.values().as_flattened().to_vec()));
         let centres = || self.centres.values().iter();
-        let index = Self::BUFFERS.iter().position(|known| *known == name)?;
+        let index = Self::PLANES.iter().position(|known| known.name == name)?;
         let (components, values) = match name {
             "depth" => (1, Values::F64(self.depth.values().to_vec())),
             "triangle" => (1, Values::U32(centres().map(|c| c.map_or(SKY, |c| c.triangle)).collect())),
@@ -199,7 +206,7 @@ impl Truth {
             _ => colors(&self.estimate),
         };
         let (width, height) = (self.estimate.width(), self.estimate.height());
-        Some(Plane { name: Self::BUFFERS[index], width, height, components, values })
+        Some(Plane { name: Self::PLANES[index].name, width, height, components, values })
     }
 }
 

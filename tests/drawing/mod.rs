@@ -5,7 +5,7 @@
 
 use drapery::compare::{Difference, Image, Metrics};
 use drapery::report;
-use drapery::scene::file::{Override, SceneFile};
+use drapery::scene_file::{Override, SceneFile};
 use drapery::stage::Stage;
 use drapery::technique::{self, Frame, FrameOptions, Kind};
 use drapery::truth::{self, Budget, Truth};

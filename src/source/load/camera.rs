@@ -5,8 +5,8 @@ use super::layer;
 use super::terrain::{REACH, Terrain, height_range, in_reach};
 use crate::error::{Error, Result};
 use crate::math::max;
-use crate::scene::file::{SceneFile, Spot, check_view};
 use crate::scene::{Camera, Layer, Projection};
+use crate::scene_file::{SceneFile, Spot, check_view};
 use crate::space::{Plan, PlanBox, ViewFrame, World};
 use glam::{DVec2, DVec3};
 

@@ -34,13 +34,13 @@ mod tests;
 pub use place::{crs_of, default_plan_space, scale_error};
 
 use crate::error::Result;
-use crate::scene::file::SceneFile;
 use crate::scene::{Scene, Surface};
+use crate::scene_file::SceneFile;
 
 /// Reads everything that a scene names. `progress` is told what is being read.
 ///
 /// ```
-/// use drapery::scene::file::{DEFAULT_SCENE, SceneFile};
+/// use drapery::scene_file::{DEFAULT_SCENE, SceneFile};
 /// let file = SceneFile::parse(DEFAULT_SCENE, None, &[])?;
 /// let (scene, surface) = drapery::source::load::load(&file, &|_| ())?;
 /// let stage = drapery::stage::Stage::new(scene, surface)?;
@@ -67,7 +67,7 @@ pub fn load(file: &SceneFile, progress: &dyn Fn(&str)) -> Result<(Scene, Surface
         layers,
         compositing: file.compositing,
         device: file.device,
-        technique: file.technique,
+        technique: file.technique.clone(),
         notes,
     };
     Ok((scene, terrain.surface))

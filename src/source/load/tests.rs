@@ -5,8 +5,8 @@
 use super::load;
 use crate::crs::{Crs, PlanSpace};
 use crate::error::{Error, Result};
-use crate::scene::file::SceneFile;
 use crate::scene::{Feature, Posts, Scene, Shape, Surface};
+use crate::scene_file::SceneFile;
 use crate::space::Plan;
 use glam::DVec2;
 use std::path::Path;
@@ -401,7 +401,7 @@ fn imagery_covers_the_terrain_or_what_its_world_file_says() {
 
 #[test]
 fn the_scene_that_is_built_in_loads() {
-    let file = SceneFile::parse(crate::scene::file::DEFAULT_SCENE, None::<&Path>, &[]).unwrap();
+    let file = SceneFile::parse(crate::scene_file::DEFAULT_SCENE, None::<&Path>, &[]).unwrap();
     let (scene, surface) = load(&file, &|_| ()).unwrap();
     assert_eq!((scene.layers.len(), scene.origin), (8, DVec2::ZERO));
     assert_eq!(posts(surface).columns(), 513);

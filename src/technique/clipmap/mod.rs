@@ -34,19 +34,24 @@ pub mod raster;
 mod rational;
 mod sampling;
 mod sequences;
+mod settings;
 mod simple;
+mod sweep;
 pub mod tessellation;
 pub mod texture;
 pub mod tile;
 
 pub use cache::CacheCounts;
 pub use sequences::{Sequences, StripOf};
+pub use settings::{
+    Joints, LineFilter, LinePrimitives, OffsetForm, Overlaps, PixelWidth, PolygonRaster, Settings, Solution,
+    TILE_TEXELS, TexelFormat, TextureFilter, WideLines,
+};
 
-use super::{Frame, FrameOptions, Prepared};
+use super::{Declaration, Frame, FrameOptions, Parameters, Prepared};
+use crate::buffer::{Look, PlaneKind};
 use crate::error::Result;
 use crate::parallel;
-use crate::scene::Clipmap;
-use crate::scene::file::Named;
 use crate::space::{Plan, ViewFrame};
 use crate::stage::Stage;
 use cache::TileCache;
@@ -55,11 +60,35 @@ use std::sync::{Mutex, PoisonError};
 use texture::{ClipRegion, TileKey, VirtualTexture};
 use tile::{TileCounts, TileMaker, Workbench};
 
+/// The technique, said once.
+pub const DECLARATION: Declaration = Declaration {
+    parameters: Parameters::of::<Settings>(),
+    paper: "Taibo et al. 2014, \"Practical line rasterization for multi-resolution textures\".",
+    title: "Clipmap texture (Taibo)",
+    contradiction: settings::contradiction,
+    planes: &[
+        PlaneKind::new("vertices", Look::Table).in_plan(),
+        PlaneKind::new("strips", Look::Table),
+        PlaneKind::TRIANGLE,
+        PlaneKind::DEPTH,
+        PlaneKind::PLAN,
+        PlaneKind::new("level", Look::Level),
+        PlaneKind::new("tile", Look::Number),
+        PlaneKind::new("texels", Look::Count),
+        PlaneKind::new("tile-keys", Look::Table),
+        PlaneKind::new("tiles", Look::CodeValues),
+        PlaneKind::COLOR,
+    ],
+    sweep: sweep::SWEEP,
+    applies,
+    prepare: |stage| Ok(Box::new(Prepare::new(stage)?)),
+};
+
 /// The technique with its lines and areas in memory.
 #[derive(Debug)]
 pub struct Prepare<'s> {
     stage: &'s Stage,
-    settings: Clipmap,
+    settings: Settings,
     texture: VirtualTexture,
     geometry: Geometry<'s>,
     /// Tiles that were made for earlier frames.
@@ -73,7 +102,7 @@ impl<'s> Prepare<'s> {
     /// When there are more vertices than can be numbered.
     pub fn new(stage: &'s Stage) -> Result<Self> {
         let scene = &stage.scene;
-        let settings = scene.technique.clipmap;
+        let settings: Settings = scene.technique.get();
         let texture = VirtualTexture::over(&stage.mesh.plan_bounds(), settings.virtual_size);
         let geometry = Geometry::new(&stage.draw_list, &settings, scene.compositing, &texture.bounds())?;
         Ok(Self { stage, settings, texture, geometry, cache: Mutex::default() })
@@ -156,45 +185,5 @@ impl Prepared for Prepare<'_> {
 
     fn structure_bytes(&self) -> usize {
         self.geometry.bytes() + self.geometry.index_bytes()
-    }
-
-    fn parameters(&self) -> Vec<(&'static str, String)> {
-        let s = &self.settings;
-        vec![
-            ("virtual_size", s.virtual_size.to_string()),
-            ("clip_size", s.clip_size.to_string()),
-            ("cache_mib", s.cache_mib.to_string()),
-            ("texel", s.texel.word().into()),
-            ("solution", s.solution.word().into()),
-            ("joints", s.joints.word().into()),
-            ("angle_deg", s.angle_deg.to_string()),
-            ("threshold_texels", s.threshold_texels.to_string()),
-            ("lines", s.lines.word().into()),
-            ("line_filter", s.line_filter.word().into()),
-            ("wide_lines", s.wide_lines.word().into()),
-            ("polygons", s.polygons.word().into()),
-            ("overlaps", s.overlaps.word().into()),
-            ("offsets", s.offsets.word().into()),
-            ("pixel_width", s.pixel_width.word().into()),
-            ("filter", s.filter.word().into()),
-            ("anisotropy", s.anisotropy.to_string()),
-            ("level_bias", s.level_bias.to_string()),
-        ]
-    }
-
-    fn buffer_names(&self) -> &'static [&'static str] {
-        &[
-            "vertices",
-            "strips",
-            "triangle",
-            "depth",
-            "plan",
-            "level",
-            "tile",
-            "texels",
-            "tile-keys",
-            "tiles",
-            "color",
-        ]
     }
 }

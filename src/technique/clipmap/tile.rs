@@ -6,8 +6,9 @@ use super::tessellation::{Pair, Sagitta, Strips};
 use super::texture::{TILE, TileKey, VirtualTexture};
 use crate::draw_list::Side;
 use crate::math;
-use crate::scene::{Clipmap, Device, PixelWidth, Precision, Solution, TexelFormat, WideLines, Width};
+use crate::scene::{Device, Precision, Width};
 use crate::space::{Plan, PlanBox, Texel};
+use crate::technique::clipmap::{PixelWidth, Settings, Solution, TexelFormat, WideLines};
 
 /// Vertices of a ring that are looked at together: where all lie on one side of the tile, only the first is kept.
 const RING_CHUNK: usize = 64;
@@ -86,7 +87,7 @@ impl Tile {
 pub struct TileMaker<'a> {
     pub(super) geometry: &'a Geometry<'a>,
     pub(super) texture: VirtualTexture,
-    pub(super) settings: Clipmap,
+    pub(super) settings: Settings,
     pub(super) device: Device,
     /// A pixel's size at the distance of what the middle of the picture shows, metres: what widths in pixels are multiples of where
     /// they follow the distance.
@@ -155,7 +156,7 @@ impl TexelMap {
 
 impl Workbench {
     /// For tiles of a size.
-    fn new(size: usize, settings: &Clipmap) -> Self {
+    fn new(size: usize, settings: &Settings) -> Self {
         let place = TilePlace { origin: (0, 0), size: (size, size) };
         let raster = RasterSettings {
             polygons: settings.polygons,

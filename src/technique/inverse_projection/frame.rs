@@ -9,9 +9,9 @@ use crate::buffer::{Buffer, Plane, Values};
 use crate::parallel;
 use crate::raster::Lattice;
 use crate::resolve::{Compositor, GroundPaint, Paint, code_values};
-use crate::scene::{Corners, InverseProjection, Silhouette};
 use crate::space::{Plan, PlanBox, ViewFrame};
 use crate::stage::Stage;
+use crate::technique::inverse_projection::{Corners, Settings, Silhouette};
 use crate::technique::{Frame, FrameOptions};
 use crate::terrain::SKY;
 use crate::visibility::{Hit, Sight};
@@ -29,7 +29,7 @@ const FEW: usize = 4;
 /// Draws a frame of a view.
 pub fn draw(
     (stage, view): (&Stage, &ViewFrame),
-    settings: &InverseProjection,
+    settings: &Settings,
     index: &EdgeIndex,
     options: &FrameOptions,
 ) -> Frame {
@@ -65,7 +65,7 @@ pub fn draw(
 
 /// Everything that pixels are made from.
 struct Drawing<'a> {
-    settings: &'a InverseProjection,
+    settings: &'a Settings,
     judge: Judge<'a>,
     ground: GroundPaint<'a>,
     /// The paint of each style of items.

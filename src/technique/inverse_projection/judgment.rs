@@ -2,8 +2,8 @@
 
 use super::edge_index::EdgeIndex;
 use super::expansion::{AreaId, Edge};
-use crate::scene::PointInPolygon;
 use crate::space::Plan;
+use crate::technique::inverse_projection::PointInPolygon;
 use glam::DVec2;
 
 /// An edge that meets the pixel at hand, with what Codes A and B ask of it made once for all samples.

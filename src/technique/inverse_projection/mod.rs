@@ -24,11 +24,14 @@ mod expansion;
 mod frame;
 mod judgment;
 mod quadrilateral;
+mod settings;
+mod sweep;
 
-use super::{Frame, FrameOptions, Prepared};
+pub use settings::{Corners, PointInPolygon, Settings, Silhouette};
+
+use super::{Declaration, Frame, FrameOptions, Parameters, Prepared};
+use crate::buffer::{Look, PlaneKind};
 use crate::error::{Error, Result};
-use crate::scene::InverseProjection;
-use crate::scene::file::Named;
 use crate::space::ViewFrame;
 use crate::stage::Stage;
 use edge_index::EdgeIndex;
@@ -37,11 +40,31 @@ use edge_index::EdgeIndex;
 /// would give it, before it counts as spanning a silhouette.
 const SILHOUETTE_RATIO: f64 = 8.0;
 
+/// The technique, said once.
+pub const DECLARATION: Declaration = Declaration {
+    parameters: Parameters::of::<Settings>(),
+    paper: "She et al. 2016, \"Rendering 2D lines on 3D terrain model\".",
+    title: "Inverse projection (She)",
+    contradiction: |_| None,
+    planes: &[
+        PlaneKind::DEPTH,
+        PlaneKind::TRIANGLE,
+        PlaneKind::PLAN,
+        PlaneKind::new("quad", Look::Place).in_plan(),
+        PlaneKind::new("class", Look::Class),
+        PlaneKind::new("edges", Look::Count),
+        PlaneKind::COLOR,
+    ],
+    sweep: sweep::SWEEP,
+    applies,
+    prepare: |stage| Ok(Box::new(Prepare::new(stage)?)),
+};
+
 /// The technique with its index built.
 #[derive(Debug)]
 pub struct Prepare<'s> {
     stage: &'s Stage,
-    settings: InverseProjection,
+    settings: Settings,
     index: EdgeIndex<'s>,
 }
 
@@ -53,7 +76,7 @@ impl<'s> Prepare<'s> {
     pub fn new(stage: &'s Stage) -> Result<Self> {
         applies(stage)?;
         let index = EdgeIndex::new(&stage.draw_list, &stage.mesh.plan_bounds())?;
-        Ok(Self { stage, settings: stage.scene.technique.inverse_projection, index })
+        Ok(Self { stage, settings: stage.scene.technique.get(), index })
     }
 }
 
@@ -79,18 +102,5 @@ impl Prepared for Prepare<'_> {
 
     fn structure_bytes(&self) -> usize {
         self.index.bytes()
-    }
-
-    fn parameters(&self) -> Vec<(&'static str, String)> {
-        vec![
-            ("samples", self.settings.samples.to_string()),
-            ("corners", self.settings.corners.word().into()),
-            ("point_in_polygon", self.settings.point_in_polygon.word().into()),
-            ("silhouette", self.settings.silhouette.word().into()),
-        ]
-    }
-
-    fn buffer_names(&self) -> &'static [&'static str] {
-        &["depth", "triangle", "plan", "quad", "class", "edges", "color"]
     }
 }

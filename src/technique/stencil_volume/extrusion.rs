@@ -17,8 +17,9 @@ use super::heights::{Region, heights_under};
 use super::stroke::Stroke;
 use crate::draw_list::{Chain, DrawList, Item, Side};
 use crate::parallel;
-use crate::scene::{Grouping, Rule, StencilVolume, VolumeJoins};
+use crate::scene::Rule;
 use crate::space::{Plan, PlanBox, World};
+use crate::technique::stencil_volume::{Grouping, Settings, VolumeJoins};
 use crate::terrain::Mesh;
 use std::ops::Range;
 
@@ -84,7 +85,7 @@ pub struct Extrusion<'l> {
 
 impl<'l> Extrusion<'l> {
     /// Extrudes all items.
-    pub fn new(list: &'l DrawList, mesh: &Mesh, settings: &StencilVolume) -> Self {
+    pub fn new(list: &'l DrawList, mesh: &Mesh, settings: &Settings) -> Self {
         let (corners, volumes, objects, passes) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         let mut all = Self { list, corners, volumes, objects, passes };
         list.numbered().for_each(|(number, item)| all.add_object(number, item, settings.joins));

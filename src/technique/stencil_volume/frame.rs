@@ -10,9 +10,10 @@ use crate::buffer::{Buffer, Plane, Values};
 use crate::parallel;
 use crate::raster::{Lattice, TileView};
 use crate::resolve::{Compositor, GroundPaint, Paint, code_values};
-use crate::scene::{FarPlane, Overflow, Rule, StencilVolume, VolumeCaps};
+use crate::scene::Rule;
 use crate::space::{Plan, ViewFrame};
 use crate::stage::Stage;
+use crate::technique::stencil_volume::{FarPlane, Overflow, Settings, VolumeCaps};
 use crate::technique::{Frame, FrameOptions};
 use crate::terrain::SKY;
 use crate::visibility::Sight;
@@ -63,7 +64,7 @@ pub struct Drawing<'a> {
     /// From where it is seen.
     pub view: &'a ViewFrame,
     /// The parameters.
-    pub settings: StencilVolume,
+    pub settings: Settings,
     /// The volumes.
     pub extrusion: &'a Extrusion<'a>,
     /// What the samples see.
@@ -109,7 +110,7 @@ impl<'a> Drawing<'a> {
         extrusion: &'a Extrusion<'a>,
         options: &FrameOptions,
     ) -> Self {
-        let settings = stage.scene.technique.stencil_volume;
+        let settings: Settings = stage.scene.technique.get();
         let lattice = lattice(view, settings.samples);
         let device = &stage.scene.device;
         let mut sight = Sight::new(view, &stage.mesh, device, lattice, options.tile);

@@ -18,16 +18,20 @@ mod extrusion;
 mod face;
 mod frame;
 mod heights;
+mod settings;
 mod stencil;
 mod stroke;
+mod sweep;
 #[cfg(test)]
 mod tests;
 mod tile;
 mod view;
 
-use super::{Frame, FrameOptions, Prepared};
+pub use settings::{Counting, FarPlane, Grouping, Overflow, Settings, VolumeCaps, VolumeJoins};
+
+use super::{Declaration, Frame, FrameOptions, Parameters, Prepared};
+use crate::buffer::{Look, PlaneKind};
 use crate::error::{Error, Result};
-use crate::scene::file::Named;
 use crate::scene::{Layer, OutlineMode};
 use crate::space::ViewFrame;
 use crate::stage::Stage;
@@ -36,10 +40,32 @@ use extrusion::Extrusion;
 /// The most samples of a picture: each takes 20 bytes while a frame is drawn.
 const MOST_SAMPLES: usize = 1 << 27;
 
+/// The technique, said once.
+pub const DECLARATION: Declaration = Declaration {
+    parameters: Parameters::of::<Settings>(),
+    paper: "Schneider & Klein 2007, \"Efficient and accurate rendering of vector data on virtual landscapes\".",
+    title: "Stencil volumes (Schneider & Klein)",
+    contradiction: |_| None,
+    planes: &[
+        PlaneKind::DEPTH,
+        PlaneKind::TRIANGLE,
+        PlaneKind::PLAN,
+        PlaneKind::COLOR,
+        PlaneKind::new("stencil", Look::Count),
+        PlaneKind::new("stencil-front", Look::Count),
+        PlaneKind::new("stencil-back", Look::Count),
+        PlaneKind::new("overdraw", Look::Count),
+    ],
+    sweep: sweep::SWEEP,
+    applies,
+    prepare: |stage| Ok(Box::new(Prepare::new(stage)?)),
+};
+
 /// The technique with its volumes built.
 #[derive(Debug)]
 pub struct Prepare<'s> {
     stage: &'s Stage,
+    settings: Settings,
     extrusion: Extrusion<'s>,
 }
 
@@ -50,8 +76,8 @@ impl<'s> Prepare<'s> {
     /// When the technique does not draw such a scene, or there is too much in it.
     pub fn new(stage: &'s Stage) -> Result<Self> {
         applies(stage)?;
-        let settings = &stage.scene.technique.stencil_volume;
-        let extrusion = Extrusion::new(&stage.draw_list, &stage.mesh, settings);
+        let settings: Settings = stage.scene.technique.get();
+        let extrusion = Extrusion::new(&stage.draw_list, &stage.mesh, &settings);
         if extrusion.corners.len() > u32::MAX as usize / 2 {
             return Err(Error::new("more corners of volumes than this program can number")
                 .help("give the terrain a `window`"));
@@ -65,7 +91,7 @@ impl<'s> Prepare<'s> {
                 "objects are counted from 0 in draw order: fills, outlines and lines, feature by feature",
             ));
         }
-        Ok(Self { stage, extrusion })
+        Ok(Self { stage, settings, extrusion })
     }
 }
 
@@ -82,7 +108,7 @@ pub fn applies(stage: &Stage) -> Result<()> {
         .help("give the layer width_m, or leave the technique out"));
     }
     let image = &stage.scene.image;
-    has_room((image.width, image.height), stage.scene.technique.stencil_volume.samples)?;
+    has_room((image.width, image.height), stage.scene.technique.get::<Settings>().samples)?;
     let is_cut = |layer: &&Layer| {
         let mut outlines = layer.styles.iter().filter_map(|style| style.outline);
         outlines.any(|outline| outline.mode != OutlineMode::Normal)
@@ -112,30 +138,11 @@ fn has_room((width, height): (usize, usize), n: u32) -> Result<()> {
 
 impl Prepared for Prepare<'_> {
     fn frame(&self, view: &ViewFrame, options: &FrameOptions) -> Result<Frame> {
-        let settings = &self.stage.scene.technique.stencil_volume;
-        has_room((view.width(), view.height()), settings.samples)?;
+        has_room((view.width(), view.height()), self.settings.samples)?;
         Ok(frame::draw((self.stage, view), &self.extrusion, options))
     }
 
     fn structure_bytes(&self) -> usize {
         self.extrusion.bytes()
-    }
-
-    fn parameters(&self) -> Vec<(&'static str, String)> {
-        let settings = &self.stage.scene.technique.stencil_volume;
-        vec![
-            ("method", settings.method.word().into()),
-            ("overflow", settings.overflow.word().into()),
-            ("far", settings.far.word().into()),
-            ("caps", settings.caps.word().into()),
-            ("joins", settings.joins.word().into()),
-            ("grouping", settings.grouping.word().into()),
-            ("samples", settings.samples.to_string()),
-            ("object", settings.object.map_or_else(|| "all".into(), |object| object.to_string())),
-        ]
-    }
-
-    fn buffer_names(&self) -> &'static [&'static str] {
-        &["depth", "triangle", "plan", "color", "stencil", "stencil-front", "stencil-back", "overdraw"]
     }
 }

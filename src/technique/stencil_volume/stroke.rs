@@ -7,8 +7,9 @@
 
 use crate::math;
 use crate::predicate::orient2d;
-use crate::scene::{Cap, Join, Line, VolumeJoins, Width};
+use crate::scene::{Cap, Join, Line, Width};
 use crate::space::Plan;
+use crate::technique::stencil_volume::VolumeJoins;
 use glam::DVec2;
 
 /// Corners of the polygon that stands for a disc.

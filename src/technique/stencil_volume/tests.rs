@@ -2,13 +2,14 @@
 
 use super::extrusion::{Extrusion, Object, Volume};
 use crate::buffer::Values;
-use crate::scene::file::SceneFile;
 use crate::scene::{
-    Cap, Color, Counting, Feature, Fill, Join, Layer, Line, Outline, OutlineMode, Projection, Rule, Shape,
-    StencilVolume, Style, Surface, VolumeJoins, Width,
+    Cap, Color, Feature, Fill, Join, Layer, Line, Outline, OutlineMode, Projection, Rule, Shape, Style,
+    Surface, Width,
 };
+use crate::scene_file::SceneFile;
 use crate::space::{Plan, Ray, World};
 use crate::stage::Stage;
+use crate::technique::stencil_volume::{Counting, Settings, VolumeJoins};
 use crate::technique::{self, FrameOptions, Kind};
 use crate::terrain::SKY;
 use dashu::rational::RBig;
@@ -64,10 +65,10 @@ fn expected(extrusion: &Extrusion, volumes: &[Volume], at: &[RBig; 2]) -> i32 {
 /// The stencil plane of one object, drawn with these parameters.
 fn stencil(
     stage: &mut Stage,
-    settings: StencilVolume,
+    settings: Settings,
     buffers: &[&str],
 ) -> (Vec<u16>, crate::buffer::Buffer<[u8; 4]>) {
-    stage.scene.technique.stencil_volume = settings;
+    stage.scene.technique.set(settings);
     let buffers: Vec<String> = buffers.iter().map(|b| (*b).to_owned()).collect();
     let prepared = technique::prepare(Kind::StencilVolume, stage).unwrap();
     let frame = prepared
@@ -79,11 +80,7 @@ fn stencil(
 }
 
 /// The counts that all samples should have of each object, in as many bits as it is counted in.
-fn expected_of_objects(
-    stage: &Stage,
-    settings: &StencilVolume,
-    points: &[Option<[RBig; 2]>],
-) -> Vec<Vec<u16>> {
+fn expected_of_objects(stage: &Stage, settings: &Settings, points: &[Option<[RBig; 2]>]) -> Vec<Vec<u16>> {
     let extrusion = Extrusion::new(&stage.draw_list, &stage.mesh, settings);
     let of_object = |(number, object): (u32, &Object)| {
         let volumes = &extrusion.volumes[object.volumes.start as usize..object.volumes.end as usize];
@@ -95,11 +92,11 @@ fn expected_of_objects(
 }
 
 /// Compares the counts of all objects with the footprints; returns how many samples lie in one.
-fn check(stage: &mut Stage, settings: StencilVolume) -> usize {
+fn check(stage: &mut Stage, settings: Settings) -> usize {
     stage.scene.device.stencil_bits = 16;
     let n = f64::from(settings.samples);
     let ids = {
-        stage.scene.technique.stencil_volume = settings;
+        stage.scene.technique.set(settings);
         let prepared = technique::prepare(Kind::StencilVolume, stage).unwrap();
         let wanted = ["triangle".to_owned()];
         let frame = prepared
@@ -124,7 +121,7 @@ fn check(stage: &mut Stage, settings: StencilVolume) -> usize {
     let counts = expected_of_objects(stage, &settings, &points);
     let mut inside = 0;
     for (number, counts) in counts.into_iter().enumerate() {
-        let settings = StencilVolume { object: Some(number as u32), ..settings };
+        let settings = Settings { object: Some(number as u32), ..settings };
         let (in_passing, picture) = stencil(stage, settings, &["stencil"]);
         let (in_full, full_picture) = stencil(stage, settings, &["stencil", "overdraw"]);
         assert_eq!(picture, full_picture, "the picture does not depend on the way");
@@ -143,7 +140,7 @@ struct Setting {
     text: String,
     layers: Vec<Layer>,
     projection: Projection,
-    settings: StencilVolume,
+    settings: Settings,
     ground: GroundKind,
 }
 
@@ -235,7 +232,7 @@ fn setting() -> impl Strategy<Value = Setting> {
                  [camera]\neye = [{:?}, {:?}, {:?}]\ntarget = [{:?}, {:?}, 1.0]\nup = {up}\nnear_m = {near:?}\n",
                 eye.0, eye.1, eye.2, target.0, target.1
             );
-            let settings = StencilVolume { method, joins, samples, ..StencilVolume::default() };
+            let settings = Settings { method, joins, samples, ..Settings::default() };
             Setting { text, layers, projection, settings, ground }
         },
     )
@@ -284,7 +281,7 @@ fn fixed(text: &str, polygons: Vec<Vec<Vec<Plan>>>) -> Stage {
         text: text.into(),
         layers: vec![layer],
         projection: Projection::Perspective { fov_y_deg: 60.0 },
-        settings: StencilVolume::default(),
+        settings: Settings::default(),
         ground: GroundKind::Grid,
     };
     stage(&setting).unwrap()
@@ -301,7 +298,7 @@ fn a_concave_ring_with_a_hole_and_an_island_is_counted_by_its_fan() {
     let island = vec![(-4.0, -30.0), (4.0, -30.0), (0.0, -20.0)];
     let ring = |points: Vec<(f64, f64)>| points.into_iter().map(|(x, y)| Plan::new(x, y)).collect();
     let mut stage = fixed(HILL, vec![[outer, hole, island].map(ring).to_vec()]);
-    assert!(check(&mut stage, StencilVolume::default()) > 100);
+    assert!(check(&mut stage, Settings::default()) > 100);
 }
 
 #[test]
@@ -326,7 +323,7 @@ fn samples_on_corners_and_edges_of_neighbours_have_one_owner() {
         [Projection::Orthographic { height_m: 16.0 }, Projection::Perspective { fov_y_deg: 23.792_845 }]
     {
         stage.scene.camera.projection = projection;
-        let inside = check(&mut stage, StencilVolume::default());
+        let inside = check(&mut stage, Settings::default());
         if matches!(projection, Projection::Orthographic { .. }) {
             assert_eq!(inside, 15 * 15, "each sample of the squares has one owner");
         }

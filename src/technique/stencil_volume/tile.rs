@@ -19,7 +19,8 @@ use super::stencil::{Method, Stencil, Traces, Width, passes};
 use super::view::Entry;
 use crate::raster::TileView;
 use crate::resolve::Paint;
-use crate::scene::{Rule, VolumeCaps};
+use crate::scene::Rule;
+use crate::technique::stencil_volume::VolumeCaps;
 use fragments::Sparse;
 
 /// How fragments are found.

@@ -4,11 +4,11 @@
 use super::*;
 use crate::draw_list::DrawList;
 use crate::footprint::{Footprints, PixelSize};
-use crate::scene::file::SceneFile;
 use crate::scene::{
     Cap, Color, Feature, Fill, Join, Layer, Line, Outline, OutlineMode, Posts, Rule, Scene, Shape, Style,
     Surface, Width,
 };
+use crate::scene_file::SceneFile;
 use crate::space::Plan;
 use crate::truth::Budget;
 use crate::truth::polygon::Polygon;

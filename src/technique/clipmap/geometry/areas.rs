@@ -2,9 +2,10 @@
 
 use super::{MOST, too_many_vertices};
 use crate::error::Result;
-use crate::scene::{Clipmap, PolygonRaster, Rule};
+use crate::scene::Rule;
 use crate::space::{Plan, PlanBox};
 use crate::technique::clipmap::simple;
+use crate::technique::clipmap::{PolygonRaster, Settings};
 
 /// A polygon.
 #[derive(Debug, Clone, Copy)]
@@ -38,7 +39,7 @@ impl Areas {
         mut rings: Vec<Vec<Plan>>,
         rule: Rule,
         is_filled: bool,
-        settings: &Clipmap,
+        settings: &Settings,
     ) {
         let plan = PlanBox::around(rings.iter().flatten().copied());
         let is_simple = settings.polygons == PolygonRaster::Exact && simple::orient(&mut rings, rule);

@@ -19,8 +19,9 @@ use crate::draw_list::{DrawList, Item};
 use crate::error::{Error, Result};
 use crate::math;
 use crate::parallel;
-use crate::scene::{Clipmap, Compositing, Joints, Solution};
+use crate::scene::Compositing;
 use crate::space::{Plan, PlanBox};
+use crate::technique::clipmap::{Joints, Settings, Solution};
 use areas::Areas;
 use std::ops::Range;
 use strokes::Strokes;
@@ -55,7 +56,7 @@ impl<'l> Geometry<'l> {
     /// When there is more than can be numbered.
     pub(super) fn new(
         list: &'l DrawList,
-        settings: &Clipmap,
+        settings: &Settings,
         compositing: Compositing,
         square: &PlanBox,
     ) -> Result<Self> {
@@ -190,7 +191,7 @@ struct Block {
 
 impl Block {
     /// Adds items.
-    fn add(&mut self, (list, styles): (&DrawList, &Styles), settings: &Clipmap, items: Range<usize>) {
+    fn add(&mut self, (list, styles): (&DrawList, &Styles), settings: &Settings, items: Range<usize>) {
         for number in items {
             let item = &list.items()[number];
             let number = number as u32;

@@ -4,9 +4,10 @@ use crate::draw_list::{DrawList, ItemStyle, Side};
 use crate::error::Result;
 use crate::math;
 use crate::resolve::Compositor;
-use crate::scene::{Clipmap, Compositing, Line, Rule, Solution, Width};
+use crate::scene::{Compositing, Line, Rule, Width};
 use crate::technique::clipmap::raster::Ink;
 use crate::technique::clipmap::tessellation::Rule as Tessellation;
+use crate::technique::clipmap::{Settings, Solution};
 
 /// What is kept of a stroke.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -92,7 +93,7 @@ impl Styles {
     ///
     /// # Errors
     /// When lines cannot be tessellated so.
-    pub(super) fn new(list: &DrawList, settings: &Clipmap, compositing: Compositing) -> Result<Self> {
+    pub(super) fn new(list: &DrawList, settings: &Settings, compositing: Compositing) -> Result<Self> {
         let compositor = Compositor::new(compositing);
         let stroke = |style: &ItemStyle, line: &Line, ink: Ink| -> Result<StrokeStyle> {
             Ok(StrokeStyle {
