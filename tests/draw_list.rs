@@ -2,11 +2,11 @@
 
 mod drawing;
 
-use drapery::buffer::{Plane, Values};
-use drapery::scene::TechniqueSettings;
+use drapery::buffer::{Buffer, Plane, Values};
 use drapery::scene::{
     Cap, Color, Feature, Fill, Join, Layer, Line, Outline, OutlineMode, Rule, Shape, Style, Width,
 };
+use drapery::scene::TechniqueSettings;
 use drapery::scene_file::SceneFile;
 use drapery::space::Plan;
 use drapery::stage::Stage;
@@ -14,8 +14,9 @@ use drapery::technique::clipmap::{self, Joints, Overlaps, PolygonRaster, Solutio
 use drapery::technique::stencil_volume::{self, Grouping, VolumeJoins};
 use drapery::technique::{Frame, Kind, inverse_projection};
 use drapery::truth::{self, Budget};
-use drawing::{count, frame_of, scene};
+use drawing::{count, frame_of, scene, truth_of};
 use proptest::prelude::*;
+use std::ops::Range;
 
 /// A stage of other layers than its text says.
 fn stage_of(text: &str, layers: Vec<Layer>, technique: &TechniqueSettings) -> Stage {
@@ -196,6 +197,71 @@ fn strokes(stage: &Stage) -> Vec<[u32; 3]> {
         .collect()
 }
 
+// ---- Each feature in its own style ----
+
+/// Pixels, and metres, a side of what belongs to a feature: nothing of another one reaches into it.
+const PLOT: usize = 32;
+const PLOTS: usize = 3;
+
+/// A map on which a pixel is a metre.
+fn plots() -> String {
+    let side = PLOT * PLOTS;
+    let plane = format!("kind = \"plane\", posts = [3, 3], cell_m = {side}.0");
+    let camera =
+        "eye = [0, 0, 100], target = [0, 0, 0], up = [0, 1, 0], projection = \"orthographic\", height_m =";
+    let text = scene(&plane, &format!("{camera} {side}"), "");
+    text.replace("width = 96, height = 64", &format!("width = {side}, height = {side}"))
+}
+
+/// Features on plots of their own, each of a style of its own.
+fn scattered(has_pixels: bool) -> impl Strategy<Value = Layer> {
+    let ring = || prop::collection::vec((-4.0..4.0f64, -4.0..4.0f64), 2..6);
+    let shape = (ring(), any::<bool>(), style(has_pixels, 1.0..2.0));
+    prop::collection::vec(shape, PLOTS * PLOTS).prop_map(|shapes| {
+        let (mut styles, mut features) = (Vec::new(), Vec::new());
+        for (index, (points, is_line, style)) in shapes.into_iter().enumerate() {
+            let middle = |k: usize| (k * PLOT + PLOT / 2) as f64 - (PLOT * PLOTS) as f64 / 2.0;
+            let at = (middle(index % PLOTS), -middle(index / PLOTS));
+            let points: Vec<(f64, f64)> = points.into_iter().map(|(x, y)| (at.0 + x, at.1 + y)).collect();
+            let parts = vec![plan(&points)];
+            let shape = if is_line { Shape::Line(parts) } else { Shape::Polygon(parts) };
+            styles.push(style);
+            features.push(Feature { index, style: index as u32, shape });
+        }
+        Layer { name: "scattered".into(), styles, features }
+    })
+}
+
+/// The pixels of a plot.
+fn plot<T: Clone>(image: &Buffer<T>, plot: usize) -> Vec<T> {
+    let (x, y) = (plot % PLOTS * PLOT, plot / PLOTS * PLOT);
+    (y..y + PLOT).flat_map(|y| image.row(y)[x..x + PLOT].to_vec()).collect()
+}
+
+/// Whether each feature of a layer looks as it does in a scene of its own.
+fn assert_each_as_alone(layer: &Layer, technique: &TechniqueSettings, kinds: &[Kind]) {
+    let stage = |layer: Layer| stage_of(&plots(), vec![layer], technique);
+    let together = stage(layer.clone());
+    let frames: Vec<Frame> = kinds.iter().map(|kind| frame_of(*kind, &together, &[])).collect();
+    let truth = truth_of(&together);
+    for (k, feature) in layer.features.iter().enumerate() {
+        let feature = Feature { style: 0, ..feature.clone() };
+        let alone = stage(Layer::uniform("alone", layer.styles[k], vec![feature]));
+        for (kind, frame) in kinds.iter().zip(&frames) {
+            let right = frame_of(*kind, &alone, &[]).image;
+            assert_eq!(
+                plot(&frame.image, k),
+                plot(&right, k),
+                "{kind:?}, feature {k}: {:?}",
+                layer.styles[k]
+            );
+        }
+        let right = truth_of(&alone);
+        assert_eq!(plot(&truth.low, k), plot(&right.low, k), "feature {k}: {:?}", layer.styles[k]);
+        assert_eq!(plot(&truth.high, k), plot(&right.high, k), "feature {k}: {:?}", layer.styles[k]);
+    }
+}
+
 // ---- Styles of one layer, or of many ----
 
 fn color() -> impl Strategy<Value = Color> {
@@ -204,21 +270,21 @@ fn color() -> impl Strategy<Value = Color> {
         .prop_map(|(r, g, b, a)| Color([r, g, b, a]))
 }
 
-fn line(has_pixels: bool) -> impl Strategy<Value = Line> {
+fn line(has_pixels: bool, width: Range<f64>) -> impl Strategy<Value = Line> {
     let join = prop_oneof![Just(Join::Round), Just(Join::Bevel), Just(Join::Miter { limit: 3.0 })];
     let cap = prop_oneof![Just(Cap::Butt), Just(Cap::Square), Just(Cap::Round)];
-    (color(), 2.0..40.0f64, any::<bool>(), join, cap).prop_map(move |(color, width, is_thin, join, cap)| {
-        let width = if has_pixels && is_thin { Width::Pixels(width / 10.0) } else { Width::Metres(width) };
+    (color(), width, any::<bool>(), join, cap).prop_map(move |(color, width, is_thin, join, cap)| {
+        let width = if has_pixels && is_thin { Width::Pixels(width / 2.0) } else { Width::Metres(width) };
         Line { color, width, join, cap }
     })
 }
 
-fn style(has_pixels: bool) -> impl Strategy<Value = Style> {
+fn style(has_pixels: bool, width: Range<f64>) -> impl Strategy<Value = Style> {
     let rule = prop_oneof![Just(Rule::EvenOdd), Just(Rule::NonZero)];
     let mode = prop_oneof![Just(OutlineMode::Inset), Just(OutlineMode::Normal), Just(OutlineMode::Offset)];
     let fill = (color(), rule).prop_map(|(color, rule)| Fill { color, rule });
-    let outline = (line(has_pixels), mode).prop_map(|(line, mode)| Outline { line, mode });
-    (prop::option::of(fill), prop::option::of(outline), prop::option::of(line(has_pixels)))
+    let outline = (line(has_pixels, width.clone()), mode).prop_map(|(line, mode)| Outline { line, mode });
+    (prop::option::of(fill), prop::option::of(outline), prop::option::of(line(has_pixels, width)))
         .prop_map(|(fill, outline, line)| Style { fill, outline, line })
 }
 
@@ -233,7 +299,7 @@ fn mixed(has_pixels: bool) -> impl Strategy<Value = Layer> {
         prop::collection::vec(points(), 1..3).prop_map(Shape::Line),
     ];
     let features = prop::collection::vec((shape, 0..5u32), 3..9);
-    (prop::collection::vec(style(has_pixels), 5), features).prop_map(|(styles, features)| {
+    (prop::collection::vec(style(has_pixels, 2.0..40.0), 5), features).prop_map(|(styles, features)| {
         let features = features.into_iter().enumerate();
         let features = features.map(|(index, (shape, style))| Feature { index, style, shape }).collect();
         Layer { name: "mixed".into(), styles, features }
@@ -266,10 +332,14 @@ fn told(frame: &Frame) -> (Vec<String>, Vec<(&'static str, u64)>) {
 const HILLS: &str = r#"kind = "fbm", seed = 6, posts = [17, 17], cell_m = 40.0, height_m = 120.0"#;
 const CAMERA: &str = "eye = [60, -520, 420], target = [0, -20, 30]";
 
+/// Hills seen at a slant.
+fn slanted() -> String {
+    scene(HILLS, CAMERA, "").replace("width = 96, height = 64", "width = 48, height = 32")
+}
+
 /// Whether two stages have the same pictures by truth, supersampling and the techniques.
 fn assert_same(layer: &Layer, technique: &TechniqueSettings, kinds: &[Kind]) {
-    let text = scene(HILLS, CAMERA, "").replace("width = 96, height = 64", "width = 48, height = 32");
-    let stages = [vec![layer.clone()], split(layer)].map(|layers| stage_of(&text, layers, technique));
+    let stages = [vec![layer.clone()], split(layer)].map(|layers| stage_of(&slanted(), layers, technique));
     for kind in kinds {
         let frames = stages.each_ref().map(|stage| {
             let names: Vec<&str> = kind.declaration().planes.iter().map(|plane| plane.name).collect();
@@ -281,9 +351,8 @@ fn assert_same(layer: &Layer, technique: &TechniqueSettings, kinds: &[Kind]) {
 
 /// The same by the truth and by supersampling.
 fn assert_same_truth(layer: &Layer) {
-    let text = scene(HILLS, CAMERA, "").replace("width = 96, height = 64", "width = 48, height = 32");
     let [mixed, split] = [vec![layer.clone()], split(layer)].map(|layers| {
-        let stage = stage_of(&text, layers, &TechniqueSettings::default());
+        let stage = stage_of(&slanted(), layers, &TechniqueSettings::default());
         let view = stage.view().unwrap();
         let budget = Budget { coverage: true, ..Budget::default() };
         let truth = truth::certify(&stage, &view, &budget, &|_| {});
@@ -292,6 +361,16 @@ fn assert_same_truth(layer: &Layer) {
     assert_eq!((&mixed.0.low, &mixed.0.high), (&split.0.low, &split.0.high));
     assert_eq!((&mixed.0.estimate, &mixed.0.coverage), (&split.0.estimate, &split.0.coverage));
     assert_eq!(mixed.1, split.1, "supersampling");
+}
+
+/// Settings of stencil volumes and inverse projection: as they are, and all else.
+fn settings() -> [TechniqueSettings; 2] {
+    let mut other = TechniqueSettings::default();
+    other.stencil_volume.joins = VolumeJoins::Style;
+    other.stencil_volume.grouping = drapery::scene::Grouping::Color;
+    other.inverse_projection.point_in_polygon = drapery::scene::PointInPolygon::Winding;
+    other.clipmap.virtual_size = 512;
+    [TechniqueSettings::default(), other]
 }
 
 /// Settings of the clipmap: each of the solutions, drawn in different ways.
@@ -307,16 +386,20 @@ fn clipmaps() -> impl Iterator<Item = TechniqueSettings> {
     ways.into_iter().map(|(solution, polygons, joints, overlaps)| {
         let mut technique = TechniqueSettings::default();
         let defaults = clipmap::Settings::default();
-        technique.set(clipmap::Settings {
-            virtual_size: 512,
-            solution,
-            polygons,
-            joints,
-            overlaps,
-            ..defaults
-        });
+        technique.set(clipmap::Settings { virtual_size: 512, solution, polygons, joints, overlaps, ..defaults });
         technique
     })
+}
+
+/// Whether strips that are stored are drawn as those that are made for each tile, whatever is stored of other items.
+fn assert_stored_as_made(layer: &Layer) {
+    let image = |solution| {
+        let mut technique = TechniqueSettings::default();
+        let settings = clipmap::Settings { virtual_size: 512, solution, ..Default::default() };
+        technique.set(settings);
+        frame_of(Kind::Clipmap, &stage_of(&slanted(), vec![layer.clone()], &technique), &[]).image
+    };
+    assert!(image(Solution::Both) == image(Solution::Adjacency));
 }
 
 proptest! {
@@ -324,23 +407,24 @@ proptest! {
     #[test]
     fn a_layer_of_many_styles_is_drawn_as_layers_of_one_style_each(layer in mixed(false)) {
         assert_same_truth(&layer);
-        let mut technique = TechniqueSettings::default();
-        assert_same(&layer, &technique, &[Kind::StencilVolume, Kind::InverseProjection]);
-        technique.set(stencil_volume::Settings {
-            joins: VolumeJoins::Style,
-            grouping: Grouping::Color,
-            ..Default::default()
-        });
-        technique.set(inverse_projection::Settings {
-            point_in_polygon: inverse_projection::PointInPolygon::Winding,
-            ..Default::default()
-        });
-        assert_same(&layer, &technique, &[Kind::StencilVolume, Kind::InverseProjection]);
+        let kinds = [Kind::StencilVolume, Kind::InverseProjection];
+        settings().iter().for_each(|technique| assert_same(&layer, technique, &kinds));
     }
 
     #[test]
-    fn the_clipmap_and_the_truth_draw_them_so_with_widths_in_pixels_among_them(layer in mixed(true)) {
+    fn truth_and_clipmap_draw_it_so_with_widths_in_pixels_among_them(layer in mixed(true)) {
         assert_same_truth(&layer);
         clipmaps().for_each(|technique| assert_same(&layer, &technique, &[Kind::Clipmap]));
+        assert_stored_as_made(&layer);
+    }
+
+    #[test]
+    fn a_feature_among_those_of_other_styles_is_drawn_as_it_is_alone(layer in scattered(false)) {
+        settings().iter().for_each(|technique| assert_each_as_alone(&layer, technique, &Kind::ALL));
+    }
+
+    #[test]
+    fn so_does_every_solution_of_the_clipmap_with_widths_in_pixels_among_them(layer in scattered(true)) {
+        clipmaps().for_each(|technique| assert_each_as_alone(&layer, &technique, &[Kind::Clipmap]));
     }
 }

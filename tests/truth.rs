@@ -690,6 +690,36 @@ fn overlapping_duplicates_are_composed_one_after_the_other() {
     assert_area(&truth_of(map(8, vec![twice])), 4.6 * 4.6, 1e-3);
 }
 
+#[test]
+fn a_crowd_of_many_colours_is_bounded_by_all_of_them() {
+    // White first, so that one colour alone would not do.
+    let color = |k: u32| match k % 4 {
+        0 => WHITE,
+        1 => Color([0.1, 0.9, 0.9, 0.9]),
+        2 => Color([0.9, 0.1, 0.9, 0.9]),
+        _ => Color([0.9, 0.9, 0.1, 0.9]),
+    };
+    let style = |k| Style { line: Some(Line { color: color(k), ..stroke(0.05) }), ..Style::default() };
+    let across = |k: u32| {
+        let y = f64::from(k) * 0.9 / 400.0 - 0.45;
+        Feature {
+            index: k as usize,
+            style: k % 8,
+            shape: Shape::Line(vec![plan(&[(-4.0, y), (4.0, y + 0.01)])]),
+        }
+    };
+    let features = (0..400).map(across).collect();
+    let crowd = Layer { name: "crowd".into(), styles: (0..8).map(style).collect(), features };
+    let stage = Stage::new(map(1, vec![crowd]), flat()).unwrap();
+    let by = |depth| certify(&stage, &stage.view().unwrap(), &Budget::new(1e-4, depth).unwrap(), &|_| {});
+    let (coarse, fine) = (by(0), by(16));
+    let [wide, narrow] = [&coarse, &fine].map(|truth| (truth.low.at(0, 0), truth.high.at(0, 0)));
+    for c in 0..3 {
+        assert!(wide.1[c] - wide.0[c] > 0.5, "nothing has been looked at: {wide:?}");
+        assert!(wide.0[c] <= narrow.0[c] && narrow.1[c] <= wide.1[c], "{narrow:?} is not in {wide:?}");
+    }
+}
+
 fn truth_of(scene: Scene) -> Truth {
     truth(&scene, flat(), 1e-6)
 }

@@ -13,7 +13,7 @@ use std::ops::Range;
 const FEATURES_AT_A_TIME: usize = 1024;
 
 /// Blocks that are in memory together.
-const BLOCKS_AT_A_TIME: usize = 64;
+const BLOCKS_AT_A_TIME: usize = 16;
 
 /// The most items, chains and vertices: twice an item's number, and what lies behind a chain's end, can be numbered too.
 const MOST: usize = u32::MAX as usize / 2;
