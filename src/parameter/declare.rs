@@ -2,7 +2,7 @@
 
 use super::{TableShape, Value};
 
-/// Settings of which each parameter is said once, by [`settings!`].
+/// Settings of which each parameter is said once, by `settings!`.
 pub trait Settings: Copy + Default + PartialEq {
     /// The name of the table of the scene file that holds them.
     const NAME: &'static str;
