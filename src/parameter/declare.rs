@@ -19,7 +19,7 @@ pub trait Settings: Copy + Default + PartialEq {
 /// A struct of settings, each parameter a row: what it means; where the paper speaks of it; name, type and default as in Rust; what its
 /// values look like, where that is narrower than the type.
 ///
-/// ```ignore
+/// ```text
 /// settings! {
 ///     /// Parameters of inverse projection.
 ///     pub struct Settings of "inverse-projection" {
