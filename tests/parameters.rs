@@ -27,7 +27,14 @@ fn parameters() -> Vec<(Kind, &'static Key)> {
 /// Values of a shape, its extremes among them; numbers are large enough for a cache of tiles.
 fn examples(shape: &Shape) -> Vec<Value> {
     match shape {
-        Shape::Choice(names) => names().into_iter().map(Value::Word).collect(),
+        Shape::Choice(names) => {
+            assert_eq!(
+                names().into_iter().collect::<BTreeSet<_>>().len(),
+                names().len(),
+                "a word is there twice"
+            );
+            names().into_iter().map(Value::Word).collect()
+        }
         Shape::Integer(low, high) => [*low, (low + high) / 2, *high].map(Value::Integer).to_vec(),
         Shape::IntegerOf(numbers) => numbers.iter().copied().map(Value::Integer).collect(),
         Shape::Number(range) => {

@@ -11,8 +11,8 @@ use drapery::export::{LAYOUT, Parameters, TilePicture, tiles, triangles, vertice
 use drapery::output::{Batch, Npy, RESULT_SCHEMA, RenderResult, write_png};
 use drapery::scene::{Ground, Imagery};
 use drapery::stage::Stage;
-use drapery::technique::clipmap::{Settings, TILE_TEXELS};
-use drapery::technique::{self, Frame, Kind};
+use drapery::technique::clipmap::TILE_TEXELS;
+use drapery::technique::{self, Frame, Kind, clipmap};
 use drapery::truth::Budget;
 use drapery::{Error, Result, parallel};
 use std::path::PathBuf;
@@ -112,7 +112,7 @@ fn stage_scene(stage: &Stage, batch: &mut Batch) -> Result<()> {
 /// The tiles of a frame that has such.
 fn tiles_of(frame: &Frame, stage: &Stage) -> Vec<TilePicture> {
     let plane = |name: &str| frame.planes.iter().find(|plane| plane.name == name);
-    let size = stage.scene.technique.get::<Settings>().virtual_size;
+    let size = stage.scene.technique.get::<clipmap::Settings>().virtual_size;
     match (plane("tiles"), plane("tile-keys")) {
         (Some(pictures), Some(keys)) => tiles(pictures, keys, size, TILE_TEXELS),
         _ => Vec::new(),

@@ -2,7 +2,7 @@
 
 use super::{TableShape, Value};
 
-/// Settings of which each parameter is said once, by [`settings!`].
+/// Settings of which each parameter is said once, by `settings!`.
 pub trait Settings: Copy + Default + PartialEq {
     /// The name of the table of the scene file that holds them.
     const NAME: &'static str;
@@ -16,20 +16,20 @@ pub trait Settings: Copy + Default + PartialEq {
     fn values(&self) -> Vec<(&'static str, Value)>;
 }
 
-/// A struct of settings, each parameter a row: what it means; where the paper speaks of it; name, type and default as in Rust; what its values
-/// look like, if that is narrower than the type.
+/// A struct of settings, each parameter a row: what it means; where the paper speaks of it; name, type and default as in Rust; what its
+/// values look like, where that is narrower than the type.
 ///
-/// ```ignore
+/// ```text
 /// settings! {
-///     /// Parameters of stencil volumes.
-///     pub struct Settings of "stencil-volume" {
-///         /// n: n x n samples a pixel.
-///         "Schneider & Klein 5" samples: u32 = 1, Shape::Integer(1, 16);
+///     /// Parameters of inverse projection.
+///     pub struct Settings of "inverse-projection" {
+///         /// n: n x n samples in each P pixel.
+///         "She 3.4" samples: u32 = 3, Shape::Integer(1, 64);
 ///     }
 /// }
 /// ```
 ///
-/// makes `struct Settings { pub samples: u32 }`, its `Default` and its [`Settings`].
+/// makes `struct Settings { pub samples: u32 }`, its `Default` and its [`Settings`]: the table of keys, and the way from and to plain values.
 macro_rules! settings {
     (
         $(#[$about:meta])*
@@ -49,44 +49,45 @@ macro_rules! settings {
             }
         }
 
-        impl $crate::parameter::Settings for $name {
-            const NAME: &'static str = $table;
-            const TABLE: &'static $crate::parameter::TableShape = &$crate::parameter::TableShape {
-                keys: &[$($crate::parameter::Key {
-                    name: stringify!($field),
-                    shape: $crate::parameter::settings!(@shape $type $(, $shape)?),
-                    required: false,
-                    doc: concat!($($doc),+).trim_ascii(),
-                    section: [$(Some($section),)? None][0],
-                    default: Some(|| {
-                        let shape = $crate::parameter::settings!(@shape $type $(, $shape)?);
-                        $crate::parameter::Setting::to_value(&Self::default().$field, &shape)
-                    }),
-                }),+],
-                rules: &[],
-            };
+        const _: () = {
+            use $crate::parameter::{self, Setting as _};
 
-            fn from_values(said: &dyn Fn(&str) -> Option<$crate::parameter::Value>) -> Self {
-                let mut settings = Self::default();
-                $(
-                    let shape = $crate::parameter::settings!(@shape $type $(, $shape)?);
-                    let value = said(stringify!($field));
-                    if let Some(value) = value.and_then(|value| $crate::parameter::Setting::from_value(&value, &shape)) {
-                        settings.$field = value;
-                    }
-                )+
-                settings
-            }
+            impl parameter::Settings for $name {
+                const NAME: &'static str = $table;
+                const TABLE: &'static parameter::TableShape = &parameter::TableShape {
+                    keys: &[$(parameter::Key {
+                        name: stringify!($field),
+                        shape: parameter::settings!(@shape $type $(, $shape)?),
+                        required: false,
+                        doc: concat!($($doc),+).trim_ascii(),
+                        section: [$(Some($section),)? None][0],
+                        default: Some(|| {
+                            Self::default().$field.to_value(&parameter::settings!(@shape $type $(, $shape)?))
+                        }),
+                    }),+],
+                    rules: &[],
+                };
 
-            fn values(&self) -> Vec<(&'static str, $crate::parameter::Value)> {
-                vec![$({
-                    let shape = $crate::parameter::settings!(@shape $type $(, $shape)?);
-                    (stringify!($field), $crate::parameter::Setting::to_value(&self.$field, &shape))
-                }),+]
+                fn from_values(said: &dyn Fn(&str) -> Option<parameter::Value>) -> Self {
+                    let mut settings = Self::default();
+                    $(if let Some(value) = said(stringify!($field)) {
+                        let shape = parameter::settings!(@shape $type $(, $shape)?);
+                        settings.$field = <$type>::from_value(&value, &shape).unwrap_or(settings.$field);
+                    })+
+                    settings
+                }
+
+                fn values(&self) -> Vec<(&'static str, parameter::Value)> {
+                    vec![$((
+                        stringify!($field),
+                        self.$field.to_value(&parameter::settings!(@shape $type $(, $shape)?)),
+                    )),+]
+                }
             }
-        }
+        };
     };
-    (@shape $type:ty) => { <$type as $crate::parameter::Setting>::SHAPE };
+    // What values look like: as the row says, else as the type does.
+    (@shape $type:ty) => { <$type as parameter::Setting>::SHAPE };
     (@shape $type:ty, $shape:expr) => { $shape };
 }
 pub(crate) use settings;

@@ -1,8 +1,8 @@
 //! The parameters that a person can set, each said once: name, type, default, range, what it means, where the paper speaks of it.
 //!
-//! Input: nothing (declarations). Output: of each declaration by [`settings!`] a struct, whose fields code reads (`settings.samples`), and
+//! Input: nothing (declarations). Output: of each declaration by `settings!` a struct, whose fields code reads (`settings.samples`), and
 //! its [`Settings`]: the table of keys ([`TableShape`]) that the scene file's check, its JSON Schema and its suggestions read, and the way
-//! from and to plain values ([`Value`]), which scene files and `result.json` hold. A [`words!`] enum is said with its words. It refuses
+//! from and to plain values ([`Value`]), which scene files and `result.json` hold. A `words!` enum is said with its words. It refuses
 //! nothing itself: `scene_file` does, by the table.
 
 mod declare;

@@ -18,7 +18,7 @@ pub trait Named: Copy + PartialEq + 'static {
 
 /// An enum whose values are written as words:
 ///
-/// ```ignore
+/// ```text
 /// words! {
 ///     /// Which caps volumes have.
 ///     pub enum VolumeCaps {

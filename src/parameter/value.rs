@@ -118,3 +118,33 @@ impl<T: Setting> Setting for Option<T> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_value_is_written_as_json_and_whole_numbers_without_a_point() {
+        let values = [
+            Value::Word("4a-adjacency"),
+            Value::Integer(-3),
+            Value::Number(1024.0),
+            Value::Number(-0.25),
+            Value::Number(1e300),
+            Value::Numbers(vec![10.0, 20.5]),
+        ];
+        let texts = values.map(|value| value.to_string());
+        assert_eq!(texts, ["\"4a-adjacency\"", "-3", "1024", "-0.25", "1e300", "[10,20.5]"]);
+    }
+
+    #[test]
+    fn what_may_be_absent_has_a_word() {
+        const SHAPE: Shape = Shape::Or("all", &Shape::Integer(0, 9));
+        assert_eq!(None::<u32>.to_value(&SHAPE), Value::Word("all"));
+        assert_eq!(Some(7).to_value(&SHAPE), Value::Integer(7));
+        assert_eq!(Option::<u32>::from_value(&Value::Word("all"), &SHAPE), Some(None));
+        assert_eq!(Option::<u32>::from_value(&Value::Integer(7), &SHAPE), Some(Some(7)));
+        assert_eq!(Option::<u32>::from_value(&Value::Word("some"), &SHAPE), None);
+        assert_eq!(Option::<u32>::from_value(&Value::Integer(-1), &SHAPE), None);
+    }
+}

@@ -131,8 +131,8 @@ impl Check<'_> {
             (Shape::Integer(SCHEMA, SCHEMA), Value::Integer(_)) => {
                 error.help(format!("this program reads schema {SCHEMA}; another needs another version of it"))
             }
-            (Shape::Choice(names), Value::Text(text)) => suggest::nearest(text, &names())
-                .map_or(error.clone(), |near| error.help(format!("did you mean {near:?}?"))),
+            (Shape::Choice(names), Value::Text(text)) => with_nearest(error, text, &names()),
+            (Shape::Or(word, _), Value::Text(text)) => with_nearest(error, text, &[*word]),
             (Shape::Choice(names), Value::Flag(flag)) if names().contains(&flag.to_string().as_str()) => {
                 error.help("put it in quotes")
             }
@@ -149,6 +149,14 @@ impl Check<'_> {
 
     fn path_of(&self, key: &str) -> String {
         if self.path.is_empty() { key.into() } else { format!("{}.{key}", self.path) }
+    }
+}
+
+/// An error of a word that is not known, with the one that was most likely meant.
+fn with_nearest(error: Error, text: &str, known: &[&str]) -> Error {
+    match suggest::nearest(text, known) {
+        Some(near) => error.help(format!("did you mean {near:?}?")),
+        None => error,
     }
 }
 

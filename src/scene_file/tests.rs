@@ -309,6 +309,17 @@ fn a_wrong_type_says_what_was_expected_and_found() {
         ),
         ("camera.up = 2026-01-01", "found a date"),
         ("camera.projection = \"ortographic\"", "did you mean \"orthographic\"?"),
+        (
+            "technique.clipmap.center = \"automtic\"",
+            "3:28: `technique.clipmap.center` must be an array of 2 finite numbers or \"automatic\"; found the string \"automtic\"\n  \
+             help: did you mean \"automatic\"?",
+        ),
+        ("technique.clipmap.center = [1, 2, 3]", "must be an array of 2 finite numbers; found an array of 3"),
+        (
+            "technique.stencil-volume.object = -1",
+            "must be a whole number from 0 to 4294967295 or \"all\"; found -1",
+        ),
+        ("technique.inverse-projection.corners = true", "or \"true\"; found true\n  help: put it in quotes"),
         ("image.background = \"white\"", "must be a colour \"#rrggbb\" or \"#rrggbbaa\""),
     ] {
         let error = refusal(lines);
