@@ -13,6 +13,8 @@
 //! Plan and world coordinates in memory are relative to the scene's origin (see [`crate::scene::Scene::origin`]),
 //! so that coordinates of UTM or ECEF size lose nothing.
 //!
+//! Between view and screen lies [`Clip`] space, homogeneous and in the numbers of the machine that is imitated.
+//!
 //! Points of two spaces do not subtract:
 //! ```compile_fail
 //! use drapery::space::{Plan, Screen};
@@ -24,9 +26,11 @@
 //! let _ = Plan::new(0.0, 0.0) + Plan::new(1.0, 1.0);
 //! ```
 
+mod clip;
 mod small_box;
 mod view;
 
+pub use clip::Clip;
 pub use small_box::SmallBox;
 pub use view::{Lens, Ray, ViewFrame, Viewpoint};
 

@@ -27,9 +27,9 @@ pub use scan::{Primitive, Window};
 
 use super::{Lattice, Samples};
 use crate::scene::Device;
-use crate::space::{Lens, Screen, ViewFrame, World};
+use crate::space::{Clip, Lens, Screen, ViewFrame, World};
 use crate::terrain::Mesh;
-use clip::{Clip, Volume};
+use clip::Volume;
 use matrix::{Matrix, Projection};
 use std::ops::Range;
 
@@ -76,7 +76,7 @@ impl<T: Real> Pipeline<T> {
             let Some(corners) = mesh.triangle(id) else {
                 continue;
             };
-            let corners = corners.map(|p| self.clip_from_world.times(homogeneous(p)));
+            let corners = corners.map(|p| self.clip(p));
             self.volume.clip(&corners, false, |triangle| {
                 let primitive = Primitive { id, corners: triangle.map(|c| self.screen_from_clip(c)) };
                 if primitive.window(lattice).is_some() {
@@ -97,11 +97,11 @@ impl<T: Real> Pipeline<T> {
         (lattice, window): (&Lattice, &Window),
         visit: &mut dyn FnMut((usize, usize), i32, f32),
     ) {
-        let corners = triangle.map(|p| self.clip_from_world.times(homogeneous(p)));
+        let corners = triangle.map(|p| self.clip(p));
         self.volume.clip(&corners, is_clamped, |triangle| {
-            let corners = triangle.map(|[x, y, z, w]| {
-                let [x, y, _] = self.screen_from_clip([x, y, z, w]);
-                [x, y, z / w]
+            let corners = triangle.map(|corner| {
+                let [x, y, _] = self.screen_from_clip(corner);
+                [x, y, corner.z / corner.w]
             });
             let primitive = Primitive { id: 0, corners };
             let mut store = |at, facing, depth| visit(at, facing, self.depth.store(depth));
@@ -118,8 +118,13 @@ impl<T: Real> Pipeline<T> {
         self.depth
     }
 
+    /// A point of the world in clip space.
+    fn clip(&self, p: World) -> Clip<T> {
+        Clip::from_array(self.clip_from_world.times([T::of(p.x), T::of(p.y), T::of(p.z), T::of(1.0)]))
+    }
+
     /// Perspective division, viewport transform and snapping; depth stays as the division left it, within 0..=1.
-    fn screen_from_clip(&self, [x, y, z, w]: Clip<T>) -> [T; 3] {
+    fn screen_from_clip(&self, Clip { x, y, z, w }: Clip<T>) -> [T; 3] {
         let [half_width, half_height] = self.half;
         [
             self.snapped(half_width + x / w * half_width),
@@ -162,16 +167,13 @@ impl<T: Real> Pipeline<T> {
         let one = T::of(1.0);
         let [half_width, half_height] = self.half;
         let z = self.depth.load(stored);
-        let ndc = [T::of(at.x) / half_width - one, one - T::of(at.y) / half_height, z, one];
-        let [x, y, up, w] = self.world_from_clip.times(ndc);
+        let divided =
+            Clip { x: T::of(at.x) / half_width - one, y: one - T::of(at.y) / half_height, z, w: one };
+        let [x, y, up, w] = self.world_from_clip.times(divided.to_array());
         let point = World::new((x / w).get(), (y / w).get(), (up / w).get());
         let depth = self.projection.view_depth(z, self.is_parallel).get();
         (point.is_finite() && depth.is_finite() && depth > 0.0).then_some((point, depth))
     }
-}
-
-fn homogeneous<T: Real>(p: World) -> Clip<T> {
-    [T::of(p.x), T::of(p.y), T::of(p.z), T::of(1.0)]
 }
 
 /// Rows of the matrix from scene-local points to a machine's clip space, in double precision.
