@@ -97,7 +97,7 @@ fn stage_scene(stage: &Stage, batch: &mut Batch) -> Result<()> {
         let table = Npy::new(&table)?;
         batch.stage(&name, |to| table.write(to))?;
     }
-    batch.stage("features.geojson", |to| write_features(&scene.layers, scene.origin, to))?;
+    batch.stage("features.geojson", |to| write_features(&scene.layers, scene.origin.truncate(), to))?;
     if let Ground::Imagery(Imagery { texels, .. }) = &scene.ground {
         let codes = texels.values().iter().map(|color| color.0.map(|v| (v * 255.0 + 0.5) as u8));
         let picture = Buffer::from_values(texels.width(), texels.height(), codes.collect());

@@ -161,7 +161,7 @@ point_2d! {
     Texel
 }
 point_3d! {
-    /// Plan and height in metres, z up, relative to the scene's origin (heights are absolute).
+    /// Plan and height in metres, z up, relative to the scene's origin.
     World
 }
 point_3d! {

@@ -102,7 +102,7 @@ impl Drawing<'_> {
         let file = |extension: &str| format!("{technique}.{}.{extension}", plane.name);
         let checked = Npy::new(plane)?;
         if IN_PLAN.contains(&plane.name) {
-            let moved = absolute(plane, self.stage.scene.origin);
+            let moved = absolute(plane, self.stage.scene.origin.truncate());
             let moved = Npy::new(&moved)?;
             self.batch.stage(&file("npy"), |to| moved.write(to))?;
         } else {

@@ -21,6 +21,8 @@ pub(super) enum Shape {
     Number(Range),
     /// So many finite numbers.
     Numbers(usize),
+    /// Two finite numbers, or three.
+    PairOrTriple,
     /// One list of points `[[x, y], ...]`, or a list of such lists.
     Paths,
     /// A table.
@@ -115,6 +117,7 @@ impl Shape {
             }
             Shape::Number(range) => range.words(),
             Shape::Numbers(count) => format!("an array of {count} finite numbers"),
+            Shape::PairOrTriple => "an array of 2 or 3 finite numbers".into(),
             Shape::Paths => "a list of points [[x, y], ...] or a list of such lists".into(),
             Shape::Table(_) => "a table".into(),
             Shape::Tables(_) => "an array of tables".into(),
