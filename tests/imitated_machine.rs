@@ -281,7 +281,7 @@ fn assert_sound(frame: &ViewFrame, mesh: &Mesh, what: &str) {
             let id = sight.triangle(c, r);
             assert!(id == SKY || id < mesh.triangle_ids(), "{what}: {device:?}");
             if let Some(hit) = sight.hit(c, r) {
-                let is_sound = hit.plan.is_finite() && hit.height.is_finite() && hit.depth > 0.0;
+                let is_sound = hit.plan.is_finite() && hit.world.is_finite() && hit.depth > 0.0;
                 assert!(is_sound && id != SKY, "{what}: {device:?} {hit:?}");
             }
         }
@@ -347,9 +347,9 @@ fn worst_plan_point(frame: &ViewFrame, mesh: &Mesh, device: &Device) -> f64 {
         let (Some(truth), true) = (exact.hit(c, r), exact.triangle(c, r) == *id) else {
             continue;
         };
-        let hit: Hit = machine.hit(lattice.at(c, r), keys[k]).unwrap();
+        let hit: Hit = machine.hit(lattice.at(c, r), keys[k], &mesh.surface_triangle(*id).unwrap()).unwrap();
         let off = ((hit.plan - truth.plan).length()
-            + (hit.height - truth.height).abs()
+            + (hit.world.z - truth.world.z).abs()
             + (hit.depth - truth.depth).abs())
             / truth.depth;
         worst = if off > worst { off } else { worst };

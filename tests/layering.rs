@@ -37,7 +37,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ),
     ("output", &["buffer"]),
     ("interval", &[]),
-    ("footprint", &["scene", "space", "interval", "predicate", "parallel"]),
+    ("footprint", &["terrain", "scene", "space", "interval", "predicate", "parallel"]),
     // No technique, and nothing that decides for one: neither `raster` nor `visibility`.
     (
         "truth",

@@ -7,11 +7,14 @@ use super::render::techniques::{self, Buffers, Name};
 use super::scene_input::SceneInput;
 use super::stop::{Outcome, Status};
 use drapery::buffer::Buffer;
-use drapery::export::{LAYOUT, Parameters, TilePicture, tiles, triangles, vertices, write_features};
+use drapery::export::{
+    LAYOUT, Parameters, TilePicture, plan_points, tiles, triangles, vertices, write_features,
+};
 use drapery::output::{Batch, Npy, RESULT_SCHEMA, RenderResult, write_png};
-use drapery::scene::{Ground, Imagery, TILE_TEXELS};
+use drapery::scene::{Ground, Imagery, Scene, TILE_TEXELS};
 use drapery::stage::Stage;
 use drapery::technique::{self, Frame, Kind};
+use drapery::terrain::Mesh;
 use drapery::truth::Budget;
 use drapery::{Error, Result, parallel};
 use std::path::PathBuf;
@@ -75,9 +78,10 @@ fn export(input: &SceneInput, (kind, budget): (Kind, &Budget), mut batch: Batch,
     for TilePicture { name, picture } in tiles_of(&frame, &stage) {
         batch.stage(&format!("tiles/{name}.png"), |to| write_png(&picture, to))?;
     }
-    stage_scene(&stage, &mut batch)?;
+    let mesh = stage.mesh_for(&view);
+    stage_scene((&stage.scene, &mesh), &mut batch)?;
     let settings = (kind.name(), run.parameters.clone(), run.device.clone());
-    let parameters = Parameters::new((&stage.scene, &stage.mesh, &view), settings).to_json()?;
+    let parameters = Parameters::new((&stage.scene, &mesh, &view), settings).to_json()?;
     let scene = scene_result(&stage, &input.file);
     let notes = stage.scene.notes.clone();
     let result = RenderResult { schema: RESULT_SCHEMA, scene, notes, runs: vec![truth, run] }.to_json()?;
@@ -90,9 +94,8 @@ fn export(input: &SceneInput, (kind, budget): (Kind, &Budget), mut batch: Batch,
 }
 
 /// What is drawn: mesh, features, imagery.
-fn stage_scene(stage: &Stage, batch: &mut Batch) -> Result<()> {
-    let scene = &stage.scene;
-    for table in [vertices(&stage.mesh), triangles(&stage.mesh)] {
+fn stage_scene((scene, mesh): (&Scene, &Mesh), batch: &mut Batch) -> Result<()> {
+    for table in [vertices(mesh), triangles(mesh)].into_iter().chain(plan_points(mesh)) {
         let name = format!("mesh.{}.npy", table.name);
         let table = Npy::new(&table)?;
         batch.stage(&name, |to| table.write(to))?;

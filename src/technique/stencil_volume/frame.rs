@@ -14,7 +14,7 @@ use crate::scene::{FarPlane, Overflow, Rule, StencilVolume, VolumeCaps};
 use crate::space::{Plan, ViewFrame};
 use crate::stage::Stage;
 use crate::technique::{Frame, FrameOptions};
-use crate::terrain::SKY;
+use crate::terrain::{Mesh, SKY};
 use crate::visibility::Sight;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -23,7 +23,8 @@ const MOST: usize = 512;
 
 /// Draws a frame of a view.
 pub fn draw((stage, view): (&Stage, &ViewFrame), extrusion: &Extrusion, options: &FrameOptions) -> Frame {
-    let drawing = Drawing::new((stage, view), extrusion, options);
+    let mesh = &*stage.mesh_for(view);
+    let drawing = Drawing::new((stage, view), mesh, extrusion, options);
     (options.progress)(0.3);
     let n = drawing.settings.samples as usize;
     let side = options.tile.clamp(1, MOST / n) * n;
@@ -60,6 +61,8 @@ fn bins(entries: &[Entry], lattice: &Lattice, side: usize) -> Vec<Vec<Entry>> {
 pub struct Drawing<'a> {
     /// The scene.
     pub stage: &'a Stage,
+    /// The terrain that the view shows.
+    pub mesh: &'a Mesh,
     /// From where it is seen.
     pub view: &'a ViewFrame,
     /// The parameters.
@@ -105,13 +108,14 @@ struct SampleTraces {
 impl<'a> Drawing<'a> {
     fn new(
         (stage, view): (&'a Stage, &'a ViewFrame),
+        mesh: &'a Mesh,
         extrusion: &'a Extrusion,
         options: &FrameOptions,
     ) -> Self {
         let settings = stage.scene.technique.stencil_volume;
         let lattice = lattice(view, settings.samples);
         let device = &stage.scene.device;
-        let mut sight = Sight::new(view, &stage.mesh, device, lattice, options.tile);
+        let mut sight = Sight::new(view, mesh, device, lattice, options.tile);
         sight.see();
         let compositor = Compositor::new(stage.scene.compositing);
         let looks = Looks::new((stage, view), &lattice, &settings, extrusion);
@@ -128,6 +132,7 @@ impl<'a> Drawing<'a> {
         };
         Self {
             stage,
+            mesh,
             view,
             settings,
             extrusion,
@@ -138,7 +143,7 @@ impl<'a> Drawing<'a> {
             arch: pulp::Arch::new(),
             lattice,
             looks,
-            ground: GroundPaint::new(&stage.scene.ground, &stage.mesh, compositor),
+            ground: GroundPaint::new(&stage.scene.ground, mesh, compositor),
             sky: compositor.paint(stage.scene.image.background),
             paints: extrusion.objects.iter().map(|o| compositor.paint(o.color)).collect(),
             wants_colors: wants("color"),
