@@ -7,7 +7,7 @@ use drapery::buffer::{Plane, Values};
 use drapery::compare::Image;
 use drapery::math;
 use drapery::sampling::sample;
-use drapery::scene::{Camera, Color, Scene, Shape, Width};
+use drapery::scene::{Camera, Color, Corners, InverseProjection, Scene, Shape, Width};
 use drapery::space::{Plan, Screen, ViewFrame, World};
 use drapery::stage::Stage;
 use drapery::technique::{self, Frame, Kind};
@@ -137,7 +137,7 @@ fn techniques_draw_the_same_picture_however_the_world_is_turned() {
             let names = ["triangle", "depth", "plan", "color"];
             let [a, b] = [&still, &moved].map(|stage| drawing::frame_of(kind, stage, &names));
             assert_eq!(plane(&a, "triangle").values, plane(&b, "triangle").values, "{kind:?}, {turn}");
-            for (name, most) in [("depth", 1e-8), ("plan", 1e-7), ("color", 1e-8)] {
+            for (name, most) in [("depth", 1e-9), ("plan", 1e-9), ("color", 1e-10)] {
                 let off = difference(doubles(&a, name), doubles(&b, name));
                 assert!(off < most, "{kind:?}, {turn}, {name}: {off}");
             }
@@ -187,27 +187,24 @@ fn supersampling_of_widths_in_pixels_is_the_same_however_the_world_is_turned() {
 
 #[test]
 fn an_imitated_machine_interpolates_the_plan_points_that_it_would_find_by_a_matrix() {
-    for (precision, most) in [("f64", 1e-6), ("f32", 2e-3)] {
-        let precision = format!("device.precision={precision}");
-        let still = hills(LAYERS, &[&MACHINE[..], &[precision.as_str()]].concat());
-        let moved = turned(&still, turns()[2]);
-        let names = ["triangle", "depth", "plan"];
-        let [a, b] = [&still, &moved].map(|stage| drawing::frame_of(Kind::InverseProjection, stage, &names));
-        let triangles = [&a, &b].map(|frame| match &plane(frame, "triangle").values {
-            Values::U32(ids) => ids.clone(),
-            other => panic!("{other:?}"),
-        });
-        let mut compared = 0;
-        for (k, depth) in doubles(&a, "depth").iter().enumerate().filter(|(_, depth)| depth.is_finite()) {
-            // Snapping may give a sample beside an edge to the neighbour.
-            if triangles[0][k] == triangles[1][k] {
-                let off = difference(&doubles(&a, "plan")[2 * k..][..2], &doubles(&b, "plan")[2 * k..][..2]);
-                assert!(off < most * depth, "{precision}, pixel {k}: {off} at {depth}");
-                compared += 1;
-            }
+    let still = hills(LAYERS, &["device.precision=f32"]);
+    let moved = turned(&still, turns()[2]);
+    let names = ["triangle", "depth", "plan"];
+    let [a, b] = [&still, &moved].map(|stage| drawing::frame_of(Kind::InverseProjection, stage, &names));
+    let triangles = [&a, &b].map(|frame| match &plane(frame, "triangle").values {
+        Values::U32(ids) => ids.clone(),
+        other => panic!("{other:?}"),
+    });
+    let mut compared = 0;
+    for (k, depth) in doubles(&a, "depth").iter().enumerate().filter(|(_, depth)| depth.is_finite()) {
+        // Rounding may give a sample beside an edge to the neighbour.
+        if triangles[0][k] == triangles[1][k] {
+            let off = difference(&doubles(&a, "plan")[2 * k..][..2], &doubles(&b, "plan")[2 * k..][..2]);
+            assert!(off < 2e-5 * depth, "pixel {k}: {off} at {depth}");
+            compared += 1;
         }
-        assert!(compared > 4000, "{compared}");
     }
+    assert!(compared > 3500, "{compared}");
 }
 
 #[test]
@@ -394,9 +391,11 @@ fn on_a_cap_of_a_sphere_more_samples_come_nearer_to_the_truth_and_techniques_nea
     };
     let [one, four, sixteen] = [1, 4, 16].map(|n| rmse(&stage, supersampled(&stage, n)));
     assert!(one > 0.02 && four < 0.3 * one && sixteen < 0.2 * four, "{one} {four} {sixteen}");
-    // Widths in pixels are none of inverse projection's.
+    // Widths in pixels are none of inverse projection's, and the paper's quadrilateral is shifted.
     stage.scene.layers.pop();
-    for (kind, most) in [(Kind::InverseProjection, 0.05), (Kind::Clipmap, 0.08)] {
+    stage.scene.technique.inverse_projection =
+        InverseProjection { corners: Corners::True, samples: 5, ..InverseProjection::default() };
+    for (kind, most) in [(Kind::InverseProjection, 0.03), (Kind::Clipmap, 0.03)] {
         let frame = drawing::frame_of(kind, &stage, &["color"]);
         let rmse = rmse(&stage, doubles(&frame, "color").to_vec());
         assert!(rmse < most, "{kind:?}: {rmse}");

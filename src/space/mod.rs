@@ -174,7 +174,7 @@ point_2d! {
 }
 
 impl World {
-    /// The plan point below (draping is vertical).
+    /// The plan point straight below: that of a surface point where draping is vertical (see [`crate::terrain::Drape`]).
     #[inline(always)]
     pub const fn plan(self) -> Plan {
         Plan::new(self.x, self.y)
@@ -182,7 +182,7 @@ impl World {
 }
 
 impl From<World> for Plan {
-    /// The plan point below.
+    /// The plan point straight below.
     #[inline(always)]
     fn from(p: World) -> Self {
         p.plan()

@@ -273,6 +273,7 @@ fn levels_of<B>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::terrain::{Leaf, Mesh};
 
     #[test]
     fn four_corners_and_a_middle_make_four_triangles() {
@@ -283,6 +284,44 @@ mod tests {
             let [a, b, c] = tin.triangle(t);
             assert!(crate::predicate::orient2d(a.plan(), b.plan(), c.plan()) > 0.0);
         }
+    }
+
+    #[test]
+    fn every_triangle_lies_in_the_boxes_of_its_ancestors_in_the_world_and_in_the_plan() {
+        let n = 31u32;
+        let at = |k: u32| (f64::from(k % n), f64::from(k / n));
+        let vertices = (0..n * n).map(at).map(|(x, y)| SurfaceVertex {
+            world: World::new(y - 0.3 * x, (x * 7.0 + y * 3.0) % 5.0, 2.0 * x),
+            plan: Plan::new(100.0 + x * 0.5 - y, x + y * y / 9.0),
+            up: DVec3::Y,
+        });
+        let cells = (0..n * (n - 1)).filter(|k| k % n < n - 1);
+        let triangles = cells.flat_map(|k| [[k, k + 1, k + n], [k + 1, k + n + 1, k + n]]);
+        let mesh = Mesh::of_surface(vertices.collect(), triangles.collect()).unwrap();
+        assert_eq!((mesh.drape(), mesh.heights()), (Drape::Affine, None));
+        let mut looked_at = 0;
+        let mut stack = vec![(mesh.root(), mesh.root())];
+        while let Some((node, parent)) = stack.pop() {
+            let (plan, around) = (mesh.plan_of(node).unwrap(), mesh.plan_of(parent).unwrap());
+            assert!(around.contains(&plan));
+            if node.level > 0 {
+                mesh.for_each_child(node, |child| stack.push((child, node)));
+                continue;
+            }
+            let bounds = mesh.bounds(node).unwrap();
+            let Leaf::Triangles(ids) = mesh.leaf(node) else { panic!("no cells") };
+            for triangle in ids.filter_map(|id| mesh.surface_triangle(id)) {
+                assert!(plan.contains(&PlanBox::around(triangle.plan())));
+                for corner in triangle.world {
+                    let off = (corner - bounds.center).abs();
+                    assert!((0..3).all(|k| off[k] <= bounds.axes[k][k] * (1.0 + 1e-15)), "{corner:?}");
+                    let eye = World::new(-50.0, 3.0, 9.0);
+                    assert!((corner - eye).length() <= mesh.farthest_from(eye));
+                }
+                looked_at += 1;
+            }
+        }
+        assert_eq!(looked_at, 2 * 30 * 30);
     }
 
     #[test]

@@ -8,8 +8,8 @@ use super::facet::TileRays;
 use super::form::{BallForm, Form};
 use crate::footprint::HalfPlane;
 use crate::interval::Ball;
-use crate::space::{Plan, World};
-use crate::terrain::{SurfaceTriangle, TriangleDrape};
+use crate::space::Plan;
+use crate::terrain::SurfaceTriangle;
 use glam::{DVec2, DVec3};
 
 #[derive(Debug)]
@@ -23,13 +23,12 @@ pub(super) struct Draped {
 }
 
 impl Draped {
-    /// The map of a triangle with these corners and their plan points.
-    pub(super) fn new(rays: &TileRays, corners: [World; 3], plan: [Plan; 3]) -> Self {
-        let [a, b, c] = corners;
+    /// The map of a triangle.
+    pub(super) fn new(rays: &TileRays, triangle: &SurfaceTriangle) -> Self {
+        let [a, b, c] = triangle.world;
         let weights = [rays.edge(c, a), rays.edge(a, b)];
-        let drape = TriangleDrape::Affine { plan, up: DVec3::Z };
-        let steps = SurfaceTriangle { world: corners, drape }.world_from_plan();
-        Self { plan, weights, plain: weights.map(|weight| weight.plain(rays.span)), steps }
+        let plain = weights.map(|weight| weight.plain(rays.span));
+        Self { plan: triangle.plan(), weights, plain, steps: triangle.world_from_plan() }
     }
 
     /// The corners' plan points.

@@ -192,10 +192,8 @@ impl Facet {
         };
         let first = if low - margin > rays.near { low - margin } else { rays.near };
         let nearest = if rays.is_central { (1.0 / first) * (1.0 + DEPTH_SHARE) } else { -first };
-        let draped = match triangle.drape {
-            TriangleDrape::Vertical => None,
-            TriangleDrape::Affine { plan, .. } => Some(Box::new(Draped::new(rays, corners, plan))),
-        };
+        let is_vertical = triangle.drape == TriangleDrape::Vertical;
+        let draped = (!is_vertical).then(|| Box::new(Draped::new(rays, triangle)));
         Some(Self {
             id,
             corners,

@@ -451,9 +451,10 @@ fn violations(seed: u64, count: usize) -> Vec<String> {
                 }
                 let p = point_in(piece, &mut dice);
                 judged += 1;
-                let told = judge(&scene, &frame, &triangles, [x as f64 + p[0], y as f64 + p[1]], {
-                    (facet.map(|facet| work.facets[facet as usize].id), &claims)
-                });
+                let at = [x as f64 + p[0], y as f64 + p[1]];
+                let facet = facet.map(|facet| &work.facets[facet as usize]);
+                let claimed = facet.map(|facet| (facet.id, facet.hit(&work.rays, at)));
+                let told = judge(&scene, &frame, &triangles, at, (claimed, &claims));
                 if let Err(what) = told {
                     wrong.push(format!("seed {at_seed:#x}, pixel {x},{y}, {p:?}: {what}"));
                 }
@@ -469,13 +470,13 @@ fn judge(
     frame: &ViewFrame,
     triangles: &[(u32, SurfaceTriangle)],
     at: [f64; 2],
-    (claimed, claims): (Option<u32>, &[(u32, Option<bool>)]),
+    (claimed, claims): (Option<(u32, Hit)>, &[(u32, Option<bool>)]),
 ) -> Result<(), String> {
     let (from, along) = ray(frame, at);
     let near = triangles.iter().filter(|(_, t)| !passes_by(frame, at, &t.world));
     let hits = near.filter_map(|(id, t)| Some((*id, t, meet(&from, &along, &t.world, frame.near())?)));
     let hit = hits.min_by(|a, b| a.2.0.cmp(&b.2.0));
-    let (Some((id, triangle, (t, weights))), Some(claimed)) = (&hit, claimed) else {
+    let (Some((id, triangle, (t, weights))), Some((claimed, place))) = (&hit, claimed) else {
         let is_so = hit.is_none() && claimed.is_none();
         return if is_so { Ok(()) } else { Err(format!("sees {:?}, not {claimed:?}", hit.map(|h| h.0))) };
     };
@@ -490,6 +491,14 @@ fn judge(
         lean(a[k].clone() + side(&b, &weights[0]) + side(&c, &weights[1]))
     };
     let seen = Seen { plan: [mean(0), mean(1)], eye_squared: dot(&to_eye, &to_eye) };
+    let told = [place.plan.x, place.plan.y, place.world.x, place.world.y, place.world.z];
+    let off = |(exact, told): (&R, f64)| exact.clone() - rational(told);
+    for off in seen.plan.iter().chain(&p).zip(told).map(off).filter(|_| place.error < f64::INFINITY) {
+        let most = rational(place.error);
+        if off > most || -off > most {
+            return Err(format!("the point is not within {} of {place:?}", place.error));
+        }
+    }
     for (item, holds) in items_at(&scene.layers, frame, &seen).into_iter().enumerate() {
         let claim = claims.iter().find(|c| c.0 == item as u32).map_or(Some(false), |c| c.1);
         if claim.is_some_and(|claim| claim != holds) {
