@@ -146,7 +146,9 @@ fn leaning(dice: &mut Dice, mesh: &Mesh, camera: &mut Camera) -> Mesh {
     let turn = if turn.determinant().abs() > 0.25 { turn } else { DMat3::IDENTITY };
     let flat = DMat2::from_cols_slice(&of_plan);
     let flat = if dice.below(8) == 0 { DMat2::from_cols(flat.x_axis, flat.x_axis) } else { flat };
-    let place = |p: World| World::from(turn * p.to_vec());
+    // In a small world it is the plan that is known least.
+    let size = [1.0, 1.0 / 64.0][dice.below(2) as usize];
+    let place = |p: World| World::from(turn * p.to_vec() * size);
     let vertices = mesh.vertices().map(|vertex| {
         let off = DVec2::new(dice.between(-2.0, 2.0), dice.between(-2.0, 2.0));
         SurfaceVertex {
@@ -158,6 +160,10 @@ fn leaning(dice: &mut Dice, mesh: &Mesh, camera: &mut Camera) -> Mesh {
     let vertices = vertices.collect();
     let triangles = (0..mesh.triangle_ids()).filter_map(|id| mesh.corners(id)).collect();
     (camera.eye, camera.target, camera.up) = (place(camera.eye), place(camera.target), turn * camera.up);
+    camera.near_m *= size;
+    if let crate::scene::Projection::Orthographic { height_m } = &mut camera.projection {
+        *height_m *= size;
+    }
     Mesh::of_surface(vertices, triangles).unwrap()
 }
 
