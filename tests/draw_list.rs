@@ -3,10 +3,10 @@
 mod drawing;
 
 use drapery::buffer::{Buffer, Plane, Values};
+use drapery::scene::TechniqueSettings;
 use drapery::scene::{
     Cap, Color, Feature, Fill, Join, Layer, Line, Outline, OutlineMode, Rule, Shape, Style, Width,
 };
-use drapery::scene::TechniqueSettings;
 use drapery::scene_file::SceneFile;
 use drapery::space::Plan;
 use drapery::stage::Stage;
@@ -366,10 +366,14 @@ fn assert_same_truth(layer: &Layer) {
 /// Settings of stencil volumes and inverse projection: as they are, and all else.
 fn settings() -> [TechniqueSettings; 2] {
     let mut other = TechniqueSettings::default();
-    other.stencil_volume.joins = VolumeJoins::Style;
-    other.stencil_volume.grouping = drapery::scene::Grouping::Color;
-    other.inverse_projection.point_in_polygon = drapery::scene::PointInPolygon::Winding;
-    other.clipmap.virtual_size = 512;
+    other.set(stencil_volume::Settings {
+        joins: VolumeJoins::Style,
+        grouping: Grouping::Color,
+        ..Default::default()
+    });
+    let point_in_polygon = inverse_projection::PointInPolygon::Winding;
+    other.set(inverse_projection::Settings { point_in_polygon, ..Default::default() });
+    other.set(clipmap::Settings { virtual_size: 512, ..Default::default() });
     [TechniqueSettings::default(), other]
 }
 
@@ -386,7 +390,14 @@ fn clipmaps() -> impl Iterator<Item = TechniqueSettings> {
     ways.into_iter().map(|(solution, polygons, joints, overlaps)| {
         let mut technique = TechniqueSettings::default();
         let defaults = clipmap::Settings::default();
-        technique.set(clipmap::Settings { virtual_size: 512, solution, polygons, joints, overlaps, ..defaults });
+        technique.set(clipmap::Settings {
+            virtual_size: 512,
+            solution,
+            polygons,
+            joints,
+            overlaps,
+            ..defaults
+        });
         technique
     })
 }

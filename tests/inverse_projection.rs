@@ -31,7 +31,7 @@ fn camera(eye: [f64; 3], target: [f64; 3], projection: Projection) -> Camera {
 fn scene(size: (usize, usize), camera: Camera, layers: Vec<Layer>, settings: Settings) -> Scene {
     Scene {
         name: "test".into(),
-        origin: DVec2::ZERO,
+        origin: DVec3::ZERO,
         plan_space: "metres".into(),
         image: ImageSettings { width: size.0, height: size.1, background: Color([0.0, 0.0, 1.0, 1.0]) },
         camera,

@@ -43,7 +43,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ),
     ("output", &["buffer"]),
     ("interval", &[]),
-    ("footprint", &["draw_list", "scene", "space", "interval", "predicate", "parallel"]),
+    ("footprint", &["draw_list", "terrain", "scene", "space", "interval", "predicate", "parallel"]),
     // No technique, and nothing that decides for one: neither `raster` nor `visibility`.
     (
         "truth",

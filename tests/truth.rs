@@ -35,7 +35,7 @@ fn camera(eye: [f64; 3], target: [f64; 3], projection: Projection) -> Camera {
 fn scene(size: (usize, usize), camera: Camera, layers: Vec<Layer>) -> Scene {
     Scene {
         name: "test".into(),
-        origin: DVec2::ZERO,
+        origin: DVec3::ZERO,
         plan_space: "metres".into(),
         image: ImageSettings { width: size.0, height: size.1, background: WHITE },
         camera,

@@ -7,12 +7,15 @@ use super::render::techniques::{self, Buffers, Name};
 use super::scene_input::SceneInput;
 use super::stop::{Outcome, Status};
 use drapery::buffer::Buffer;
-use drapery::export::{LAYOUT, Parameters, TilePicture, tiles, triangles, vertices, write_features};
+use drapery::export::{
+    LAYOUT, Parameters, TilePicture, plan_points, tiles, triangles, vertices, write_features,
+};
 use drapery::output::{Batch, Npy, RESULT_SCHEMA, RenderResult, write_png};
 use drapery::scene::{Ground, Imagery};
 use drapery::stage::Stage;
 use drapery::technique::clipmap::TILE_TEXELS;
 use drapery::technique::{self, Frame, Kind, clipmap};
+use drapery::terrain::Mesh;
 use drapery::truth::Budget;
 use drapery::{Error, Result, parallel};
 use std::path::PathBuf;
@@ -76,9 +79,10 @@ fn export(input: &SceneInput, (kind, budget): (Kind, &Budget), mut batch: Batch,
     for TilePicture { name, picture } in tiles_of(&frame, &stage) {
         batch.stage(&format!("tiles/{name}.png"), |to| write_png(&picture, to))?;
     }
-    stage_scene(&stage, &mut batch)?;
+    let mesh = stage.mesh_for(&view);
+    stage_scene(&stage, &mesh, &mut batch)?;
     let settings = (kind.name(), run.parameters.clone(), run.device.clone());
-    let parameters = Parameters::new((&stage.scene, &stage.mesh, &view), settings).to_json()?;
+    let parameters = Parameters::new((&stage.scene, &mesh, &view), settings).to_json()?;
     let scene = scene_result(&stage, &input.file);
     let notes = stage.scene.notes.clone();
     let result = RenderResult { schema: RESULT_SCHEMA, scene, notes, runs: vec![truth, run] }.to_json()?;
@@ -91,15 +95,15 @@ fn export(input: &SceneInput, (kind, budget): (Kind, &Budget), mut batch: Batch,
 }
 
 /// What is drawn: mesh, features, imagery.
-fn stage_scene(stage: &Stage, batch: &mut Batch) -> Result<()> {
-    let scene = &stage.scene;
-    for table in [vertices(&stage.mesh), triangles(&stage.mesh)] {
+fn stage_scene(stage: &Stage, mesh: &Mesh, batch: &mut Batch) -> Result<()> {
+    let Stage { scene, draw_list, .. } = stage;
+    for table in [vertices(mesh), triangles(mesh)].into_iter().chain(plan_points(mesh)) {
         let name = format!("mesh.{}.npy", table.name);
         let table = Npy::new(&table)?;
         batch.stage(&name, |to| table.write(to))?;
     }
     batch.stage("features.geojson", |to| {
-        write_features((&scene.layers, &stage.draw_list), scene.origin, to)
+        write_features((&scene.layers, draw_list), scene.origin.truncate(), to)
     })?;
     if let Ground::Imagery(Imagery { texels, .. }) = &scene.ground {
         let codes = texels.values().iter().map(|color| color.0.map(|v| (v * 255.0 + 0.5) as u8));

@@ -179,7 +179,8 @@ pub(super) fn scene_result(stage: &Stage, file: &SceneFile) -> SceneResult {
         name: scene.name.clone(),
         hash: file.hash.clone(),
         plan_space: scene.plan_space.clone(),
-        origin: scene.origin.to_array(),
+        origin: scene.origin.truncate().to_array(),
+        origin_height: scene.origin.z,
     }
 }
 

@@ -64,7 +64,7 @@ impl Chain {
 }
 
 /// The items of a scene, in draw order.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub struct DrawList {
     items: Vec<Item>,
     styles: Vec<ItemStyle>,

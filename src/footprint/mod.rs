@@ -1,6 +1,6 @@
 //! The items of the draw list as sets of plan points, for the truth and for supersampling.
 //!
-//! Input: the draw list, the view (widths in pixels depend on it) and which boxes of the plan can be seen. Output:
+//! Input: the draw list, the view and the terrain (widths in pixels depend on them) and which boxes of the plan can be seen. Output:
 //! [`Footprints`]: each item's boundary as small [`Part`]s in a tree of boxes, and exact winding numbers. It borrows the list's
 //! vertices. Refuses: nothing; degenerate rings and segments of no length have no points, or those that `docs/semantics.md` says.
 
@@ -15,7 +15,8 @@ pub use primitive::{Convex, HalfPlane, MOST_SIDES, Primitive, Sides};
 use crate::draw_list::{Chain, DrawList, Role, Side};
 use crate::parallel;
 use crate::scene::{Line, Width};
-use crate::space::{Lens, Plan, PlanBox, ViewFrame};
+use crate::space::{Lens, Plan, PlanBox, ViewFrame, World};
+use crate::terrain::Mesh;
 use area::Area;
 use std::ops::Range;
 
@@ -36,19 +37,32 @@ pub struct PixelSize {
     /// A pixel's size at distance 1 (perspective) or everywhere (orthographic).
     pub pixel: f64,
     /// The eye, when a pixel's size grows with the distance from it.
-    pub eye: Option<crate::space::World>,
-    /// The farthest that terrain lies above or below the eye, metres.
-    pub height_span: f64,
+    pub eye: Option<World>,
+    /// How far from the eye the surface may be over a point of the plan.
+    pub away: Away,
+}
+
+/// How far from an eye the surface may be over a point of the plan.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Away {
+    /// It is draped vertically: as far as the point is in the plan, and at most so far above or below, metres.
+    Over(f64),
+    /// At most so far wherever the point is, metres.
+    Within(f64),
 }
 
 impl PixelSize {
-    /// The size in a view of a terrain whose heights lie between two.
-    pub fn of(view: &ViewFrame, (low, high): (f64, f64)) -> Self {
+    /// The size in a view of a terrain.
+    pub fn of(view: &ViewFrame, mesh: &Mesh) -> Self {
         let eye = view.eye();
-        let height_span = crate::math::max((high - eye.z).abs(), (low - eye.z).abs());
+        let above = |(low, high): (f64, f64)| crate::math::max((high - eye.z).abs(), (low - eye.z).abs());
+        let away = match mesh.heights() {
+            Some(heights) => Away::Over(above(heights)),
+            None => Away::Within(mesh.farthest_from(eye)),
+        };
         match view.lens() {
-            Lens::Central { pixel } => Self { pixel, eye: Some(eye), height_span },
-            Lens::Parallel { pixel } => Self { pixel, eye: None, height_span },
+            Lens::Central { pixel } => Self { pixel, eye: Some(eye), away },
+            Lens::Parallel { pixel } => Self { pixel, eye: None, away },
         }
     }
 }

@@ -34,6 +34,8 @@ pub struct SceneResult {
     pub plan_space: String,
     /// Absolute plan coordinates of the local zero point.
     pub origin: [f64; 2],
+    /// Its absolute height.
+    pub origin_height: f64,
 }
 
 /// One technique's run.
@@ -149,6 +151,7 @@ mod tests {
                 hash: "00".into(),
                 plan_space: "EPSG:32733".into(),
                 origin: [500_000.1, 0.0],
+                origin_height: 120.0,
             },
             notes: vec!["a \"note\"".into()],
             runs: vec![RunResult {
@@ -183,7 +186,8 @@ mod tests {
             "origin": [
               500000.1,
               0.0
-            ]
+            ],
+            "origin_height": 120.0
           },
           "notes": [
             "a \"note\""

@@ -23,6 +23,8 @@ pub enum Shape {
     Numbers(usize),
     /// A word for "none", or the shape of what there may be.
     Or(&'static str, &'static Shape),
+    /// Two finite numbers, or three.
+    PairOrTriple,
     /// One list of points `[[x, y], ...]`, or a list of such lists.
     Paths,
     /// A table.
@@ -128,6 +130,7 @@ impl Shape {
             Shape::Number(range) => range.words(),
             Shape::Numbers(count) => format!("an array of {count} finite numbers"),
             Shape::Or(word, shape) => format!("{} or {word:?}", shape.words()),
+            Shape::PairOrTriple => "an array of 2 or 3 finite numbers".into(),
             Shape::Paths => "a list of points [[x, y], ...] or a list of such lists".into(),
             Shape::Table(_) => "a table".into(),
             Shape::Tables(_) => "an array of tables".into(),

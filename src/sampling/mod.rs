@@ -14,7 +14,7 @@ use crate::parallel;
 use crate::raster::Lattice;
 use crate::resolve::{Compositor, GroundPaint, Paint};
 use crate::scene::Device;
-use crate::space::{Plan, ViewFrame, World};
+use crate::space::{Plan, ViewFrame};
 use crate::stage::Stage;
 use crate::terrain::{Mesh, SKY};
 use crate::visibility::Sight;
@@ -36,11 +36,11 @@ pub struct Sampled {
 /// Draws a view of a scene with `n` x `n` samples a pixel, at the middles of as many equal squares. `progress` is told the share that is done
 /// (0..=1), from any thread.
 pub fn sample(stage: &Stage, view: &ViewFrame, n: usize, progress: &(dyn Fn(f64) + Sync)) -> Sampled {
-    let Stage { draw_list, mesh, .. } = stage;
-    let size = PixelSize::of(view, mesh.heights());
+    let (draw_list, mesh) = (&stage.draw_list, &*stage.mesh_for(view));
+    let size = PixelSize::of(view, mesh);
     let bounds = mesh.plan_bounds();
     let footprints = Footprints::new(draw_list, size, &|plan| plan.meets(&bounds));
-    let sampler = Sampler::new(stage, view, &footprints, n.max(1));
+    let sampler = Sampler::new((stage, mesh), view, &footprints, n.max(1));
     let (width, height) = (view.width(), view.height());
     let side = (BLOCK / n.max(1)).max(1);
     let columns = width.div_ceil(side);
@@ -85,8 +85,13 @@ struct Seen<'a> {
 }
 
 impl<'a> Sampler<'a> {
-    fn new(stage: &'a Stage, view: &'a ViewFrame, footprints: &'a Footprints<'a>, n: usize) -> Self {
-        let Stage { scene, draw_list, mesh } = stage;
+    fn new(
+        (stage, mesh): (&'a Stage, &'a Mesh),
+        view: &'a ViewFrame,
+        footprints: &'a Footprints<'a>,
+        n: usize,
+    ) -> Self {
+        let Stage { scene, draw_list, .. } = stage;
         let compositor = Compositor::new(scene.compositing);
         Self {
             mesh,
@@ -151,10 +156,8 @@ impl<'a> Sampler<'a> {
         if id == SKY || !plan.is_finite() {
             return self.sky;
         }
-        let from_eye = || {
-            let height = seen.sight.hit(column, row).map_or(0.0, |hit| hit.height);
-            (World::new(plan.x, plan.y, height) - self.view.eye()).length()
-        };
+        let from_eye =
+            || seen.sight.hit(column, row).map_or(0.0, |hit| (hit.world - self.view.eye()).length());
         let holding =
             nearby.items().iter().filter(|item| nearby.holds(self.footprints, item, (plan, &from_eye)));
         holding.fold(self.ground.at(id, plan), |below, item| {

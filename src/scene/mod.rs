@@ -16,7 +16,7 @@ pub use settings::{
 
 use crate::parameter::words;
 use crate::space::{Plan, World};
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 /// Everything a picture depends on but the terrain's heights (a [`Surface`], which becomes the mesh), in memory, in
 /// scene-local coordinates.
@@ -24,8 +24,8 @@ use glam::DVec2;
 pub struct Scene {
     /// The scene's name.
     pub name: String,
-    /// Absolute plan coordinates (metres in the scene's CRS) of the local zero point.
-    pub origin: DVec2,
+    /// Absolute plan coordinates (metres in the scene's CRS) and height of the local zero point.
+    pub origin: DVec3,
     /// What the plan space is, in words (`EPSG:32733`, or the local plane and its centre).
     pub plan_space: String,
     /// Size and background.

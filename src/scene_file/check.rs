@@ -58,6 +58,9 @@ impl Check<'_> {
             (Shape::Numbers(count), Value::Array(items)) if items.len() == *count => {
                 self.each(items, &Shape::Number(Range::Finite), path)
             }
+            (Shape::PairOrTriple, Value::Array(items)) if matches!(items.len(), 2 | 3) => {
+                self.each(items, &Shape::Number(Range::Finite), path)
+            }
             (Shape::Integers(count, low, high), Value::Array(items)) if items.len() == *count => {
                 self.each(items, &Shape::Integer(*low, *high), path)
             }

@@ -39,9 +39,10 @@ fn value(shape: &Shape) -> Value {
         Shape::Choice(names) => json!({ "enum": names() }),
         Shape::Integer(low, high) => json!({ "type": "integer", "minimum": low, "maximum": high }),
         Shape::IntegerOf(numbers) => json!({ "enum": numbers }),
-        Shape::Integers(count, low, high) => list(value(&Shape::Integer(*low, *high)), *count),
+        Shape::Integers(count, low, high) => list(value(&Shape::Integer(*low, *high)), *count, *count),
         Shape::Number(range) => number(*range),
-        Shape::Numbers(count) => list(number(Range::Finite), *count),
+        Shape::Numbers(count) => list(number(Range::Finite), *count, *count),
+        Shape::PairOrTriple => list(number(Range::Finite), 2, 3),
         Shape::Or(word, shape) => json!({ "anyOf": [value(shape), { "enum": [word] }] }),
         Shape::Paths => paths(),
         Shape::Table(shape) => table(shape),
@@ -49,8 +50,8 @@ fn value(shape: &Shape) -> Value {
     }
 }
 
-fn list(items: Value, count: usize) -> Value {
-    json!({ "type": "array", "items": items, "minItems": count, "maxItems": count })
+fn list(items: Value, least: usize, most: usize) -> Value {
+    json!({ "type": "array", "items": items, "minItems": least, "maxItems": most })
 }
 
 fn number(range: Range) -> Value {
@@ -67,7 +68,7 @@ fn number(range: Range) -> Value {
 }
 
 fn paths() -> Value {
-    let points = json!({ "type": "array", "items": list(number(Range::Finite), 2), "minItems": 1 });
+    let points = json!({ "type": "array", "items": list(number(Range::Finite), 2, 2), "minItems": 1 });
     json!({ "anyOf": [points, { "type": "array", "items": points, "minItems": 1 }] })
 }
 
@@ -158,6 +159,8 @@ mod tests {
             "image.wide = 3",
             "terrain.source = \"a.tif\"",
             "camera.eye = [1, 2]",
+            "terrain.offset = [1]",
+            "terrain.offset = [1, 2, 3, 4]",
             "camera.projection = \"flat\"",
             "camera.fov_y_deg = 180",
             "camera = { eye = [1, 2, 3], eye_geo = [1, 2, 3] }",

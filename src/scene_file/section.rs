@@ -7,6 +7,7 @@ use crate::error::{Error, Result};
 use crate::parameter::{Key, Named, Settings, Value, color};
 use crate::scene::Color;
 use crate::space::Plan;
+use glam::DVec3;
 use std::collections::BTreeMap;
 
 /// A table whose keys are taken one by one. The check has been here before: a value that does not fit, or a key that
@@ -98,6 +99,19 @@ impl<'a> Section<'a> {
 
     pub(super) fn numbers_at<const N: usize>(&mut self, key: &str) -> Result<Option<Taken<[f64; N]>>> {
         self.taken(key, |value| items(value, |item| item.number()))
+    }
+
+    /// Two or three numbers; the third is 0 where it was not written.
+    pub(super) fn displacement(&mut self, key: &str) -> Result<Option<DVec3>> {
+        self.plain(key, |value| {
+            let Found::Array(items) = value else { return None };
+            let numbers: Option<Vec<f64>> = items.into_iter().map(|item| item.value.number()).collect();
+            match numbers?[..] {
+                [x, y] => Some(DVec3::new(x, y, 0.0)),
+                [x, y, z] => Some(DVec3::new(x, y, z)),
+                _ => None,
+            }
+        })
     }
 
     pub(super) fn name<T: Named>(&mut self, key: &str) -> Result<Option<T>> {

@@ -88,8 +88,8 @@ pub struct TerrainSpec {
     pub source: TerrainSource,
     /// Only this part: x0, y0, x1, y1 in the file's own coordinates, x0 < x1 and y0 < y1.
     pub window: Option<[f64; 4]>,
-    /// Moves the data in plan space.
-    pub offset: DVec2,
+    /// Moves the data in plan space, and up.
+    pub offset: DVec3,
     /// The CRS of the data, over what the file says.
     pub crs: Option<String>,
     /// The rectangle x0, y0, x1, y1 that the data covers, for a file that does not say it (PNG), x0 < x1 and y0 < y1.

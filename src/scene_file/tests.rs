@@ -4,7 +4,7 @@ use super::*;
 use crate::parameter::{Shape as KeyShape, TableShape};
 use crate::scene::{Fill, Join, Projection, Shape, Width};
 use crate::technique::{inverse_projection, stencil_volume};
-use glam::DVec2;
+use glam::DVec3;
 use proptest::prelude::*;
 
 /// Every key of the description at least once, over several files.
@@ -218,7 +218,9 @@ fn values_arrive_where_they_belong() {
     assert_eq!((scene.name.as_str(), scene.image.width, scene.image.height), ("all", 64, 48));
     assert_eq!(scene.camera.projection, Projection::Perspective { fov_y_deg: 45.0 });
     assert_eq!(scene.camera.far_m, Some(1e5));
-    assert_eq!(scene.terrain.offset, DVec2::new(1.0, 2.0));
+    assert_eq!(scene.terrain.offset, DVec3::new(1.0, 2.0, 0.0));
+    let raised = parse(&format!("{CONE}terrain.offset = [1, -2, 3.5]")).unwrap();
+    assert_eq!(raised.terrain.offset, DVec3::new(1.0, -2.0, 3.5));
     let lakes = &scene.layers[0];
     assert_eq!(lakes.style.fill.map(|Fill { color, .. }| color.0[3]), Some(0.5));
     assert_eq!(lakes.style.outline.map(|outline| outline.line.join), Some(Join::Miter { limit: 2.0 }));

@@ -5,8 +5,9 @@
 //! cannot be told within the [`Budget`] is in the interval.
 //!
 //! ```text
+//!   seen.rs     which boxes of the plan a view may see
 //!   tile.rs     a tile's triangles, by the terrain's hierarchy; squares down to pixels
-//!   facet.rs    a triangle on the tile: sides, nearness, its map to the plan, with bounds of their errors (form.rs)
+//!   facet.rs    a triangle on the tile: sides, nearness, its map to the plan (draped.rs), with bounds of their errors (form.rs)
 //!   visible.rs  the pixel cut into convex fragments that see one triangle (polygon.rs), and sky
 //!   refine.rs   fragments cut along footprints' borders (shape.rs) until little is unknown of which items hold them
 //!               (knowledge.rs); colours between bounds (color.rs)
@@ -19,11 +20,13 @@
 //! [`crate::predicate`].
 
 mod color;
+mod draped;
 mod facet;
 mod form;
 mod knowledge;
 mod polygon;
 mod refine;
+mod seen;
 mod setting;
 mod shape;
 mod tile;
@@ -35,12 +38,13 @@ use crate::footprint::{Footprints, PixelSize};
 use crate::math;
 use crate::parallel;
 use crate::resolve::code_values;
-use crate::space::{ViewFrame, World};
+use crate::space::{Plan, ViewFrame, World};
 use crate::stage::Stage;
 use crate::terrain::SKY;
+use seen::SeenPlan;
 use setting::Setting;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use tile::{Frustum, TILE, TileTruth, certify_tile};
+use tile::{TILE, TileTruth, certify_tile};
 
 /// The truth's name among the techniques', on the command line and in files.
 pub const NAME: &str = "truth";
@@ -130,6 +134,8 @@ pub struct Centre {
     pub triangle: u32,
     /// The visible point, in plain doubles.
     pub world: World,
+    /// Its place in the plan.
+    pub plan: Plan,
 }
 
 /// What was done.
@@ -198,7 +204,7 @@ impl Truth {
             "depth" => (1, Values::F64(self.depth.values().to_vec())),
             "triangle" => (1, Values::U32(centres().map(|c| c.map_or(SKY, |c| c.triangle)).collect())),
             "plan" => {
-                let plan = |c: &Option<Centre>| c.map_or([f64::INFINITY; 2], |c| [c.world.x, c.world.y]);
+                let plan = |c: &Option<Centre>| c.map_or([f64::INFINITY; 2], |c| [c.plan.x, c.plan.y]);
                 (2, Values::F64(centres().flat_map(plan).collect()))
             }
             "lo" => colors(&self.low),
@@ -212,14 +218,11 @@ impl Truth {
 
 /// Computes the truth of a view of a scene. `progress` is told the share that is done (0..=1), from any thread.
 pub fn certify(stage: &Stage, view: &ViewFrame, budget: &Budget, progress: &(dyn Fn(f64) + Sync)) -> Truth {
-    let Stage { scene, draw_list, mesh } = stage;
-    let heights = mesh.heights();
-    let size = PixelSize::of(view, heights);
+    let (scene, draw_list, mesh) = (&stage.scene, &stage.draw_list, &*stage.mesh_for(view));
+    let size = PixelSize::of(view, mesh);
     let (width, height) = (view.width(), view.height());
-    let whole = Frustum::new(view, [0.0, 0.0], [width as f64, height as f64]);
-    let bounds = mesh.plan_bounds();
-    let footprints =
-        Footprints::new(draw_list, size, &|plan| plan.meets(&bounds) && whole.meets_plan(plan, heights));
+    let seen = SeenPlan::new(mesh, view);
+    let footprints = Footprints::new(draw_list, size, &|plan| seen.meets(plan));
     let setting = Setting::new(scene, mesh, (&footprints, size), *budget);
     let (columns, rows) = (width.div_ceil(TILE), height.div_ceil(TILE));
     let done = AtomicUsize::new(0);

@@ -112,7 +112,7 @@ impl Drawing<'_> {
         let file = |extension: &str| format!("{technique}.{}.{extension}", plane.name);
         let checked = Npy::new(plane)?;
         if kind.is_in_plan {
-            let moved = absolute(plane, self.stage.scene.origin);
+            let moved = absolute(plane, self.stage.scene.origin.truncate());
             let moved = Npy::new(&moved)?;
             self.batch.stage(&file("npy"), |to| moved.write(to))?;
         } else {

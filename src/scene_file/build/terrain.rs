@@ -6,7 +6,7 @@ use crate::scene::Color;
 use crate::scene_file::names::{ShadeName, TerrainName};
 use crate::scene_file::section::{Section, Taken};
 use crate::scene_file::spec::{GroundSpec, TerrainGenerator, TerrainKind, TerrainSource, TerrainSpec};
-use glam::DVec2;
+use glam::DVec3;
 
 /// The most posts that a generated terrain may have.
 const MOST_POSTS: usize = 1 << 28;
@@ -15,7 +15,7 @@ pub(super) fn terrain(section: &mut Section<'_>) -> Result<TerrainSpec> {
     Ok(TerrainSpec {
         source: source(section)?,
         window: rectangle(section, "window")?,
-        offset: section.numbers("offset")?.map_or(DVec2::ZERO, DVec2::from_array),
+        offset: section.displacement("offset")?.unwrap_or(DVec3::ZERO),
         crs: section.text("crs")?,
         bounds: rectangle(section, "bounds")?,
         encoding: section.name("encoding")?,

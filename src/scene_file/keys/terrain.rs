@@ -17,8 +17,8 @@ pub(super) static TERRAIN: TableShape = TableShape {
         ),
         key(
             "offset",
-            Shape::Numbers(2),
-            "Moves the data in plan space: [dx, dy] in metres. Default: [0, 0].",
+            Shape::PairOrTriple,
+            "Moves the data in plan space, and up: [dx, dy] or [dx, dy, dz] in metres. Default: [0, 0, 0].",
         ),
         key("crs", Shape::Text, "The CRS of the data, over what the file says."),
         key(

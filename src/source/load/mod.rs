@@ -18,7 +18,8 @@
 //! - a layer's shift is `(layer offset - terrain offset) - anchor`, so that a terrain and layers moved by the same offset
 //!   keep every bit;
 //! - what the scene file states in plan coordinates (camera, inline features, windows of generators) is shifted by
-//!   `-terrain offset - anchor`: exact where the numbers are.
+//!   `-terrain offset - anchor`: exact where the numbers are;
+//! - heights are local too: those of the data stay as they are, what raises the terrain is taken from the camera's.
 
 mod blame;
 mod camera;
@@ -44,7 +45,7 @@ use crate::scene_file::SceneFile;
 /// let file = SceneFile::parse(DEFAULT_SCENE, None, &[])?;
 /// let (scene, surface) = drapery::source::load::load(&file, &|_| ())?;
 /// let stage = drapery::stage::Stage::new(scene, surface)?;
-/// assert_eq!(stage.scene.origin, glam::DVec2::ZERO);
+/// assert_eq!(stage.scene.origin, glam::DVec3::ZERO);
 /// # Ok::<(), drapery::Error>(())
 /// ```
 ///

@@ -12,7 +12,7 @@ use crate::raster::Lattice;
 use crate::resolve::{Compositor, GroundPaint, Paint, code_values};
 use crate::space::{Plan, ViewFrame, World};
 use crate::technique::{Frame, FrameOptions};
-use crate::terrain::SKY;
+use crate::terrain::{Mesh, SKY};
 use crate::visibility::{FootprintPlane, Hit, Sight};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -27,17 +27,19 @@ pub(super) fn draw(
     options: &FrameOptions,
 ) -> Result<(Frame, CacheCounts)> {
     let stage = prepared.stage;
+    let mesh = &*stage.mesh_for(view);
     let lattice = Lattice::centres(view, 0);
-    let mut sight = Sight::new(view, &stage.mesh, &stage.scene.device, lattice, options.tile);
+    let mut sight = Sight::new(view, mesh, &stage.scene.device, lattice, options.tile);
     sight.see();
     (options.progress)(0.2);
-    let drawing = Drawing::new(prepared, view, sight, options);
+    let drawing = Drawing::new(prepared, (mesh, view), sight, options);
     drawing.frame(options)
 }
 
 /// Everything that pixels are made from.
 struct Drawing<'a> {
     prepared: &'a Prepare<'a>,
+    mesh: &'a Mesh,
     view: &'a ViewFrame,
     sight: Sight<'a>,
     sampler: Sampler,
@@ -165,26 +167,30 @@ impl Table {
 }
 
 impl<'a> Drawing<'a> {
-    fn new(prepared: &'a Prepare, view: &'a ViewFrame, sight: Sight<'a>, options: &FrameOptions) -> Self {
-        let stage = prepared.stage;
-        let (scene, settings) = (&stage.scene, prepared.settings);
+    fn new(
+        prepared: &'a Prepare,
+        (mesh, view): (&'a Mesh, &'a ViewFrame),
+        sight: Sight<'a>,
+        options: &FrameOptions,
+    ) -> Self {
+        let (scene, settings) = (&prepared.stage.scene, prepared.settings);
         let nearest = nearest(&sight, view);
         let center = match settings.center {
             Some([x, y]) => Plan::new(x - scene.origin.x, y - scene.origin.y),
-            None => nearest.map_or_else(Plan::default, World::plan),
+            None => nearest.map_or_else(Plan::default, |hit| hit.plan),
         };
         let region = ClipRegion::new(&prepared.texture, center, settings.clip_size);
-        let middle = sight.hit(view.width() / 2, view.height() / 2);
-        let middle = middle.map(|Hit { plan, height, .. }| World::new(plan.x, plan.y, height)).or(nearest);
+        let middle = sight.hit(view.width() / 2, view.height() / 2).or(nearest);
         let compositor = Compositor::new(scene.compositing);
         Self {
             prepared,
+            mesh,
             view,
             sampler: Sampler::new(prepared.texture, &region, &settings, &scene.device),
-            maker: prepared.maker(middle.map_or(1.0, |at| view.pixel_m(at))),
+            maker: prepared.maker(middle.map_or(1.0, |hit| view.pixel_m(hit.world))),
             region,
             compositor,
-            ground: GroundPaint::new(&scene.ground, &stage.mesh, compositor),
+            ground: GroundPaint::new(&scene.ground, mesh, compositor),
             sky: compositor.paint(scene.image.background),
             wants: Wanted::of(options),
             sight,
@@ -260,8 +266,8 @@ impl<'a> Drawing<'a> {
                 continue;
             }
             if plane.as_ref().is_none_or(|(of, _)| *of != triangle) {
-                let corners = self.prepared.stage.mesh.triangle(triangle);
-                plane = Some((triangle, corners.map(|corners| FootprintPlane::new(self.view, &corners))));
+                let seen = self.mesh.surface_triangle(triangle);
+                plane = Some((triangle, seen.map(|seen| FootprintPlane::new(self.view, &seen))));
             }
             let at = self.sight.lattice().at(x, y);
             let footprint = plane.as_ref().and_then(|(_, plane)| plane.as_ref()?.footprint(at));
@@ -479,8 +485,8 @@ impl<'a> Drawing<'a> {
 }
 
 /// The surface point that is nearest to the eye's plane, of equals the first.
-fn nearest(sight: &Sight, view: &ViewFrame) -> Option<World> {
-    let nearer = |best: Option<(f64, World)>, (depth, at): (f64, World)| match best {
+fn nearest(sight: &Sight, view: &ViewFrame) -> Option<Hit> {
+    let nearer = |best: Option<(f64, [usize; 2])>, (depth, at): (f64, [usize; 2])| match best {
         Some(best) if best.0 <= depth => Some(best),
         _ => Some((depth, at)),
     };
@@ -488,10 +494,11 @@ fn nearest(sight: &Sight, view: &ViewFrame) -> Option<World> {
     let rows = parallel::map_indices(lattice.rows, |row| {
         let mut points = vec![World::default(); lattice.columns];
         sight.world_of_row((0, row), &mut points);
-        let points = points.into_iter().filter(|at| at.is_finite());
-        points.map(|at| (view.depth(at), at)).fold(None, nearer)
+        let points = points.into_iter().enumerate().filter(|(_, at)| at.is_finite());
+        points.map(|(column, at)| (view.depth(at), [column, row])).fold(None, nearer)
     });
-    rows.into_iter().flatten().fold(None, nearer).map(|(_, at)| at)
+    let (_, [column, row]) = rows.into_iter().flatten().fold(None, nearer)?;
+    sight.hit(column, row)
 }
 
 /// The tiles of some rows, each once, in order.

@@ -9,12 +9,13 @@ use crate::buffer::{Buffer, Plane, Values};
 use crate::parallel;
 use crate::raster::Lattice;
 use crate::resolve::{Compositor, GroundPaint, Paint, code_values};
+use crate::scene::Device;
 use crate::space::{Plan, PlanBox, ViewFrame};
 use crate::stage::Stage;
 use crate::technique::inverse_projection::{Corners, Settings, Silhouette};
 use crate::technique::{Frame, FrameOptions};
-use crate::terrain::SKY;
-use crate::visibility::{Hit, Sight};
+use crate::terrain::{Mesh, SKY};
+use crate::visibility::Sight;
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -33,10 +34,12 @@ pub fn draw(
     index: &EdgeIndex,
     options: &FrameOptions,
 ) -> Frame {
-    let centres = Seen::new((stage, view), &Lattice::centres(view, 1), options.tile);
+    let mesh = &*stage.mesh_for(view);
+    let device = &stage.scene.device;
+    let centres = Seen::new((mesh, view), device, &Lattice::centres(view, 1), options.tile);
     let corners = match settings.corners {
         Corners::Centres => None,
-        Corners::True => Some(Seen::new((stage, view), &Lattice::corners(view), options.tile)),
+        Corners::True => Some(Seen::new((mesh, view), device, &Lattice::corners(view), options.tile)),
     };
     (options.progress)(0.5);
     let compositor = Compositor::new(stage.scene.compositing);
@@ -44,7 +47,7 @@ pub fn draw(
     let drawing = Drawing {
         settings,
         judge: Judge { index, rule: settings.point_in_polygon },
-        ground: GroundPaint::new(&stage.scene.ground, &stage.mesh, compositor),
+        ground: GroundPaint::new(&stage.scene.ground, mesh, compositor),
         paints: stage.draw_list.styles().iter().map(|style| compositor.paint(style.paint)).collect(),
         sky: compositor.paint(stage.scene.image.background),
         compositor,
@@ -87,7 +90,7 @@ struct Wants {
 
 /// What a lattice sees, with the plan points at hand.
 struct Seen<'a> {
-    stage: &'a Stage,
+    mesh: &'a Mesh,
     view: &'a ViewFrame,
     lattice: Lattice,
     sight: Sight<'a>,
@@ -135,14 +138,14 @@ struct Involved {
 }
 
 impl<'a> Seen<'a> {
-    fn new((stage, view): (&'a Stage, &'a ViewFrame), lattice: &Lattice, tile: usize) -> Self {
-        let mut sight = Sight::new(view, &stage.mesh, &stage.scene.device, *lattice, tile);
+    fn new((mesh, view): (&'a Mesh, &'a ViewFrame), device: &Device, lattice: &Lattice, tile: usize) -> Self {
+        let mut sight = Sight::new(view, mesh, device, *lattice, tile);
         sight.see();
         let mut plan = vec![Plan::new(f64::INFINITY, f64::INFINITY); lattice.columns * lattice.rows];
         parallel::for_each_chunk(&mut plan, lattice.columns, |row, points| {
             sight.plan_of_row(row, points);
         });
-        Self { stage, view, lattice: *lattice, sight, plan }
+        Self { mesh, view, lattice: *lattice, sight, plan }
     }
 
     #[inline(always)]
@@ -160,8 +163,7 @@ impl<'a> Seen<'a> {
         let limit = SILHOUETTE_RATIO * SILHOUETTE_RATIO;
         let expected = |id: u32, at: (usize, usize), seen_from: (usize, usize)| {
             let ray = self.view.ray(self.lattice.at(seen_from.0, seen_from.1));
-            let hit: Option<Hit> =
-                self.stage.mesh.triangle(id).map(|t| crate::visibility::hit(self.view, &ray, &t));
+            let hit = self.mesh.surface_triangle(id).map(|t| crate::visibility::hit(self.view, &ray, &t));
             // A plane that the neighbour's ray misses would reach to the horizon.
             hit.filter(|h| h.depth > 0.0).map_or(f64::INFINITY, |h| (h.plan - self.plan(at)).length_squared())
         };

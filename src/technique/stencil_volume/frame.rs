@@ -15,7 +15,7 @@ use crate::space::{Plan, ViewFrame};
 use crate::stage::Stage;
 use crate::technique::stencil_volume::{FarPlane, Overflow, Settings, VolumeCaps};
 use crate::technique::{Frame, FrameOptions};
-use crate::terrain::SKY;
+use crate::terrain::{Mesh, SKY};
 use crate::visibility::Sight;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -24,7 +24,8 @@ const MOST: usize = 512;
 
 /// Draws a frame of a view.
 pub fn draw((stage, view): (&Stage, &ViewFrame), extrusion: &Extrusion, options: &FrameOptions) -> Frame {
-    let drawing = Drawing::new((stage, view), extrusion, options);
+    let mesh = &*stage.mesh_for(view);
+    let drawing = Drawing::new((stage, view), mesh, extrusion, options);
     (options.progress)(0.3);
     let n = drawing.settings.samples as usize;
     let side = options.tile.clamp(1, MOST / n) * n;
@@ -61,6 +62,8 @@ fn bins(entries: &[Entry], lattice: &Lattice, side: usize) -> Vec<Vec<Entry>> {
 pub struct Drawing<'a> {
     /// The scene.
     pub stage: &'a Stage,
+    /// The terrain that the view shows.
+    pub mesh: &'a Mesh,
     /// From where it is seen.
     pub view: &'a ViewFrame,
     /// The parameters.
@@ -107,13 +110,14 @@ struct SampleTraces {
 impl<'a> Drawing<'a> {
     fn new(
         (stage, view): (&'a Stage, &'a ViewFrame),
+        mesh: &'a Mesh,
         extrusion: &'a Extrusion<'a>,
         options: &FrameOptions,
     ) -> Self {
         let settings: Settings = stage.scene.technique.get();
         let lattice = lattice(view, settings.samples);
         let device = &stage.scene.device;
-        let mut sight = Sight::new(view, &stage.mesh, device, lattice, options.tile);
+        let mut sight = Sight::new(view, mesh, device, lattice, options.tile);
         sight.see();
         let compositor = Compositor::new(stage.scene.compositing);
         let looks = Looks::new((stage, view), &lattice, &settings, extrusion);
@@ -130,6 +134,7 @@ impl<'a> Drawing<'a> {
         };
         Self {
             stage,
+            mesh,
             view,
             settings,
             extrusion,
@@ -140,7 +145,7 @@ impl<'a> Drawing<'a> {
             arch: pulp::Arch::new(),
             lattice,
             looks,
-            ground: GroundPaint::new(&stage.scene.ground, &stage.mesh, compositor),
+            ground: GroundPaint::new(&stage.scene.ground, mesh, compositor),
             sky: compositor.paint(stage.scene.image.background),
             paints: stage.draw_list.styles().iter().map(|style| compositor.paint(style.paint)).collect(),
             wants_colors: wants("color"),

@@ -11,7 +11,8 @@
 //! point's plan point is. Where the paper is silent, see `extrusion`, `view` and `docs/semantics.md`.
 //!
 //! Refuses: scenes with widths in pixels (5: "available vector data is static"; a volume stands on a footprint that does not
-//! depend on the view), and outlines that are cut to their polygon where the stencil has one bit.
+//! depend on the view), terrains that are not draped vertically (walls stand upright on the plan), and outlines that are cut to
+//! their polygon where the stencil has one bit.
 
 mod block;
 mod extrusion;
@@ -35,6 +36,7 @@ use crate::error::{Error, Result};
 use crate::scene::{Layer, OutlineMode};
 use crate::space::ViewFrame;
 use crate::stage::Stage;
+use crate::terrain::Drape;
 use extrusion::Extrusion;
 
 /// The most samples of a picture: each takes 20 bytes while a frame is drawn.
@@ -100,6 +102,12 @@ impl<'s> Prepare<'s> {
 /// # Errors
 /// The reason why it cannot.
 pub fn applies(stage: &Stage) -> Result<()> {
+    if stage.mesh.drape() != Drape::Vertical {
+        return Err(Error::new(
+            "stencil-volume's walls are vertical, this terrain's points do not lie straight over their plan points",
+        )
+        .help("leave the technique out"));
+    }
     if let Some(layer) = stage.scene.layers.iter().find(|layer| layer.has_width_in_pixels()) {
         return Err(Error::new(format!(
             "stencil-volume extrudes footprints that do not depend on the view, layer `{}` has width_px",

@@ -59,7 +59,7 @@ impl<'a> Tile<'a> {
         let (c, r) = self.sample(at);
         let ray = self.view.ray(c, r);
         let id = self.drawing.sight.triangle(self.view.column + c, self.view.row + r);
-        let ground = if id == SKY { None } else { self.drawing.stage.mesh.triangle(id) };
+        let ground = if id == SKY { None } else { self.drawing.mesh.triangle(id) };
         let seen = match self.view.frame.lens() {
             Lens::Central { .. } => face.facing,
             Lens::Parallel { .. } => None,
