@@ -134,7 +134,7 @@ mod tests {
             Value::Numbers(vec![10.0, 20.5]),
         ];
         let texts = values.map(|value| value.to_string());
-        assert_eq!(texts, ["\"4a-adjacency\"", "-3", "1024", "-0.25", "1e300", "[10,20.5]"]);
+        assert_eq!(texts, ["\"4a-adjacency\"", "-3", "1024", "-0.25", "1e+300", "[10,20.5]"]);
     }
 
     #[test]
