@@ -6,14 +6,16 @@ mod drawing;
 use drapery::buffer::{Plane, Values};
 use drapery::compare::Image;
 use drapery::math;
+use drapery::raster::Lattice;
 use drapery::sampling::sample;
-use drapery::scene::{Camera, Color, Scene, Shape, Surface, Width};
+use drapery::scene::{Camera, Color, Device, Projection, Scene, Shape, Surface, Width};
 use drapery::space::{Plan, Screen, ViewFrame, World};
 use drapery::stage::Stage;
 use drapery::technique::inverse_projection::{self, Corners};
 use drapery::technique::{self, Frame, Kind};
 use drapery::terrain::{Drape, Mesh, SurfaceTriangle, SurfaceVertex};
 use drapery::truth::Truth;
+use drapery::visibility::Sight;
 use glam::{DQuat, DVec3};
 use std::sync::Arc;
 
@@ -209,6 +211,35 @@ fn an_imitated_machine_interpolates_the_plan_points_that_it_would_find_by_a_matr
         }
     }
     assert!(compared > 3500, "{compared}");
+}
+
+#[test]
+fn a_row_of_plan_points_has_the_bits_of_its_samples() {
+    let p = |x: f64, y: f64| World::new(x, y, 0.25 * y);
+    let needle = vec![p(-100.0, -0.05), p(-100.0, 0.05), p(100.0, 0.0), p(0.0, 300.0), p(0.0, -300.0)];
+    let mut scene = hills("", &[]).scene;
+    // Near the needle's broad end: a row is a thirtieth of a metre.
+    (scene.camera.eye, scene.camera.target) = (World::new(-90.0, -20.0, 40.0), World::new(-90.0, 0.0, 0.0));
+    scene.camera.projection = Projection::Orthographic { height_m: 2.0 };
+    let still = Stage::new(scene, drapery::scene::Surface::Points(needle)).unwrap();
+    for stage in [hills("", &[]), still].iter().map(|still| turned(still, turns()[2])) {
+        let view = stage.view().unwrap();
+        let lattice = Lattice::corners(&view);
+        let mut sight = Sight::new(&view, &stage.mesh, &Device::default(), lattice, 64);
+        sight.see();
+        let mut seen = 0;
+        for row in 0..lattice.rows {
+            let mut points = vec![Plan::default(); lattice.columns];
+            sight.plan_of_row(row, &mut points);
+            for (column, point) in points.into_iter().enumerate() {
+                let hit =
+                    sight.hit(column, row).map_or(Plan::new(f64::INFINITY, f64::INFINITY), |hit| hit.plan);
+                assert_eq!(point, hit, "({column}, {row})");
+                seen += usize::from(point.is_finite());
+            }
+        }
+        assert!(seen > 1000, "{seen}");
+    }
 }
 
 #[test]

@@ -43,3 +43,27 @@ fn draped(ray: &Ray, at: World, (corners, plan): (&[World; 3], &[Plan; 3])) -> P
     let [a, b, c] = *plan;
     a + ((b - a) * of_b + (c - a) * of_c)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::space::Viewpoint;
+    use glam::DVec3;
+
+    #[test]
+    fn the_plan_point_on_a_needle_is_not_lost_in_the_rounding_of_its_place() {
+        let width = 1.0 / (1u64 << 30) as f64;
+        let world =
+            [World::new(-128.0, -width, 0.0), World::new(-128.0, width, 0.0), World::new(128.0, 0.0, 0.0)];
+        let plan = [Plan::new(0.0, 0.0), Plan::new(64.0, 0.0), Plan::new(0.0, 64.0)];
+        let triangle = SurfaceTriangle { world, drape: TriangleDrape::Affine { plan, up: DVec3::Z } };
+        // A ray through a quarter of the first corner, a quarter of the second, half of the third.
+        let away = DVec3::new(3.3, 7.7, 100.1);
+        let ray = Ray { from: World::from(away), through: World::from(-away) };
+        let view =
+            Viewpoint { eye: ray.from, target: ray.through, up: DVec3::Y, near: 0.1, far: f64::INFINITY };
+        let frame = ViewFrame::perspective(&view, 40.0, (8, 8)).unwrap();
+        let hit = hit(&frame, &ray, &triangle);
+        assert!((hit.plan - Plan::new(16.0, 32.0)).length() < 1e-12, "{hit:?}");
+    }
+}
