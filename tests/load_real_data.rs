@@ -321,6 +321,27 @@ fn posts_written_as_points_make_the_same_place() {
 }
 
 #[test]
+fn roads_of_two_types_are_drawn_the_longest_on_top() {
+    let Some(folder) = Folder::with(&["swellendam/srtm_41_19.tif", "swellendam/roads_33S.shp"]) else {
+        return;
+    };
+    let (scene, _) = folder.load(
+        "schema = 1\nterrain.source = \"srtm_41_19.tif\"\n[[layer]]\nsource = \"roads_33S.shp\"\norder = \"size\"\n\
+         where = { TYPE = [\"primary\", \"trunk\"] }\n\
+         line = { color = { by = \"TYPE\", map = { trunk = \"#ff0000\" }, default = \"#000000\" }, width_m = 60 }",
+    );
+    let layer = &scene.layers[0];
+    assert_eq!((layer.features.len(), layer.styles.len()), (23, 2));
+    let length = |shape: &Shape| {
+        let (Shape::Polygon(parts) | Shape::Line(parts)) = shape;
+        let of_part =
+            |part: &Vec<Plan>| part.windows(2).map(|pair| (pair[1] - pair[0]).length()).sum::<f64>();
+        parts.iter().map(of_part).sum::<f64>()
+    };
+    assert!(layer.features.iter().is_sorted_by_key(|feature| length(&feature.shape)));
+}
+
+#[test]
 fn info_tells_what_files_hold() {
     let Some(folder) = Folder::with(&[
         "oetztal/srtm_oetztal.tif",

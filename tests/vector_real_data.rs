@@ -5,8 +5,8 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout)] // helpers of tests may stop a test and say what is skipped
 
 use drapery::crs::{Crs, PlanSpace};
-use drapery::scene::Shape;
-use drapery::source::vector::{VectorSummary, describe, read};
+use drapery::scene::{Attribute, Shape};
+use drapery::source::vector::{ColumnSummary, VectorSummary, describe, read, read_columns};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -169,5 +169,56 @@ fn metres_under_degrees_load_with_a_note() {
         let found = read(path, None).unwrap();
         assert_eq!(found.features.len(), 2);
         assert!(found.notes.iter().any(|n| n.contains("off the globe")), "{:?}", found.notes);
+    });
+}
+
+fn with_columns(name: &str, check: impl FnOnce(&Path, &[ColumnSummary])) {
+    with_data(name, |path| check(path, &describe(path).unwrap().remove(0).columns));
+}
+
+fn told(columns: &[ColumnSummary], name: &str) -> String {
+    let column = columns.iter().find(|column| column.name == name).unwrap();
+    format!("{} {} {:?}", column.kind, column.values, column.range)
+}
+
+#[test]
+fn the_roads_of_swellendam_have_a_type_and_lanes() {
+    with_columns("swellendam/roads_33S.shp", |path, columns| {
+        let names: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
+        assert_eq!(names, ["TYPE", "NAME", "ONEWAY", "LANES"]);
+        let types = columns[0].distinct.as_ref().unwrap();
+        let counts: usize = types.iter().map(|(_, count)| count).sum();
+        assert_eq!((types.len(), counts, columns[0].values), (10, 345, 345), "{types:?}");
+        assert_eq!(told(columns, "LANES"), "whole numbers 345 Some([0.0, 2.0])");
+        let read = read_columns(path, None, &["TYPE".into()]).unwrap();
+        assert_eq!(read.columns[0].values[..2], ["secondary", "tertiary"].map(|t| Attribute::Text(t.into())));
+    });
+}
+
+#[test]
+fn glaciers_of_the_alps_have_names_in_the_code_page_of_their_cpg() {
+    with_columns("oetztal/rgi_oetztal.shp", |path, columns| {
+        assert_eq!(columns.len(), 18);
+        assert_eq!(told(columns, "Zmax"), "whole numbers 20 Some([3235.0, 3715.0])");
+        let read = read_columns(path, None, &["Name".into(), "Area".into()]).unwrap();
+        assert_eq!(read.columns[0].values[0], Attribute::Number(1.64));
+        let hintereis =
+            |value: &&Attribute| value.text().is_some_and(|name| name.starts_with("Hintereisferner"));
+        let name = read.columns[1].values.iter().find(hintereis).and_then(Attribute::text);
+        assert!(name.is_some_and(|name| name.ends_with('\u{c0}')), "ISO 8859-1, as the .cpg says: {name:?}");
+    });
+}
+
+#[test]
+fn geopackages_have_columns_by_layer() {
+    with_columns("zion/zion.gpkg", |_, columns| {
+        assert_eq!((columns.len(), columns[0].name.as_str()), (12, "fid"));
+        assert_eq!(told(columns, "STATE"), "text 1 None");
+    });
+    with_columns("atlantic_3600/dimensions.gpkg", |path, _| {
+        let read = read_columns(path, Some("contours"), &["elev".into()]).unwrap();
+        let elevations = &read.columns[0].values;
+        assert_eq!(elevations.len(), 10535);
+        assert!(elevations.iter().all(|e| e.number().is_some_and(|e| e % 500.0 == 0.0)));
     });
 }

@@ -1,5 +1,6 @@
 //! `drapery info FILE`
 
+use super::columns::told;
 use super::stop::Outcome;
 use clap::ValueEnum;
 use drapery::crs::PlanSpace;
@@ -202,6 +203,9 @@ fn of_layer(path: &Path, summary: &VectorSummary) -> Table {
     match &summary.crs {
         Some(crs) => table.row("CRS", crs.name()),
         None => table.row("CRS", "not stated: taken for the scene's"),
+    }
+    for column in &summary.columns {
+        table.row("column", told(column, summary.features));
     }
     table.notes(&summary.notes);
     table

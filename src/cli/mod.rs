@@ -4,6 +4,7 @@
 //! 3 a bug of ours.
 
 mod bar;
+mod columns;
 mod compare;
 mod completions;
 mod export;
@@ -17,6 +18,7 @@ mod report;
 mod scene_input;
 mod schema;
 mod stop;
+mod written;
 
 use clap::{ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::ffi::OsString;

@@ -1,7 +1,9 @@
 //! `drapery new DEM [VECTOR]...`
 
+use super::columns::offers;
 use super::info::encoding_name;
 use super::stop::Outcome;
+use super::written::{harmless, quoted_text};
 use drapery::crs::{Crs, PlanSpace};
 use drapery::source::dem::{self, DemOptions, DemSummary, PngEncoding};
 use drapery::source::load;
@@ -216,6 +218,7 @@ fn layer(name: &str, path: &Path, summary: &VectorSummary, (number, width): (usi
             "line = {{ color = \"{line}\", width_m = {width}, join = \"round\", cap = \"round\" }}   # or width_px = 3.0\n"
         );
     }
+    text += &offers(summary);
     Ok(text)
 }
 
@@ -249,24 +252,6 @@ fn quoted(path: &Path) -> Result<String> {
             .help("rename the file")
     };
     path.to_str().map(quoted_text).ok_or_else(refuse)
-}
-
-/// A text on one line, for a comment: names in files may hold anything.
-fn harmless(text: &str) -> String {
-    text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
-}
-
-/// A text as a TOML string on one line.
-fn quoted_text(text: &str) -> String {
-    let mut quoted = String::from("\"");
-    for c in text.chars() {
-        match c {
-            '"' | '\\' => quoted.extend(['\\', c]),
-            c if c.is_control() => quoted += &format!("\\u{:04X}", c as u32),
-            c => quoted.push(c),
-        }
-    }
-    quoted + "\""
 }
 
 #[cfg(test)]

@@ -9,6 +9,8 @@ pub enum Shape {
     Text,
     /// `"#rrggbb"` or `"#rrggbbaa"`.
     Color,
+    /// `true` or `false`.
+    Flag,
     /// One of some words.
     Choice(fn() -> Vec<&'static str>),
     /// A whole number in a range, both ends included.
@@ -27,10 +29,20 @@ pub enum Shape {
     PairOrTriple,
     /// One list of points `[[x, y], ...]`, or a list of such lists.
     Paths,
+    /// A string, a finite number, `true` or `false`.
+    Scalar,
+    /// A scalar, or a list of at least one.
+    Scalars,
+    /// At least one pair of a finite number and a value.
+    Stops(&'static Shape),
     /// A table.
     Table(&'static TableShape),
     /// Any number of tables.
     Tables(&'static TableShape),
+    /// A table of whatever keys, its values all of one shape.
+    Map(&'static Shape),
+    /// A value of a shape that is no table, or a table.
+    OrTable(&'static Shape, &'static TableShape),
 }
 
 /// What a table may hold.
@@ -120,6 +132,7 @@ impl Shape {
         match self {
             Shape::Text => "a string that is not empty".into(),
             Shape::Color => "a colour \"#rrggbb\" or \"#rrggbbaa\"".into(),
+            Shape::Flag => "true or false".into(),
             Shape::Choice(names) => choice_words(&names()),
             Shape::Integer(low, high) if low == high => format!("{low}"),
             Shape::Integer(low, high) => format!("a whole number from {low} to {high}"),
@@ -132,7 +145,11 @@ impl Shape {
             Shape::Or(word, shape) => format!("{} or {word:?}", shape.words()),
             Shape::PairOrTriple => "an array of 2 or 3 finite numbers".into(),
             Shape::Paths => "a list of points [[x, y], ...] or a list of such lists".into(),
-            Shape::Table(_) => "a table".into(),
+            Shape::Scalar => "a string, a finite number, true or false".into(),
+            Shape::Scalars => "a string, a finite number, true or false, or a list of these".into(),
+            Shape::Stops(shape) => format!("a list of pairs [number, {}]", shape.words()),
+            Shape::OrTable(shape, _) => format!("{} or a table", shape.words()),
+            Shape::Table(_) | Shape::Map(_) => "a table".into(),
             Shape::Tables(_) => "an array of tables".into(),
         }
     }

@@ -3,10 +3,12 @@
 //! Input: nothing (plain data). Output: [`Scene`], which every later room reads and none changes. It refuses nothing
 //! itself; [`crate::scene_file`] checks what a person wrote and `source` checks what the files hold.
 
+mod attribute;
 mod camera;
 mod layer;
 mod settings;
 
+pub use attribute::{Attribute, Column};
 pub use camera::{Camera, Projection};
 pub use layer::{Cap, Feature, Fill, Join, Layer, Line, Outline, OutlineMode, Rule, Shape, Style, Width};
 pub use settings::{

@@ -33,14 +33,7 @@ struct Check<'a> {
 impl Check<'_> {
     fn entry(&self, entry: &Entry, shape: &'static TableShape) -> Result<()> {
         let key = shape.key(&entry.key).ok_or_else(|| self.unknown(entry, shape))?;
-        let path = self.path_of(key.name);
-        match (key.shape, &entry.node.value) {
-            (Shape::Table(inner), Value::Table(found)) => {
-                table(self.origin, found, &entry.node.place, inner, &path)
-            }
-            (Shape::Tables(inner), Value::Array(items)) => self.tables(items, inner, &path),
-            _ => self.value(&entry.node, &key.shape, &path),
-        }
+        self.value(&entry.node, &key.shape, &self.path_of(key.name))
     }
 
     fn tables(&self, items: &[Node], shape: &'static TableShape, path: &str) -> Result<()> {
@@ -55,6 +48,18 @@ impl Check<'_> {
 
     fn value(&self, node: &Node, shape: &Shape, path: &str) -> Result<()> {
         match (shape, &node.value) {
+            (Shape::Table(inner) | Shape::OrTable(_, inner), Value::Table(found)) => {
+                table(self.origin, found, &node.place, inner, path)
+            }
+            (Shape::Tables(inner), Value::Array(items)) => self.tables(items, inner, path),
+            (Shape::Map(inner), Value::Table(Table(entries))) => entries
+                .iter()
+                .try_for_each(|entry| self.value(&entry.node, inner, &format!("{path}.{}", entry.key))),
+            (Shape::Stops(inner), Value::Array(items)) if !items.is_empty() => self.stops(items, inner, path),
+            (Shape::OrTable(plain, _), _) => self.value(node, plain, path),
+            (Shape::Scalars, Value::Array(items)) if !items.is_empty() => {
+                self.each(items, &Shape::Scalar, path)
+            }
             (Shape::Numbers(count), Value::Array(items)) if items.len() == *count => {
                 self.each(items, &Shape::Number(Range::Finite), path)
             }
@@ -73,6 +78,22 @@ impl Check<'_> {
 
     fn each(&self, items: &[Node], shape: &Shape, path: &str) -> Result<()> {
         items.iter().enumerate().try_for_each(|(at, item)| self.value(item, shape, &format!("{path}.{at}")))
+    }
+
+    fn stops(&self, items: &[Node], shape: &Shape, path: &str) -> Result<()> {
+        items.iter().enumerate().try_for_each(|(at, item)| {
+            let path = format!("{path}.{at}");
+            match &item.value {
+                Value::Array(pair) if pair.len() == 2 => {
+                    self.value(&pair[0], &Shape::Number(Range::Finite), &format!("{path}.0"))?;
+                    self.value(&pair[1], shape, &format!("{path}.1"))
+                }
+                other => {
+                    let expected = format!("a pair [number, {}]", shape.words());
+                    Err(self.mismatch(&item.place, &path, &expected, &other.found()))
+                }
+            }
+        })
     }
 
     /// One list of points, or several: told by the depth of the first item.
@@ -174,6 +195,9 @@ fn fits(shape: &Shape, value: &Value) -> bool {
     match (shape, value) {
         (Shape::Text, Value::Text(text)) => !text.is_empty(),
         (Shape::Color, Value::Text(text)) => color(text).is_some(),
+        (Shape::Flag, Value::Flag(_)) => true,
+        (Shape::Scalar | Shape::Scalars, Value::Text(_) | Value::Flag(_)) => true,
+        (Shape::Scalar | Shape::Scalars, value) => value.number().is_some_and(f64::is_finite),
         _ => plain(shape, value).is_some(),
     }
 }

@@ -23,6 +23,7 @@
 //! ```
 
 mod build;
+mod by_column;
 mod canon;
 mod check;
 mod keys;
@@ -37,13 +38,18 @@ mod suggest;
 mod tests;
 mod tree;
 
+pub use by_column::{
+    Bounds, ByColumn, Condition, FillSpec, LineSpec, Order, OrderKey, OutlineSpec, PaintSpec, Scale,
+    StyleSetting, StyleSpec, Test, WidthSpec,
+};
 pub use keys::SCHEMA;
 pub use overrides::Override;
 pub use schema::schema;
 pub use spec::{
-    CameraSpec, DataFile, GroundSpec, HeightEncoding, LayerSource, LayerSpec, SceneFile, Spot,
+    CameraSpec, DataFile, GroundSpec, HeightEncoding, InlineFeature, LayerSource, LayerSpec, SceneFile, Spot,
     TerrainGenerator, TerrainKind, TerrainSource, TerrainSpec, VectorGenerator, VectorKind, ViewSpec,
 };
+pub(crate) use suggest::{nearest, nearest_or_all};
 
 use crate::error::{Error, Result};
 use glam::DVec3;

@@ -48,3 +48,11 @@ words! {
         Parcels = "parcels",
     }
 }
+
+words! {
+    /// The draw orders that are a word.
+    pub(super) enum OrderName {
+        File = "file",
+        Size = "size",
+    }
+}

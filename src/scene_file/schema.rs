@@ -36,6 +36,7 @@ fn value(shape: &Shape) -> Value {
     match shape {
         Shape::Text => json!({ "type": "string", "minLength": 1 }),
         Shape::Color => json!({ "type": "string", "pattern": "^#([0-9a-fA-F]{6}|[0-9a-fA-F]{8})$" }),
+        Shape::Flag => json!({ "type": "boolean" }),
         Shape::Choice(names) => json!({ "enum": names() }),
         Shape::Integer(low, high) => json!({ "type": "integer", "minimum": low, "maximum": high }),
         Shape::IntegerOf(numbers) => json!({ "enum": numbers }),
@@ -45,6 +46,13 @@ fn value(shape: &Shape) -> Value {
         Shape::PairOrTriple => list(number(Range::Finite), 2, 3),
         Shape::Or(word, shape) => json!({ "anyOf": [value(shape), { "enum": [word] }] }),
         Shape::Paths => paths(),
+        Shape::Scalar => scalar(),
+        Shape::Scalars => {
+            json!({ "anyOf": [scalar(), { "type": "array", "items": scalar(), "minItems": 1 }] })
+        }
+        Shape::Stops(shape) => json!({ "type": "array", "items": pair(value(shape)), "minItems": 1 }),
+        Shape::Map(shape) => json!({ "type": "object", "additionalProperties": value(shape) }),
+        Shape::OrTable(shape, inner) => json!({ "anyOf": [value(shape), table(inner)] }),
         Shape::Table(shape) => table(shape),
         Shape::Tables(shape) => json!({ "type": "array", "items": table(shape) }),
     }
@@ -52,6 +60,15 @@ fn value(shape: &Shape) -> Value {
 
 fn list(items: Value, least: usize, most: usize) -> Value {
     json!({ "type": "array", "items": items, "minItems": least, "maxItems": most })
+}
+
+fn scalar() -> Value {
+    json!({ "anyOf": [{ "type": "string" }, { "type": "number" }, { "type": "boolean" }] })
+}
+
+/// A number and a value.
+fn pair(second: Value) -> Value {
+    json!({ "type": "array", "prefixItems": [number(Range::Finite), second], "minItems": 2, "maxItems": 2 })
 }
 
 fn number(range: Range) -> Value {
@@ -100,6 +117,7 @@ mod tests {
             && (schema["anyOf"].is_null() || fitting("anyOf") > 0)
             && (schema["not"].is_null() || !fits(&schema["not"], value))
             && fits_number(schema, value)
+            && fits_pattern(schema, value)
             && fits_parts(schema, value)
     }
 
@@ -107,11 +125,20 @@ mod tests {
         match schema["type"].as_str() {
             Some("object") => value.is_object(),
             Some("array") => value.is_array(),
-            Some("string") => value.as_str().is_some_and(|text| !text.is_empty()),
+            Some("string") => {
+                value.as_str().is_some_and(|text| !text.is_empty() || schema["minLength"].is_null())
+            }
+            Some("boolean") => value.is_boolean(),
             Some("integer") => value.is_i64(),
             Some("number") => value.is_number(),
             _ => true,
         }
+    }
+
+    /// Colours have the only pattern.
+    fn fits_pattern(schema: &Value, value: &Value) -> bool {
+        schema["pattern"].is_null()
+            || value.as_str().is_some_and(|text| crate::parameter::color(text).is_some())
     }
 
     fn fits_number(schema: &Value, value: &Value) -> bool {
@@ -127,8 +154,12 @@ mod tests {
         let properties = &schema["properties"];
         let known = |(key, value): (&String, &Value)| match properties.get(key) {
             Some(schema) => fits(schema, value),
+            None if schema["additionalProperties"].is_object() => {
+                fits(&schema["additionalProperties"], value)
+            }
             None => schema["additionalProperties"] != json!(false),
         };
+        let first = schema["prefixItems"].as_array().cloned().unwrap_or_default();
         let items = value.as_array().map_or(&[][..], Vec::as_slice);
         let count = items.len() as u64;
         let counted = !value.is_array()
@@ -136,6 +167,7 @@ mod tests {
                 .contains(&count);
         value.as_object().is_none_or(|object| object.iter().all(known))
             && counted
+            && first.iter().zip(items).all(|(schema, item)| fits(schema, item))
             && items.iter().all(|item| fits(&schema["items"], item))
     }
 
@@ -167,6 +199,14 @@ mod tests {
             "[[layer]]\nsource = \"a.shp\"",
             "[[layer]]\nsource = \"a.shp\"\nline = { color = \"#ff0000\" }",
             "[[layer]]\nfeatures = [{ line = [] }]\nline = { color = \"#ff0000\", width_m = 1 }",
+            "[[layer]]\nsource = \"a.shp\"\nfill = { color = \"red\" }",
+            "[[layer]]\nsource = \"a.shp\"\nfill = { color = { by = \"A\", map = { x = 3 } } }",
+            "[[layer]]\nsource = \"a.shp\"\nfill = { color = { by = \"A\", stops = [[\"#000000\", 0]] } }",
+            "[[layer]]\nsource = \"a.shp\"\nfill = { color = { by = \"A\" } }",
+            "[[layer]]\nsource = \"a.shp\"\nfill = { color = \"#000000\" }\nwhere = { A = [] }",
+            "[[layer]]\nsource = \"a.shp\"\nfill = { color = \"#000000\" }\nwhere = { A = { least = 3 } }",
+            "[[layer]]\nsource = \"a.shp\"\nfill = { color = \"#000000\" }\norder = \"sise\"",
+            "[[layer]]\nsource = \"a.shp\"\nfill = { color = \"#000000\" }\norder = { by = \"A\", descending = 1 }",
         ] {
             assert!(!fits(&schema(), &as_json(&format!("{terrain}{wrong}"))), "{wrong}");
             assert!(

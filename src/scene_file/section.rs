@@ -5,7 +5,7 @@ use super::place::{Origin, Place};
 use super::tree::{Entry, Node, Table, Value as Found};
 use crate::error::{Error, Result};
 use crate::parameter::{Key, Named, Settings, Value, color};
-use crate::scene::Color;
+use crate::scene::{Attribute, Color};
 use crate::space::Plan;
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -17,6 +17,9 @@ pub(super) struct Section<'a> {
     place: Place,
     entries: Vec<Entry>,
 }
+
+/// Pairs of a number and a value.
+pub(super) type Stops<T> = Vec<(f64, T)>;
 
 /// A key that was taken: where its value was written.
 pub(super) struct Taken<T> {
@@ -75,6 +78,10 @@ impl<'a> Section<'a> {
 
     pub(super) fn number(&mut self, key: &str) -> Result<Option<f64>> {
         self.plain(key, |value| value.number())
+    }
+
+    pub(super) fn flag(&mut self, key: &str) -> Result<Option<bool>> {
+        self.plain(key, |value| if let Found::Flag(flag) = value { Some(flag) } else { None })
     }
 
     pub(super) fn number_at(&mut self, key: &str) -> Result<Option<Taken<f64>>> {
@@ -138,8 +145,39 @@ impl<'a> Section<'a> {
     }
 
     pub(super) fn color(&mut self, key: &str) -> Result<Option<Color>> {
-        self.plain(key, |value| {
-            if let Found::Text(text) = value { color(&text).map(Color::from_rgba8) } else { None }
+        self.plain(key, as_color)
+    }
+
+    /// A table of whatever keys, which each become something with their value; by keys in ascending order.
+    pub(super) fn map<T>(
+        &mut self,
+        key: &str,
+        convert: impl Fn(Node) -> Result<T>,
+    ) -> Result<Option<Vec<(String, T)>>> {
+        let Some(Node { value, .. }) = self.take(key) else {
+            return Ok(None);
+        };
+        let Found::Table(Table(mut entries)) = value else {
+            return Err(bug(key));
+        };
+        entries.sort_by(|a, b| a.key.cmp(&b.key));
+        let each = |entry: Entry| Ok((entry.key, convert(entry.node)?));
+        entries.into_iter().map(each).collect::<Result<_>>().map(Some)
+    }
+
+    /// A list of stops.
+    pub(super) fn stops<T>(
+        &mut self,
+        key: &str,
+        convert: impl Fn(Found) -> Option<T>,
+    ) -> Result<Option<Taken<Stops<T>>>> {
+        let pair = |item: Node| {
+            let Found::Array(pair) = item.value else { return None };
+            let [number, value] = <[Node; 2]>::try_from(pair).ok()?;
+            Some((number.value.number()?, convert(value.value)?))
+        };
+        self.taken(key, |value| {
+            if let Found::Array(items) = value { items.into_iter().map(pair).collect() } else { None }
         })
     }
 
@@ -178,7 +216,25 @@ impl<'a> Section<'a> {
     }
 }
 
-fn bug(expected: &str) -> Error {
+/// A colour's text as a colour.
+pub(super) fn as_color(value: Found) -> Option<Color> {
+    value.text().and_then(color).map(Color::from_rgba8)
+}
+
+/// A scalar as the value of an attribute.
+pub(super) fn as_scalar(value: Found) -> Option<Attribute> {
+    match value {
+        Found::Text(text) => Some(Attribute::Text(text)),
+        Found::Flag(flag) => Some(Attribute::Boolean(flag)),
+        Found::Integer(Some(number)) => {
+            Some(i64::try_from(number).map_or(Attribute::Number(number as f64), Attribute::Integer))
+        }
+        Found::Number(number) => Some(Attribute::of_number(number)),
+        Found::Integer(None) | Found::Date | Found::Array(_) | Found::Table(_) => None,
+    }
+}
+
+pub(super) fn bug(expected: &str) -> Error {
     Error::internal(format!("a scene file passed its check without {expected}"))
 }
 

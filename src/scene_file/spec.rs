@@ -1,9 +1,10 @@
 //! What a scene file says, as plain data: checked, but no file that it names has been opened.
 
+use super::by_column::{Condition, Order, OrderKey, StyleSpec};
 use crate::error::Position;
 use crate::parameter::words;
 use crate::scene::{
-    Color, Compositing, Device, Diagonal, ImageSettings, Projection, Shape, Style, TechniqueSettings,
+    Attribute, Color, Compositing, Device, Diagonal, ImageSettings, Projection, Shape, TechniqueSettings,
 };
 use glam::{DVec2, DVec3};
 use std::path::PathBuf;
@@ -195,7 +196,25 @@ pub struct LayerSpec {
     /// Moves the layer in plan space.
     pub offset: DVec2,
     /// How its features look.
-    pub style: Style,
+    pub style: StyleSpec,
+    /// Which of its features are drawn: those that fulfil all of these.
+    pub conditions: Vec<Condition>,
+    /// In which order.
+    pub order: Order,
+}
+
+impl LayerSpec {
+    /// The columns that its style, conditions and order ask for, each once, by name.
+    pub fn columns(&self) -> Vec<String> {
+        let mut names: Vec<&str> = self.style.columns().collect();
+        names.extend(self.conditions.iter().map(|condition| condition.column.as_str()));
+        if let Order::By { key: OrderKey::Column(column), .. } = &self.order {
+            names.push(column);
+        }
+        names.sort_unstable();
+        names.dedup();
+        names.into_iter().map(Into::into).collect()
+    }
 }
 
 /// Where features come from.
@@ -209,9 +228,18 @@ pub enum LayerSource {
         layer: Option<String>,
     },
     /// Written in the scene file, in its plan space.
-    Inline(Vec<Shape>),
+    Inline(Vec<InlineFeature>),
     /// A generator.
     Generate(VectorGenerator),
+}
+
+/// A feature that is written in the scene file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct InlineFeature {
+    /// Its geometry.
+    pub shape: Shape,
+    /// Its attributes: column and value.
+    pub properties: Vec<(String, Attribute)>,
 }
 
 /// Generated features.

@@ -1,7 +1,7 @@
 //! "Did you mean".
 
 /// The help for a name that is not known.
-pub(super) fn nearest_or_all(given: &str, known: &[&str], what: &str) -> String {
+pub(crate) fn nearest_or_all(given: &str, known: &[&str], what: &str) -> String {
     if let Some(near) = nearest(given, known) {
         return format!("did you mean `{near}`?");
     }
@@ -12,7 +12,7 @@ pub(super) fn nearest_or_all(given: &str, known: &[&str], what: &str) -> String 
 }
 
 /// The known name that a person most likely meant.
-pub(super) fn nearest<'a>(given: &str, known: &[&'a str]) -> Option<&'a str> {
+pub(crate) fn nearest<'a>(given: &str, known: &[&'a str]) -> Option<&'a str> {
     let given = given.to_lowercase().replace('-', "_");
     let distance = |name: &str| {
         let name = name.to_lowercase().replace('-', "_");

@@ -1,14 +1,16 @@
 //! The scene file as people write it, rightly and wrongly.
 
+mod by_column;
+
 use super::*;
 use crate::parameter::{Shape as KeyShape, TableShape};
-use crate::scene::{Fill, Join, Projection, Shape, Width};
+use crate::scene::{Attribute, Color, Join, Projection, Shape};
 use crate::technique::{inverse_projection, stencil_volume};
 use glam::DVec3;
 use proptest::prelude::*;
 
 /// Every key of the description at least once, over several files.
-pub(super) const EVERY_KEY: [&str; 4] = [
+pub(super) const EVERY_KEY: [&str; 5] = [
     r##"
 schema = 1
 name = "all"
@@ -115,6 +117,23 @@ terrain = { generate = { kind = "ramp", slope_deg = 20, posts = [9, 9], cell_m =
 schema = 1
 terrain.generate = { kind = "fbm", seed = 3, wavelength_m = 900, octaves = 5 }
 "#,
+    r##"
+schema = 1
+terrain.generate = { kind = "plane" }
+[[layer]]
+name = "land"
+features = [{ polygon = [[0, 0], [4, 0], [0, 3]], properties = { CLASS = "wood", depth = 2, "is wet" = true, "" = 0.5 } }]
+fill = { color = { by = "CLASS", map = { wood = "#228b22", "2.50" = "#0000ff80" }, default = "#808080" }, opacity = { by = "depth", stops = [[0, 0.5], [10.5, 1]] } }
+outline = { color = { by = "depth", stops = [[-1, "#000000"], [2, "#ffffff"]], default = "#ff0000" }, opacity = { by = "a", map = { x = 0.5 }, default = 1 }, width_px = { by = "depth", stops = [[0, 1]], default = 3 } }
+line = { color = "#000000", opacity = { by = "a", map = {}, default = 0.5 }, width_m = { by = "lanes", map = { 1 = 3, 2 = 6.5 }, default = 4 } }
+where = { CLASS = ["wood", "meadow", 3], depth = { min = 0, max = 20 }, lanes = { above = 1, below = 4.5 }, "is wet" = true, name = "A1" }
+order = { by = "depth", descending = true }
+[[layer]]
+source = "b.shp"
+outline = { color = "#000000", width_m = { by = "lanes", stops = [[1, 3], [2, 9]] } }
+line = { color = { by = "kind", map = { a = "#000000" } }, width_px = { by = "lanes", map = { 1 = 3 }, default = 1 } }
+order = "size"
+"##,
 ];
 
 const CONE: &str = "schema = 1\nterrain.generate = { kind = \"cone\", radius_m = 100 }\n";
@@ -142,10 +161,12 @@ fn layer(lines: &str) -> String {
     refusal(&format!("[[layer]]\nsource = \"a.shp\"\n{lines}\n"))
 }
 
-#[test]
-fn every_key_can_be_written() {
-    for text in EVERY_KEY.into_iter().chain([CONE]) {
-        parse(text).unwrap_or_else(|error| panic!("{error}\n{text}"));
+/// The table in a shape, and how the names of its keys begin: those of a map's values with `*` for the map's keys.
+fn table_in(shape: KeyShape) -> Option<(&'static TableShape, &'static str)> {
+    match shape {
+        KeyShape::Table(inner) | KeyShape::Tables(inner) | KeyShape::OrTable(_, inner) => Some((inner, "")),
+        KeyShape::Map(values) => table_in(*values).map(|(inner, _)| (inner, "*.")),
+        _ => None,
     }
 }
 
@@ -153,8 +174,8 @@ fn every_key_can_be_written() {
 fn described(shape: &TableShape, path: &str, names: &mut Vec<String>) {
     for key in shape.keys {
         let name = format!("{path}{}", key.name);
-        if let KeyShape::Table(inner) | KeyShape::Tables(inner) = key.shape {
-            described(inner, &format!("{name}."), names);
+        if let Some((inner, start)) = table_in(key.shape) {
+            described(inner, &format!("{name}.{start}"), names);
         }
         names.push(name);
     }
@@ -164,21 +185,35 @@ fn in_schema(value: &serde_json::Value, path: &str, names: &mut Vec<String>) {
     for (key, value) in value["properties"].as_object().into_iter().flatten() {
         let name = format!("{path}{key}");
         in_schema(value, &format!("{name}."), names);
-        in_schema(&value["items"], &format!("{name}."), names);
         names.push(name);
+    }
+    for inner in value["anyOf"].as_array().into_iter().flatten().chain([&value["items"]]) {
+        if inner.is_object() {
+            in_schema(inner, path, names);
+        }
+    }
+    if value["additionalProperties"].is_object() {
+        in_schema(&value["additionalProperties"], &format!("{path}*."), names);
     }
 }
 
-fn written(value: &Value, path: &str, names: &mut Vec<String>) {
+fn written(value: &Value, shape: &TableShape, path: &str, names: &mut Vec<String>) {
     match value {
         Value::Table(table) => {
             for entry in &table.0 {
+                let Some(key) = shape.key(&entry.key) else { continue };
                 let name = format!("{path}{}", entry.key);
-                written(&entry.node.value, &format!("{name}."), names);
+                match (table_in(key.shape), &entry.node.value) {
+                    (Some((inner, "*.")), Value::Table(tree::Table(entries))) => entries
+                        .iter()
+                        .for_each(|entry| written(&entry.node.value, inner, &format!("{name}.*."), names)),
+                    (Some((inner, _)), value) => written(value, inner, &format!("{name}."), names),
+                    (None, _) => {}
+                }
                 names.push(name);
             }
         }
-        Value::Array(items) => items.iter().for_each(|item| written(&item.value, path, names)),
+        Value::Array(items) => items.iter().for_each(|item| written(&item.value, shape, path, names)),
         _ => {}
     }
 }
@@ -197,15 +232,41 @@ fn schema_and_parser_know_the_same_keys() {
     assert_eq!(sorted(of_parser), sorted(of_schema));
 }
 
+/// Scenes in which each setting of a style is told by a column, by both kinds of scale.
+fn by_column() -> Vec<String> {
+    let paint = [("color", "\"#000000\""), ("opacity", "1")];
+    let metres = [("color", "\"#000000\""), ("opacity", "1"), ("width_m", "2")];
+    let pixels = [("color", "\"#000000\""), ("opacity", "1"), ("width_px", "2")];
+    let parts = [
+        ("fill", &paint[..]),
+        ("outline", &metres),
+        ("outline", &pixels),
+        ("line", &metres),
+        ("line", &pixels),
+    ];
+    let scene = |(part, settings): &(&str, &[(&str, &str)]), scale: &dyn Fn(&str) -> String| {
+        let setting = |(key, value): &(&str, &str)| {
+            format!("{key} = {{ by = \"a\", {}, default = {value} }}", scale(value))
+        };
+        let settings: Vec<String> = settings.iter().map(setting).collect();
+        format!("{CONE}[[layer]]\nsource = \"a.shp\"\n{part} = {{ {} }}\n", settings.join(", "))
+    };
+    let map = |value: &str| format!("map = {{ x = {value} }}");
+    let stops = |value: &str| format!("stops = [[0, {value}]]");
+    parts.iter().flat_map(|part| [scene(part, &map), scene(part, &stops)]).collect()
+}
+
 #[test]
 fn every_described_key_is_read_somewhere() {
     // `Section::read` refuses a key that nobody takes, so that a key written in a scene that parses is read. (Parameters of techniques
     // are read as they are declared: tests/parameters.rs.)
     let (mut of_parser, mut of_scenes) = (Vec::new(), Vec::new());
     described(&keys::ROOT, "", &mut of_parser);
-    for text in EVERY_KEY.into_iter().chain([CONE]) {
+    let by_column = by_column();
+    for text in EVERY_KEY.into_iter().chain([CONE]).chain(by_column.iter().map(String::as_str)) {
+        parse(text).unwrap_or_else(|error| panic!("{error}\n{text}"));
         let origin = Origin { text, path: None, overrides: &[] };
-        written(&tree::parse(&origin).unwrap().value, "", &mut of_scenes);
+        written(&tree::parse(&origin).unwrap().value, &keys::ROOT, "", &mut of_scenes);
     }
     of_parser.retain(|name| !name.starts_with("technique."));
     of_scenes.retain(|name| !name.starts_with("technique."));
@@ -222,10 +283,13 @@ fn values_arrive_where_they_belong() {
     let raised = parse(&format!("{CONE}terrain.offset = [1, -2, 3.5]")).unwrap();
     assert_eq!(raised.terrain.offset, DVec3::new(1.0, -2.0, 3.5));
     let lakes = &scene.layers[0];
-    assert_eq!(lakes.style.fill.map(|Fill { color, .. }| color.0[3]), Some(0.5));
-    assert_eq!(lakes.style.outline.map(|outline| outline.line.join), Some(Join::Miter { limit: 2.0 }));
+    let fill = lakes.style.fill.as_ref().unwrap();
+    assert_eq!(fill.paint.opacity, StyleSetting::Constant(0.5));
+    let outline = lakes.style.outline.as_ref().unwrap();
+    assert_eq!(outline.line.join, Join::Miter { limit: 2.0 });
     assert_eq!(scene.layers[1].name, "roads");
-    assert_eq!(scene.layers[1].style.line.map(|line| line.width), Some(Width::Metres(12.0)));
+    let line = scene.layers[1].style.line.as_ref().unwrap();
+    assert_eq!(line.width, WidthSpec::Metres(StyleSetting::Constant(12.0)));
     assert_eq!(inverse_projection(&scene).samples, 5);
     let volumes: stencil_volume::Settings = scene.technique.get();
     assert_eq!((volumes.samples, volumes.object), (4, Some(2)));
@@ -265,13 +329,14 @@ fn a_polygon_is_one_ring_or_several_by_depth_and_loses_its_closing_vertex() {
         "{CONE}[[layer]]\nfill = {{ color = \"#000000\" }}\nfeatures = [\n{{ polygon = [[0,0],[4,0],[0,3],[0,0]] }},\n\
          {{ polygon = [[[0,0],[9,0],[0,9]],[[1,1],[2,1],[1,2]]] }}, {{ line = [[[0,0],[1,1]],[[5,5],[6,6]]] }}]"
     );
-    let LayerSource::Inline(shapes) = parse(&text).unwrap().layers.remove(0).source else {
+    let LayerSource::Inline(features) = parse(&text).unwrap().layers.remove(0).source else {
         panic!("not inline")
     };
-    let lengths: Vec<Vec<usize>> = shapes
-        .iter()
-        .map(|(Shape::Polygon(paths) | Shape::Line(paths))| paths.iter().map(Vec::len).collect())
-        .collect();
+    let lengths = |feature: &InlineFeature| {
+        let (Shape::Polygon(paths) | Shape::Line(paths)) = &feature.shape;
+        paths.iter().map(Vec::len).collect()
+    };
+    let lengths: Vec<Vec<usize>> = features.iter().map(lengths).collect();
     assert_eq!(lengths, [vec![3], vec![3, 3], vec![2, 2]]);
 }
 
@@ -479,8 +544,10 @@ fn overrides_change_tables_arrays_and_named_layers() {
         (Spot::Plan(DVec3::new(1.0, 2.0, 3.0)), Spot::Plan(DVec3::new(0.0, 0.0, 5.0)))
     );
     assert_eq!(inverse_projection(&scene).samples, 2);
-    assert_eq!(scene.layers[0].style.fill.map(|fill| fill.color.0), Some([1.0, 0.0, 0.0, 0.5]));
-    assert_eq!(scene.layers[1].style.line.map(|line| line.width), Some(Width::Pixels(2.5)));
+    let fill = scene.layers[0].style.fill.as_ref().unwrap();
+    assert_eq!(fill.paint.color, StyleSetting::Constant(Color([1.0, 0.0, 0.0, 1.0])));
+    let line = scene.layers[1].style.line.as_ref().unwrap();
+    assert_eq!(line.width, WidthSpec::Pixels(StyleSetting::Constant(2.5)));
     assert_eq!(scene.name, "night view");
 }
 
@@ -579,7 +646,7 @@ proptest! {
         }),
         value in prop::sample::select(vec!["0", "-1", "1e308", "[]", "{}", "[[]]", "[[[]]]", "\"\"", "true", "", "[1,2,3]", "[0,0]", "\"x\"", "[{}]"]),
     ) {
-        let path = key.replace("layer.", "layer.0.").replace("features.", "features.0.");
+        let path = key.replace("layer.", "layer.0.").replace("features.", "features.0.").replace('*', "a");
         let result = with(EVERY_KEY[0], &[&format!("{path}={value}")]);
         prop_assert!(result.is_ok() || result.is_err_and(|error| !error.is_internal()));
     }

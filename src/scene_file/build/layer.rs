@@ -1,11 +1,14 @@
 //! The tables of layers.
 
+use super::by_column::{conditions, order};
+use super::style::style;
 use super::{data_file, rectangle, stem};
 use crate::error::Result;
-use crate::scene::{Cap, Color, Fill, Join, Line, Outline, Shape, Style, Width};
-use crate::scene_file::names::{JoinName, VectorName};
-use crate::scene_file::section::{Section, Taken};
-use crate::scene_file::spec::{LayerSource, LayerSpec, VectorGenerator, VectorKind};
+use crate::scene::Shape;
+use crate::scene_file::names::VectorName;
+use crate::scene_file::section::{Section, Taken, as_scalar, bug};
+use crate::scene_file::spec::{InlineFeature, LayerSource, LayerSpec, VectorGenerator, VectorKind};
+use crate::scene_file::tree::Node;
 use crate::space::Plan;
 use glam::DVec2;
 use std::path::Path;
@@ -41,6 +44,8 @@ fn layer(section: &mut Section<'_>, index: usize) -> Result<LayerSpec> {
         crs: section.text("crs")?,
         offset: section.numbers("offset")?.map_or(DVec2::ZERO, DVec2::from_array),
         style: style(section)?,
+        conditions: conditions(section)?,
+        order: order(section)?,
     })
 }
 
@@ -63,19 +68,21 @@ fn source(section: &mut Section<'_>) -> Result<LayerSource> {
         return Err(section.error_at(place, format!("`{key}` goes with a layer's `source` only")));
     }
     if let Some(features) = section.tables("features")? {
-        let shape = |node| Section::read(section.origin(), node, inline);
-        return features.into_iter().map(shape).collect::<Result<_>>().map(LayerSource::Inline);
+        let feature = |node| Section::read(section.origin(), node, inline);
+        return features.into_iter().map(feature).collect::<Result<_>>().map(LayerSource::Inline);
     }
     let node = section.take_or_empty("generate");
     Section::read(section.origin(), node, generator).map(LayerSource::Generate)
 }
 
 /// A feature that is written in the scene file.
-fn inline(section: &mut Section<'_>) -> Result<Shape> {
-    if let Some(rings) = section.paths("polygon")? {
-        return Ok(Shape::Polygon(rings.into_iter().map(open).collect()));
-    }
-    Ok(Shape::Line(section.paths("line")?.unwrap_or_default()))
+fn inline(section: &mut Section<'_>) -> Result<InlineFeature> {
+    let shape = match section.paths("polygon")? {
+        Some(rings) => Shape::Polygon(rings.into_iter().map(open).collect()),
+        None => Shape::Line(section.paths("line")?.unwrap_or_default()),
+    };
+    let value = |node: Node| as_scalar(node.value).ok_or_else(|| bug("properties"));
+    Ok(InlineFeature { shape, properties: section.map("properties", value)?.unwrap_or_default() })
 }
 
 /// A ring without its closing vertex.
@@ -137,56 +144,4 @@ fn class(section: &mut Section<'_>) -> Result<Option<(u32, u32)>> {
         }
         taken => Ok(taken.map(|taken| (taken.value[0] as u32, taken.value[1] as u32))),
     }
-}
-
-fn style(section: &mut Section<'_>) -> Result<Style> {
-    let origin = section.origin();
-    Ok(Style {
-        fill: section.take("fill").map(|node| Section::read(origin, node, fill)).transpose()?,
-        outline: section.take("outline").map(|node| Section::read(origin, node, outline)).transpose()?,
-        line: section.take("line").map(|node| Section::read(origin, node, line)).transpose()?,
-    })
-}
-
-fn fill(section: &mut Section<'_>) -> Result<Fill> {
-    Ok(Fill { color: color(section)?, rule: section.name("rule")?.unwrap_or_default() })
-}
-
-fn outline(section: &mut Section<'_>) -> Result<Outline> {
-    let line = Line { color: color(section)?, width: width(section)?, join: join(section)?, cap: Cap::Butt };
-    Ok(Outline { line, mode: section.name("mode")?.unwrap_or_default() })
-}
-
-fn line(section: &mut Section<'_>) -> Result<Line> {
-    Ok(Line {
-        color: color(section)?,
-        width: width(section)?,
-        join: join(section)?,
-        cap: section.name("cap")?.unwrap_or_default(),
-    })
-}
-
-fn color(section: &mut Section<'_>) -> Result<Color> {
-    let opacity = section.number("opacity")?.unwrap_or(1.0);
-    Ok(section.color("color")?.unwrap_or(Color([0.0, 0.0, 0.0, 1.0])).with_opacity(opacity))
-}
-
-fn width(section: &mut Section<'_>) -> Result<Width> {
-    let metres = section.number("width_m")?;
-    let pixels = section.number("width_px")?;
-    Ok(pixels.map_or(Width::Metres(metres.unwrap_or(1.0)), Width::Pixels))
-}
-
-fn join(section: &mut Section<'_>) -> Result<Join> {
-    let name = section.name("join")?.unwrap_or(JoinName::Round);
-    if name != JoinName::Miter
-        && let Some((key, place)) = section.first_of(&["miter_limit"])
-    {
-        return Err(section.error_at(place, format!("`{key}` goes with join = \"miter\" only")));
-    }
-    Ok(match name {
-        JoinName::Round => Join::Round,
-        JoinName::Bevel => Join::Bevel,
-        JoinName::Miter => Join::Miter { limit: section.number("miter_limit")?.unwrap_or(4.0) },
-    })
 }

@@ -1,7 +1,9 @@
 //! A checked tree -> [`SceneFile`]: defaults, and the checks that need several values.
 
+mod by_column;
 mod camera;
 mod layer;
+mod style;
 mod technique;
 mod terrain;
 

@@ -1,5 +1,6 @@
 //! The keys of a layer.
 
+use super::by_column::{COLOR, CONDITION, OPACITY, ORDER, ORDER_NAME, WIDTH};
 use super::{POSITIVE, SEED, SHARE};
 use crate::parameter::{Range, Rule as Keys, Shape, TableShape, choice, key};
 use crate::scene::{Cap, OutlineMode, Rule};
@@ -25,6 +26,16 @@ pub(super) static LAYER: TableShape = TableShape {
         key("fill", Shape::Table(&FILL), "The inside of polygons."),
         key("outline", Shape::Table(&OUTLINE), "The border of polygons, over the fill."),
         key("line", Shape::Table(&LINE), "Lines."),
+        key(
+            "where",
+            Shape::Map(&CONDITION),
+            "Only the features that fulfil all of these conditions: a column, and the value or one of the values that it must have, or bounds.",
+        ),
+        key(
+            "order",
+            Shape::OrTable(&ORDER_NAME, &ORDER),
+            "The draw order: \"file\", \"size\" (larger polygons and longer lines on top, polygons below lines), or by a key. Default: \"file\".",
+        ),
     ],
     rules: &[Keys::One(&["source", "features", "generate"]), Keys::Some(&["fill", "outline", "line"])],
 };
@@ -37,6 +48,7 @@ static FEATURE: TableShape = TableShape {
             "One ring [[x, y], ...] or several (the layer's rule says what is inside).",
         ),
         key("line", Shape::Paths, "One polyline [[x, y], ...] or several."),
+        key("properties", Shape::Map(&Shape::Scalar), "Its attributes: a value for each column."),
     ],
     rules: &[Keys::One(&["polygon", "line"])],
 };
@@ -72,8 +84,8 @@ static GENERATE_LAYER: TableShape = TableShape {
 
 static FILL: TableShape = TableShape {
     keys: &[
-        key("color", Shape::Color, "The colour.").required(),
-        key("opacity", SHARE, "Multiplies the colour's alpha. Default: 1."),
+        key("color", COLOR, "The colour.").required(),
+        key("opacity", OPACITY, "Multiplies the colour's alpha. Default: 1."),
         key("rule", choice::<Rule>(), "What rings enclose. Default: \"even-odd\"."),
     ],
     rules: &[],
@@ -81,10 +93,10 @@ static FILL: TableShape = TableShape {
 
 static OUTLINE: TableShape = TableShape {
     keys: &[
-        key("color", Shape::Color, "The colour.").required(),
-        key("opacity", SHARE, "Multiplies the colour's alpha. Default: 1."),
-        key("width_m", POSITIVE, "The whole width in metres of the plan."),
-        key("width_px", POSITIVE, "The whole width in pixels of the screen."),
+        key("color", COLOR, "The colour.").required(),
+        key("opacity", OPACITY, "Multiplies the colour's alpha. Default: 1."),
+        key("width_m", WIDTH, "The whole width in metres of the plan."),
+        key("width_px", WIDTH, "The whole width in pixels of the screen."),
         key(
             "mode",
             choice::<OutlineMode>(),
@@ -102,10 +114,10 @@ static OUTLINE: TableShape = TableShape {
 
 static LINE: TableShape = TableShape {
     keys: &[
-        key("color", Shape::Color, "The colour.").required(),
-        key("opacity", SHARE, "Multiplies the colour's alpha. Default: 1."),
-        key("width_m", POSITIVE, "The whole width in metres of the plan (static)."),
-        key("width_px", POSITIVE, "The whole width in pixels of the screen (dynamic)."),
+        key("color", COLOR, "The colour.").required(),
+        key("opacity", OPACITY, "Multiplies the colour's alpha. Default: 1."),
+        key("width_m", WIDTH, "The whole width in metres of the plan (static)."),
+        key("width_px", WIDTH, "The whole width in pixels of the screen (dynamic)."),
         key("join", choice::<JoinName>(), "How segments meet. Default: \"round\"."),
         key(
             "miter_limit",

@@ -1,5 +1,6 @@
 //! Every key of the scene file, said once: the check, the JSON Schema and the suggestions all read it here.
 
+mod by_column;
 mod layer;
 mod technique;
 mod terrain;

@@ -14,8 +14,7 @@ mod terrain;
 
 pub use terrain::terrain;
 
-use crate::scene::Feature;
-use crate::scene::Shape;
+use crate::scene::{Attribute, Column, Feature, Shape};
 use crate::scene_file::{VectorGenerator, VectorKind};
 use crate::space::{Plan, PlanBox};
 
@@ -30,9 +29,7 @@ use crate::space::{Plan, PlanBox};
 /// assert!(roads.len() > 5);
 /// ```
 pub fn features(generator: &VectorGenerator, terrain: PlanBox) -> Vec<Feature> {
-    let window = generator
-        .window
-        .map_or(terrain, |[x0, y0, x1, y1]| PlanBox { min: Plan::new(x0, y0), max: Plan::new(x1, y1) });
+    let window = window(generator, terrain);
     let shapes: Vec<Shape> = match generator.kind {
         VectorKind::Roads { segment_m } => roads::roads(generator, segment_m, window),
         VectorKind::Paths { segment_m } => paths::paths(generator, segment_m, window),
@@ -40,6 +37,22 @@ pub fn features(generator: &VectorGenerator, terrain: PlanBox) -> Vec<Feature> {
         VectorKind::Mosaic { class, holes } => mosaic::mosaic(generator, class, holes, window),
     };
     shapes.into_iter().enumerate().map(|(index, shape)| Feature { index, style: 0, shape }).collect()
+}
+
+/// The column of attributes that the generator's features have: the `class` of a mosaic's polygons, as [`features`] numbers
+/// them, with the same arguments.
+pub fn column(generator: &VectorGenerator, terrain: PlanBox) -> Option<Column> {
+    let VectorKind::Mosaic { class, .. } = generator.kind else {
+        return None;
+    };
+    let classes = mosaic::classes(generator, class, window(generator, terrain));
+    Some(Column { name: "class".into(), values: classes.into_iter().map(Attribute::Integer).collect() })
+}
+
+/// The rectangle to fill.
+fn window(generator: &VectorGenerator, terrain: PlanBox) -> PlanBox {
+    let rectangle = |[x0, y0, x1, y1]: [f64; 4]| PlanBox { min: Plan::new(x0, y0), max: Plan::new(x1, y1) };
+    generator.window.map_or(terrain, rectangle)
 }
 
 #[cfg(test)]

@@ -10,6 +10,8 @@ use std::f64::consts::PI;
 
 /// Pieces of an edge: a power of two.
 const PIECES: usize = 8;
+/// Classes of polygons where a scene does not say how many.
+const CLASSES: u32 = 6;
 /// Vertices of a lake.
 const SHORE: usize = 16;
 
@@ -21,17 +23,16 @@ pub(super) fn mosaic(
     window: PlanBox,
 ) -> Vec<Shape> {
     let grid = Grid::new(generator, window);
-    let mut shapes = Vec::new();
-    for row in 0..grid.rows {
-        for (from, to) in grid.groups(row) {
-            let kept =
-                class.is_none_or(|(class, of)| grid.hash(0, from, row) % u64::from(of) == u64::from(class));
-            if kept {
-                shapes.push(grid.polygon(from, to, row, holes));
-            }
-        }
-    }
-    shapes
+    let kept = grid.cells().filter(|cell| class.is_none_or(|(class, of)| grid.class(*cell, of) == class));
+    kept.map(|(from, to, row)| grid.polygon(from, to, row, holes)).collect()
+}
+
+/// The classes of the polygons that are kept: of as many as the class that is kept is of, else of [`CLASSES`].
+pub(super) fn classes(generator: &VectorGenerator, class: Option<(u32, u32)>, window: PlanBox) -> Vec<i64> {
+    let grid = Grid::new(generator, window);
+    let of = class.map_or(CLASSES, |(_, of)| of);
+    let all = grid.cells().map(|cell| grid.class(cell, of));
+    all.filter(|own| class.is_none_or(|(class, _)| class == *own)).map(i64::from).collect()
 }
 
 /// A grid whose corners are moved and whose edges wiggle, each by a hash of its own number: both neighbours of an edge
@@ -62,6 +63,16 @@ impl Grid {
         let polygons = if row + 1 == self.rows { self.last } else { self.columns };
         let border = |n: usize| n * self.columns / polygons;
         (0..polygons).map(|n| (border(n), border(n + 1))).collect()
+    }
+
+    /// All polygons: their first column, the one after their last, their row.
+    fn cells(&self) -> impl Iterator<Item = (usize, usize, usize)> {
+        (0..self.rows).flat_map(|row| self.groups(row).into_iter().map(move |(from, to)| (from, to, row)))
+    }
+
+    /// The class of a polygon, of so many.
+    fn class(&self, (from, _, row): (usize, usize, usize), of: u32) -> u32 {
+        (self.hash(0, from, row) % u64::from(of)) as u32
     }
 
     /// A hash of a thing of some kind at a place.

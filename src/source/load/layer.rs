@@ -1,14 +1,18 @@
 //! The layers: read, written or generated, in local coordinates.
 
 use super::blame::{Named, of_key};
+use super::columns::Columns;
+use super::filter::fulfilling;
+use super::order::ordered;
 use super::place::Map;
+use super::styling::styled;
 use super::terrain::Terrain;
 use crate::crs::Crs;
 use crate::error::{Error, Result};
 use crate::math::max;
 use crate::parallel;
 use crate::scene::{Feature, Join, Layer, Line, Shape, Style, Width};
-use crate::scene_file::{DataFile, LayerSource, LayerSpec, SceneFile, VectorGenerator};
+use crate::scene_file::{DataFile, InlineFeature, LayerSource, LayerSpec, SceneFile, VectorGenerator};
 use crate::source::{generate, vector};
 use crate::space::{Plan, PlanBox};
 use glam::DVec2;
@@ -36,69 +40,95 @@ fn layer(
     progress: &dyn Fn(&str),
     notes: &mut Vec<String>,
 ) -> Result<Layer> {
-    let features = match &spec.source {
+    let Found { features, columns, map, shift } = match &spec.source {
         LayerSource::File { file, layer } => {
-            let named = Named::new(scene, file);
             progress(&format!("reading {}", file.written));
-            from_file(scene, spec, (named, layer.as_deref()), terrain, notes)?
+            from_file(scene, spec, (Named::new(scene, file), layer.as_deref()), terrain, notes)?
         }
-        LayerSource::Inline(shapes) => {
-            if let Some(index) =
-                shapes.iter().position(|shape| !parts(shape).all(|part| is_drawable(shape, part)))
-            {
-                let what = "a ring of fewer than 3 points or a line of fewer than 2 can not be drawn";
-                let error = Error::new(what).help("write all corners of the ring, all points of the line");
-                return Err(of_key(scene, &format!("layer.{}.features.{index}", spec.name), error));
-            }
-            let shift = terrain.place.shift(spec.offset);
-            let numbered = shapes.iter().cloned().enumerate();
-            let features = numbered.map(|(index, shape)| Feature { index, style: 0, shape });
-            features.map(|feature| moved(feature, &Map::AsIs, shift)).collect::<Result<_>>()?
-        }
+        LayerSource::Inline(features) => inline(scene, spec, features, terrain)?,
         LayerSource::Generate(generator) => {
             progress(&format!("making {}", spec.name));
-            let features = generated(generator, terrain);
-            features
-                .into_iter()
-                .map(|feature| moved(feature, &Map::AsIs, spec.offset))
-                .collect::<Result<_>>()?
+            generated(scene, spec, generator, terrain)
         }
     };
-    let features = on_terrain(features, &spec.style, terrain, notes);
-    Ok(Layer::uniform(&spec.name, spec.style, features))
+    columns.require(spec)?;
+    let mut features = fulfilling(features, spec, &columns, notes)?;
+    let styles = styled(&mut features, spec, &columns)?;
+    let moved = parallel::map_owned(features, |feature| moved(feature, &map, shift));
+    let features = moved.into_iter().collect::<Result<_>>().map_err(|error| columns.blame(error))?;
+    let mut layer = Layer { name: spec.name.clone(), styles, features };
+    leave_out_what_is_off(terrain, &mut layer, notes);
+    layer.features = ordered(layer.features, spec, &columns);
+    Ok(layer)
+}
+
+/// The features of a source, their attributes, and how their coordinates become local ones.
+struct Found<'a> {
+    features: Vec<Feature>,
+    columns: Columns<'a>,
+    map: Map,
+    shift: DVec2,
+}
+
+/// Features that the scene file writes.
+fn inline<'a>(
+    scene: &'a SceneFile,
+    spec: &LayerSpec,
+    written: &[InlineFeature],
+    terrain: &Terrain,
+) -> Result<Found<'a>> {
+    let is_broken = |InlineFeature { shape, .. }: &_| !parts(shape).all(|part| is_drawable(shape, part));
+    if let Some(index) = written.iter().position(is_broken) {
+        let what = "a ring of fewer than 3 points or a line of fewer than 2 can not be drawn";
+        let error = Error::new(what).help("write all corners of the ring, all points of the line");
+        return Err(of_key(scene, &format!("layer.{}.features.{index}", spec.name), error));
+    }
+    let numbered = written.iter().enumerate();
+    let features =
+        numbered.map(|(index, written)| Feature { index, style: 0, shape: written.shape.clone() }).collect();
+    let columns = Columns::of_inline(written, scene);
+    Ok(Found { features, columns, map: Map::AsIs, shift: terrain.place.shift(spec.offset) })
 }
 
 /// Generated features, made in local coordinates: the same bits wherever the scene lies.
-fn generated(generator: &VectorGenerator, terrain: &Terrain) -> Vec<Feature> {
+fn generated<'a>(
+    scene: &'a SceneFile,
+    spec: &LayerSpec,
+    generator: &VectorGenerator,
+    terrain: &Terrain,
+) -> Found<'a> {
     let shift = terrain.place.shift(DVec2::ZERO);
     let local = |[x0, y0, x1, y1]: [f64; 4]| [x0 + shift.x, y0 + shift.y, x1 + shift.x, y1 + shift.y];
     let generator = VectorGenerator { window: generator.window.map(local), ..*generator };
-    generate::features(&generator, terrain.bounds)
+    let features = generate::features(&generator, terrain.bounds);
+    let is_asked = !spec.columns().is_empty();
+    let column = is_asked.then(|| generate::column(&generator, terrain.bounds)).flatten();
+    let columns = Columns::of_generator(column.into_iter().collect(), scene);
+    Found { features, columns, map: Map::AsIs, shift: spec.offset }
 }
 
-fn from_file(
-    scene: &SceneFile,
+fn from_file<'a>(
+    scene: &'a SceneFile,
     spec: &LayerSpec,
-    (named, layer): (Named<'_>, Option<&str>),
+    (named, layer): (Named<'a>, Option<&str>),
     terrain: &Terrain,
     notes: &mut Vec<String>,
-) -> Result<Vec<Feature>> {
+) -> Result<Found<'a>> {
     named.require()?;
     let blame = |error| named.blame(error);
-    let file = vector::read(named.path(), layer).map_err(blame)?;
+    let mut file = vector::read_columns(named.path(), layer, &spec.columns()).map_err(blame)?;
     if !file.features.iter().any(|f| parts(&f.shape).any(|part| is_drawable(&f.shape, part))) {
         let told = if file.notes.is_empty() { "it is empty".into() } else { file.notes.join("; ") };
         let error = Error::new(format!("nothing in this layer can be drawn: {told}"));
         return Err(blame(error.help("leave the layer out, or give a file with polygons or lines")));
     }
-    notes.extend(file.notes);
+    notes.append(&mut file.notes);
+    let columns = Columns::of_file(&mut file, named);
     let key = format!("layer.{}.crs", spec.name);
     let stated = spec.crs.as_ref().map(|text| Crs::parse(text)).transpose();
     let stated = stated.map_err(|error| of_key(scene, &key, error))?;
     let map = map(stated.or(file.crs), terrain, named.file, notes).map_err(blame)?;
-    let shift = terrain.place.shift(spec.offset);
-    let moved = parallel::map_owned(file.features, |feature| moved(feature, &map, shift));
-    moved.into_iter().collect::<Result<_>>().map_err(blame)
+    Ok(Found { features: file.features, columns, map, shift: terrain.place.shift(spec.offset) })
 }
 
 /// The rings or polylines of a shape.
@@ -155,26 +185,20 @@ fn moved(mut feature: Feature, map: &Map, shift: DVec2) -> Result<Feature> {
     Ok(feature)
 }
 
-/// The features that can touch the terrain, in their order: a footprint ends where the terrain does.
-fn on_terrain(
-    features: Vec<Feature>,
-    style: &Style,
-    terrain: &Terrain,
-    notes: &mut Vec<String>,
-) -> Vec<Feature> {
-    let count = features.len();
-    let touches = |feature: &Feature| {
-        reach(style, &feature.shape)
+/// Keeps the features that can touch the terrain, in their order: a footprint ends where the terrain does.
+fn leave_out_what_is_off(terrain: &Terrain, layer: &mut Layer, notes: &mut Vec<String>) {
+    let count = layer.features.len();
+    let styles = &layer.styles;
+    layer.features.retain(|feature| {
+        reach(&styles[feature.style as usize], &feature.shape)
             .is_none_or(|reach| bounds(&feature.shape).grown(reach).meets(&terrain.bounds))
-    };
-    let kept: Vec<Feature> = features.into_iter().filter(touches).collect();
-    if kept.is_empty() && count > 0 {
+    });
+    let kept = layer.features.len();
+    if kept == 0 && count > 0 {
         notes.push(format!("none of its {count} features meets the terrain"));
-    } else if kept.len() < count {
-        notes
-            .push(format!("{} of {count} features lie off the terrain and are left out", count - kept.len()));
+    } else if kept < count {
+        notes.push(format!("{} of {count} features lie off the terrain and are left out", count - kept));
     }
-    kept
 }
 
 /// How far from its vertices' box a feature may cover the plan; `None` where that depends on the view.

@@ -23,10 +23,15 @@
 
 mod blame;
 mod camera;
+mod columns;
+mod filter;
 mod ground;
 mod layer;
+mod order;
 mod place;
 mod resample;
+mod size;
+mod styling;
 mod terrain;
 
 #[cfg(test)]

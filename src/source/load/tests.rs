@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests are no tests to the lint")]
 
+mod attributes;
+
 use super::load;
 use crate::crs::{Crs, PlanSpace};
 use crate::error::{Error, Result};

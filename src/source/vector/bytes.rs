@@ -1,4 +1,6 @@
-//! Numbers out of a slice of bytes, never past its end.
+//! Files beside a file, and numbers out of a slice of bytes, never past its end.
+
+use std::path::Path;
 
 /// Which end of a number comes first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -38,11 +40,29 @@ impl<'a> Cursor<'a> {
         self.array::<1>().map(|[byte]| byte)
     }
 
+    pub(super) fn u16(&mut self, endian: Endian) -> Option<u16> {
+        self.array().map(|bytes| match endian {
+            Endian::Big => u16::from_be_bytes(bytes),
+            Endian::Little => u16::from_le_bytes(bytes),
+        })
+    }
+
     pub(super) fn u32(&mut self, endian: Endian) -> Option<u32> {
         self.array().map(|bytes| match endian {
             Endian::Big => u32::from_be_bytes(bytes),
             Endian::Little => u32::from_le_bytes(bytes),
         })
+    }
+
+    pub(super) fn u64(&mut self, endian: Endian) -> Option<u64> {
+        self.array().map(|bytes| match endian {
+            Endian::Big => u64::from_be_bytes(bytes),
+            Endian::Little => u64::from_le_bytes(bytes),
+        })
+    }
+
+    pub(super) fn f32(&mut self, endian: Endian) -> Option<f32> {
+        self.u32(endian).map(f32::from_bits)
     }
 
     pub(super) fn f64(&mut self, endian: Endian) -> Option<f64> {
@@ -57,4 +77,10 @@ impl<'a> Cursor<'a> {
         let count = self.u32(endian)? as usize;
         (count.checked_mul(size)? <= self.left()).then_some(count)
     }
+}
+
+/// The contents of a file beside another, by one of two spellings of its extension.
+pub(super) fn beside(path: &Path, extension: &str, capitals: &str) -> Option<Vec<u8>> {
+    let read = |extension: &str| std::fs::read(path.with_extension(extension)).ok();
+    read(extension).or_else(|| read(capitals))
 }

@@ -1,6 +1,7 @@
 //! Gathers the features of a file under the rules that all formats share.
 
 use super::VectorFile;
+use super::attributes::{Attributes, Wanted};
 use crate::crs::Crs;
 use crate::error::{Error, Result};
 use crate::scene::{Feature, Shape};
@@ -12,6 +13,7 @@ pub(super) struct Collector {
     pub(super) features: Vec<Feature>,
     pub(super) crs: Option<Crs>,
     pub(super) notes: Vec<String>,
+    pub(super) attributes: Attributes,
     /// Features seen in the file, with those left out.
     pub(super) seen: usize,
     /// Coordinates of polygons and lines stored in the file, closing vertices counted.
@@ -23,6 +25,10 @@ pub(super) struct Collector {
 }
 
 impl Collector {
+    pub(super) fn new(wanted: Wanted) -> Self {
+        Self { attributes: Attributes::new(wanted), ..Self::default() }
+    }
+
     /// The number in the file of the feature that is being read.
     pub(super) fn current(&self) -> usize {
         self.seen
@@ -129,7 +135,8 @@ impl Collector {
     }
 
     pub(super) fn into_file(self) -> VectorFile {
-        VectorFile { features: self.features, crs: self.crs, notes: self.notes }
+        let (column_names, columns) = self.attributes.into_columns();
+        VectorFile { features: self.features, columns, column_names, crs: self.crs, notes: self.notes }
     }
 }
 

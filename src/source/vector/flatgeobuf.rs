@@ -3,23 +3,26 @@
 //! The flatbuffers are verified by the `flatgeobuf` crate's generated code; the walk over the file is ours, so that
 //! every size is held against the file's length before it is believed.
 
+use super::attributes::Wanted;
 use super::bytes::{Cursor, Endian};
 use super::collector::Collector;
 use crate::crs::Crs;
 use crate::error::{Error, Result};
+use crate::scene::Attribute;
 use crate::space::Plan;
 use ::flatgeobuf::{
-    Geometry, GeometryType, Header, size_prefixed_root_as_feature, size_prefixed_root_as_header,
+    Column, ColumnType, Feature, Geometry, GeometryType, Header, size_prefixed_root_as_feature,
+    size_prefixed_root_as_header,
 };
 use std::path::Path;
 
 const DEEPEST: usize = 16;
 const INDEX_NODE_BYTES: u64 = 40;
 
-/// Reads a FlatGeobuf file.
-pub(super) fn read(path: &Path) -> Result<Collector> {
+/// Reads a FlatGeobuf file, and of its columns what is wanted.
+pub(super) fn read(path: &Path, wanted: Wanted) -> Result<Collector> {
     let bytes = super::contents_of(path)?;
-    let mut found = Collector::default();
+    let mut found = Collector::new(wanted);
     let mut cursor = Cursor::new(&bytes);
     check_magic(&mut cursor)?;
     let header_bytes = sized(&mut cursor).ok_or_else(|| damaged("it ends within its header"))?;
@@ -92,6 +95,7 @@ fn skip_index(cursor: &mut Cursor<'_>, header: &Header<'_>) -> Result<()> {
 }
 
 fn read_features(mut cursor: Cursor<'_>, header: &Header<'_>, found: &mut Collector) -> Result<()> {
+    let of_all = fields(header.columns().iter().flatten(), found);
     while cursor.left() > 0 {
         let index = found.current();
         let bytes =
@@ -104,6 +108,7 @@ fn read_features(mut cursor: Cursor<'_>, header: &Header<'_>, found: &mut Collec
             }
             None => found.leave_out_empty(),
         }
+        read_properties(&feature, &of_all, found).map_err(|e| e.in_feature(index))?;
         found.next_feature();
     }
     let (stated, seen) = (header.features_count(), found.seen as u64);
@@ -111,6 +116,88 @@ fn read_features(mut cursor: Cursor<'_>, header: &Header<'_>, found: &mut Collec
         return Err(damaged(&format!("its header states {stated} features but it holds {seen}")));
     }
     Ok(())
+}
+
+/// A column of attributes: its number among those of the file, and the type of its values.
+struct Field {
+    column: usize,
+    kind: ColumnType,
+}
+
+/// The columns of the header, or of a feature that has its own.
+fn fields<'a>(columns: impl Iterator<Item = Column<'a>>, found: &mut Collector) -> Vec<Field> {
+    if !found.attributes.are_read() {
+        return Vec::new();
+    }
+    let field =
+        |column: Column<'a>| Field { column: found.attributes.column(column.name()), kind: column.type_() };
+    columns.map(field).collect()
+}
+
+/// The values of the current feature: each is the number of a field and what its type says.
+fn read_properties(feature: &Feature<'_>, of_all: &[Field], found: &mut Collector) -> Result<()> {
+    let Some(properties) = feature.properties().filter(|_| found.attributes.are_read()) else {
+        return Ok(());
+    };
+    let own = feature.columns().map(|own| fields(own.iter(), found)).filter(|own| !own.is_empty());
+    let fields = own.as_deref().unwrap_or(of_all);
+    let index = found.current();
+    let mut cursor = Cursor::new(properties.bytes());
+    // Some writers leave a byte behind the last value.
+    while cursor.left() > 1 {
+        let number = cursor.u16(Endian::Little).map(usize::from);
+        let field = number
+            .and_then(|number| fields.get(number))
+            .ok_or_else(|| damaged("its values name a column that there is not"))?;
+        match value(&mut cursor, field.kind) {
+            Ok(Some(value)) => found.attributes.put(field.column, index, value),
+            Ok(None) => found.attributes.put_unread(field.column, "holds bytes, which are not read")?,
+            Err(what) => return Err(found.attributes.error(field.column, what)),
+        }
+    }
+    Ok(())
+}
+
+/// The next value; `None` for bytes.
+fn value(cursor: &mut Cursor<'_>, kind: ColumnType) -> std::result::Result<Option<Attribute>, &'static str> {
+    let cut_short = "holds a value that is longer than all of the feature's";
+    let whole = |bytes: &[u8], is_signed| Attribute::Integer(little_endian(bytes, is_signed));
+    let mut take = |count| cursor.take(count).ok_or(cut_short);
+    let value = match kind {
+        ColumnType::Bool => Attribute::Boolean(take(1)?[0] != 0),
+        ColumnType::Byte => whole(take(1)?, true),
+        ColumnType::UByte => whole(take(1)?, false),
+        ColumnType::Short => whole(take(2)?, true),
+        ColumnType::UShort => whole(take(2)?, false),
+        ColumnType::Int => whole(take(4)?, true),
+        ColumnType::UInt => whole(take(4)?, false),
+        ColumnType::Long => whole(take(8)?, true),
+        ColumnType::ULong => unsigned(cursor.u64(Endian::Little).ok_or(cut_short)?),
+        ColumnType::Float => Attribute::of_number(cursor.f32(Endian::Little).ok_or(cut_short)?.into()),
+        ColumnType::Double => Attribute::of_number(cursor.f64(Endian::Little).ok_or(cut_short)?),
+        ColumnType::String | ColumnType::Json | ColumnType::DateTime => {
+            let bytes = cursor.count(Endian::Little, 1).and_then(|count| cursor.take(count));
+            let text = std::str::from_utf8(bytes.ok_or(cut_short)?);
+            Attribute::Text(text.map_err(|_| "holds a text that is not UTF-8")?.to_owned())
+        }
+        ColumnType::Binary => {
+            let bytes = cursor.count(Endian::Little, 1).and_then(|count| cursor.take(count));
+            return bytes.map(|_| None).ok_or(cut_short);
+        }
+        _ => return Err("is of a type that is not known"),
+    };
+    Ok(Some(value))
+}
+
+/// A whole number of at most 8 bytes.
+fn little_endian(bytes: &[u8], is_signed: bool) -> i64 {
+    let fill = if is_signed && bytes.last().is_some_and(|high| *high > 127) { -1 } else { 0 };
+    bytes.iter().rev().fold(fill, |number, byte| (number << 8) | i64::from(*byte))
+}
+
+/// A whole number that may be too large for a signed one.
+fn unsigned(number: u64) -> Attribute {
+    i64::try_from(number).map_or(Attribute::Number(number as f64), Attribute::Integer)
 }
 
 fn add(geometry: &Geometry<'_>, stated: GeometryType, found: &mut Collector, depth: usize) -> Result<()> {

@@ -1,26 +1,32 @@
 //! GeoJSON: RFC 7946, and the `crs` member of its predecessor of 2008.
 //!
+//! Each property is a column of attributes; a nested one is its JSON text. A feature that does not have it has no value.
+//!
 //! Parsed by `serde_json` straight into vertices, a feature at a time: the `geojson` crate's reader keeps all
 //! properties and takes the first `[` of the file for the features, which a `bbox` before them breaks. Nesting is
 //! bounded by `serde_json` (128).
 
+mod properties;
+
+use super::attributes::Wanted;
 use super::collector::Collector;
 use crate::crs::Crs;
 use crate::error::{Error, Position, Result};
 use crate::space::Plan;
+use properties::Properties;
 use serde::Deserialize;
 use serde::de::{self, DeserializeSeed, Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use std::fmt;
 use std::path::Path;
 
-/// Reads a GeoJSON file.
-pub(super) fn read(path: &Path) -> Result<Collector> {
+/// Reads a GeoJSON file, and of its properties what is wanted.
+pub(super) fn read(path: &Path, wanted: Wanted) -> Result<Collector> {
     let bytes = super::contents_of(path)?;
-    read_text(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes))
+    read_text(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes), wanted)
 }
 
-fn read_text(text: &[u8]) -> Result<Collector> {
-    let mut reading = Reading::default();
+fn read_text(text: &[u8], wanted: Wanted) -> Result<Collector> {
+    let mut reading = Reading { found: Collector::new(wanted), ..Reading::default() };
     let mut json = serde_json::Deserializer::from_slice(text);
     let parsed = (&mut reading).deserialize(&mut json).and_then(|top| json.end().map(|()| top));
     let top = match (parsed, reading.failure.take()) {
@@ -60,13 +66,10 @@ struct Top {
     geometry: Option<Geometry>,
     coordinates: Option<Coordinates>,
     geometries: Vec<Geometry>,
+    /// Of an outermost feature, where they are wanted.
+    properties: Option<serde_json::Value>,
     /// `Some(null)` is a CRS that is said to be unknown.
     crs: Option<serde_json::Value>,
-}
-
-#[derive(Deserialize)]
-struct RawFeature {
-    geometry: Option<Geometry>,
 }
 
 #[derive(Deserialize)]
@@ -178,6 +181,7 @@ impl<'de> Visitor<'de> for &mut Reading {
                 "geometry" => top.geometry = map.next_value()?,
                 "coordinates" => top.coordinates = map.next_value()?,
                 "geometries" => top.geometries = map.next_value()?,
+                "properties" if self.found.attributes.are_read() => top.properties = map.next_value()?,
                 "crs" => top.crs = Some(map.next_value()?),
                 "features" => {
                     map.next_value_seed(Features(self))?;
@@ -212,8 +216,8 @@ impl<'de> Visitor<'de> for Features<'_> {
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> std::result::Result<(), A::Error> {
         self.0.in_features = true;
-        while let Some(feature) = seq.next_element::<RawFeature>()? {
-            if let Err(e) = add_feature(feature.geometry, &mut self.0.found) {
+        while let Some(geometry) = seq.next_element_seed(FeatureMembers(&mut self.0.found))? {
+            if let Err(e) = add_feature(geometry, &mut self.0.found) {
                 self.0.failure = Some(e);
                 return Err(de::Error::custom("stopped at a feature"));
             }
@@ -223,12 +227,69 @@ impl<'de> Visitor<'de> for Features<'_> {
     }
 }
 
+/// The members of a feature that matter.
+#[derive(Deserialize)]
+#[serde(field_identifier, rename_all = "lowercase")]
+enum Member {
+    Geometry,
+    Properties,
+    #[serde(other)]
+    Other,
+}
+
+/// A feature: its geometry is the answer, its properties are added to the current feature.
+struct FeatureMembers<'a>(&'a mut Collector);
+
+impl<'de> DeserializeSeed<'de> for FeatureMembers<'_> {
+    type Value = Option<Geometry>;
+
+    fn deserialize<D: Deserializer<'de>>(
+        self,
+        deserializer: D,
+    ) -> std::result::Result<Option<Geometry>, D::Error> {
+        deserializer.deserialize_map(self)
+    }
+}
+
+impl<'de> Visitor<'de> for FeatureMembers<'_> {
+    type Value = Option<Geometry>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a feature")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> std::result::Result<Option<Geometry>, A::Error> {
+        let mut geometry = None;
+        while let Some(member) = map.next_key::<Member>()? {
+            match member {
+                Member::Geometry if geometry.is_some() => {
+                    return Err(de::Error::duplicate_field("geometry"));
+                }
+                Member::Geometry => geometry = Some(map.next_value::<Option<Geometry>>()?),
+                Member::Properties if self.0.attributes.are_read() => {
+                    map.next_value_seed(Properties(self.0))?;
+                }
+                Member::Properties | Member::Other => {
+                    map.next_value::<IgnoredAny>()?;
+                }
+            }
+        }
+        Ok(geometry.flatten())
+    }
+}
+
 fn add_top(top: Top, found: &mut Collector) -> Result<()> {
     match top.kind.as_str() {
         "FeatureCollection" if top.had_features => Ok(()),
         "FeatureCollection" => Err(Error::new("the FeatureCollection has no features member")
             .help("check that the file was written whole")),
-        "Feature" => add_feature(top.geometry, found),
+        "Feature" => {
+            if let Some(properties) = top.properties {
+                let added = Properties(found).deserialize(properties);
+                added.map_err(|e| Error::new(format!("this is not GeoJSON: {e}")).in_feature(0))?;
+            }
+            add_feature(top.geometry, found)
+        }
         "Topology" => Err(Error::new("TopoJSON is not supported").help("convert it to GeoJSON")),
         _ => add_feature(
             Some(Geometry { kind: top.kind, coordinates: top.coordinates, geometries: top.geometries }),

@@ -2,11 +2,13 @@
 //!
 //! Opened read-only and immutable, so that nothing is written beside the data.
 
+use super::attributes::Wanted;
 use super::bytes::{Cursor, Endian};
 use super::collector::Collector;
 use super::wkb;
 use crate::crs::Crs;
 use crate::error::{Error, Result};
+use crate::scene::Attribute;
 use rusqlite::types::ValueRef;
 use rusqlite::{Connection, OpenFlags};
 use std::fmt::Write;
@@ -19,12 +21,12 @@ struct Table {
     srs: i64,
 }
 
-/// Reads one layer; the only one where none is named.
-pub(super) fn read(path: &Path, layer: Option<&str>) -> Result<Collector> {
+/// Reads one layer, the only one where none is named, and of its columns what is wanted.
+pub(super) fn read(path: &Path, layer: Option<&str>, wanted: Wanted) -> Result<Collector> {
     let connection = open(path)?;
     let tables = tables_of(&connection)?;
     let table = chosen(&tables, layer)?;
-    let mut found = Collector::default();
+    let mut found = Collector::new(wanted);
     note_unmerged_log(path, &mut found);
     found.crs = crs_of(&connection, table.srs, &mut found.notes);
     read_rows(&connection, table, &mut found)?;
@@ -146,10 +148,20 @@ fn quoted(name: &str) -> String {
     format!("\"{}\"", name.replace('"', "\"\""))
 }
 
+/// A column of attributes.
+struct Field {
+    name: String,
+    /// Its number among the attributes.
+    slot: usize,
+    is_flag: bool,
+}
+
 fn read_rows(connection: &Connection, table: &Table, found: &mut Collector) -> Result<()> {
     let order =
         primary_key(connection, table)?.map_or_else(String::new, |key| format!(" ORDER BY {}", quoted(&key)));
-    let sql = format!("SELECT {} FROM {}{order}", quoted(&table.geometry), quoted(&table.name));
+    let fields = if found.attributes.are_read() { fields(connection, table, found)? } else { Vec::new() };
+    let names: String = fields.iter().map(|field| format!(", {}", quoted(&field.name))).collect();
+    let sql = format!("SELECT {}{names} FROM {}{order}", quoted(&table.geometry), quoted(&table.name));
     let mut statement = connection.prepare(&sql).map_err(|e| damaged(&e))?;
     let mut rows = statement.query([]).map_err(|e| damaged(&e))?;
     loop {
@@ -157,10 +169,56 @@ fn read_rows(connection: &Connection, table: &Table, found: &mut Collector) -> R
         let Some(row) = rows.next().map_err(|e| damaged(&e).in_feature(index))? else {
             return Ok(());
         };
-        let value = row.get_ref(0).map_err(|e| damaged(&e).in_feature(index))?;
-        read_geometry(value, found).map_err(|e| e.in_feature(index))?;
+        read_row(row, &fields, found).map_err(|e| e.in_feature(index))?;
         found.next_feature();
     }
+}
+
+fn read_row(row: &rusqlite::Row<'_>, fields: &[Field], found: &mut Collector) -> Result<()> {
+    read_geometry(row.get_ref(0).map_err(|e| damaged(&e))?, found)?;
+    for (at, field) in fields.iter().enumerate() {
+        let stored = row.get_ref(at + 1).map_err(|e| damaged(&e))?;
+        read_value(stored, field, found)?;
+    }
+    Ok(())
+}
+
+/// The columns beside the geometry whose values are wanted.
+fn fields(connection: &Connection, table: &Table, found: &mut Collector) -> Result<Vec<Field>> {
+    let sql = "SELECT name, type FROM pragma_table_info(?1) ORDER BY cid";
+    let mut statement = connection.prepare(sql).map_err(|e| damaged(&e))?;
+    let column = |row: &rusqlite::Row<'_>| Ok((row.get::<_, String>(0)?, row.get::<_, String>(1)?));
+    let columns = statement.query_map([&table.name], column).map_err(|e| damaged(&e))?;
+    let mut fields = Vec::new();
+    for column in columns {
+        let (name, kind) = column.map_err(|e| damaged(&e))?;
+        if name.eq_ignore_ascii_case(&table.geometry) {
+            continue;
+        }
+        let slot = found.attributes.column(&name);
+        if found.attributes.reads(slot) {
+            fields.push(Field { name, slot, is_flag: kind.eq_ignore_ascii_case("BOOLEAN") });
+        }
+    }
+    Ok(fields)
+}
+
+fn read_value(stored: ValueRef<'_>, field: &Field, found: &mut Collector) -> Result<()> {
+    let feature = found.current();
+    let attributes = &mut found.attributes;
+    let value = match stored {
+        ValueRef::Null => Attribute::Null,
+        ValueRef::Integer(number @ (0 | 1)) if field.is_flag => Attribute::Boolean(number == 1),
+        ValueRef::Integer(number) => Attribute::Integer(number),
+        ValueRef::Real(number) => Attribute::of_number(number),
+        ValueRef::Text(bytes) => match std::str::from_utf8(bytes) {
+            Ok(text) => Attribute::Text(text.to_owned()),
+            Err(_) => return Err(attributes.error(field.slot, "holds a text that is not UTF-8")),
+        },
+        ValueRef::Blob(_) => return attributes.put_unread(field.slot, "holds a blob, which is not read"),
+    };
+    attributes.put(field.slot, feature, value);
+    Ok(())
 }
 
 /// The primary key's column; views have none and keep the order of their query.

@@ -5,11 +5,19 @@
 //! measures are left out and counted in the notes. Refuses what is damaged, not finite, or of no plan (multipatches),
 //! naming file and feature; never allocates by a count that the file's length does not bear out.
 //!
+//! Attributes are read only where a column is asked for ([`read_columns`]), and of these columns alone: of shapefiles from the
+//! .dbf, of GeoJSON from `properties`, of the others from their tables. Refuses values that are not what their column says,
+//! naming file, feature and column.
+//!
 //! Each feature of the file becomes one [`Feature`] with all its parts; a geometry collection becomes one for each
 //! member, with the same index. Rings lose their closing vertex.
 
+mod attributes;
 mod bytes;
+mod code_page;
 mod collector;
+mod column_summary;
+mod dbf;
 mod flatgeobuf;
 mod geojson;
 mod geopackage;
@@ -17,11 +25,13 @@ mod shapefile;
 mod summary;
 mod wkb;
 
+pub use column_summary::{ColumnKind, ColumnSummary};
 pub use summary::{VectorSummary, describe};
 
 use crate::crs::Crs;
 use crate::error::{Error, Result};
-use crate::scene::Feature;
+use crate::scene::{Column, Feature};
+use attributes::Wanted;
 use collector::Collector;
 use std::fmt;
 use std::fs::File;
@@ -33,6 +43,10 @@ use std::path::Path;
 pub struct VectorFile {
     /// Polygons and lines in file order, coordinates as in the file (absolute).
     pub features: Vec<Feature>,
+    /// The columns that were asked for, those that the file has, in its order.
+    pub columns: Vec<Column>,
+    /// The names of all columns of the file, in its order; none where no column was asked for.
+    pub column_names: Vec<String>,
     /// The CRS the file states.
     pub crs: Option<Crs>,
     /// What the user should know (points left out, empty geometries, ...).
@@ -64,25 +78,36 @@ impl fmt::Display for VectorFormat {
     }
 }
 
-/// Reads a vector file, the format told by its extension and content. `layer` names the layer of a GeoPackage.
+/// Reads a vector file without its attributes, the format told by its extension and content. `layer` names the layer of a
+/// GeoPackage.
 ///
 /// # Errors
 /// When the file is missing, damaged, absurd or of an unsupported kind: says what and where.
 pub fn read(path: &Path, layer: Option<&str>) -> Result<VectorFile> {
-    read_collected(path, layer).map(|(_, found)| found.into_file()).map_err(|e| e.in_file(path))
+    read_columns(path, layer, &[])
 }
 
-fn read_collected(path: &Path, layer: Option<&str>) -> Result<(VectorFormat, Collector)> {
+/// Reads a vector file and, of its attributes, the columns with these names; one that the file does not have is not in
+/// the answer.
+///
+/// # Errors
+/// As [`read`], and when a value in these columns is damaged or not what its column says.
+pub fn read_columns(path: &Path, layer: Option<&str>, columns: &[String]) -> Result<VectorFile> {
+    let wanted = if columns.is_empty() { Wanted::Nothing } else { Wanted::Columns(columns.to_vec()) };
+    read_collected(path, layer, wanted).map(|(_, found)| found.into_file()).map_err(|e| e.in_file(path))
+}
+
+fn read_collected(path: &Path, layer: Option<&str>, wanted: Wanted) -> Result<(VectorFormat, Collector)> {
     let format = format_of(path)?;
     if let (Some(layer), true) = (layer, format != VectorFormat::GeoPackage) {
         return Err(Error::new(format!("a {format} has no layers, so none named '{layer}'"))
             .help("leave the layer out; it is for GeoPackages"));
     }
     let found = match format {
-        VectorFormat::GeoJson => geojson::read(path)?,
-        VectorFormat::Shapefile => shapefile::read(path)?,
-        VectorFormat::FlatGeobuf => flatgeobuf::read(path)?,
-        VectorFormat::GeoPackage => geopackage::read(path, layer)?,
+        VectorFormat::GeoJson => geojson::read(path, wanted)?,
+        VectorFormat::Shapefile => shapefile::read(path, wanted)?,
+        VectorFormat::FlatGeobuf => flatgeobuf::read(path, wanted)?,
+        VectorFormat::GeoPackage => geopackage::read(path, layer, wanted)?,
     };
     Ok((format, found))
 }

@@ -3,10 +3,12 @@
 //! Read here and not by the `shapefile` crate, which allocates by the counts that a damaged record claims. Every
 //! count is held against the bytes of its record, every record against the file. Records are read one after the other,
 //! so the .shx index is not needed; where there is one that points elsewhere, a note says from which feature on, since
-//! programs that follow it see other features or none. The .dbf is not read.
+//! programs that follow it see other features or none. The .dbf is read where a column is wanted.
 
-use super::bytes::{Cursor, Endian};
+use super::attributes::{Attributes, Wanted};
+use super::bytes::{Cursor, Endian, beside};
 use super::collector::Collector;
+use super::dbf;
 use crate::crs::Crs;
 use crate::error::{Error, Result};
 use crate::space::Plan;
@@ -14,10 +16,10 @@ use std::path::Path;
 
 const HEADER_BYTES: usize = 100;
 
-/// Reads a shapefile and the .prj beside it.
-pub(super) fn read(path: &Path) -> Result<Collector> {
+/// Reads a shapefile, the .prj beside it, and of the .dbf what is wanted.
+pub(super) fn read(path: &Path, wanted: Wanted) -> Result<Collector> {
     let bytes = super::contents_of(path)?;
-    let mut found = Collector::default();
+    let mut found = Collector::new(wanted);
     read_prj(path, &mut found);
     let records = records_of(&bytes, &mut found)?;
     let mut cursor = Cursor::new(records);
@@ -31,8 +33,24 @@ pub(super) fn read(path: &Path) -> Result<Collector> {
         found.next_feature();
     }
     note_index_that_points_elsewhere(path, &places, &mut found);
+    if found.attributes.are_read() {
+        read_attributes(path, &mut found)?;
+    }
     found.finish();
     Ok(found)
+}
+
+/// A summary says what is wrong with the .dbf and goes on: the shapes can be drawn without it.
+fn read_attributes(path: &Path, found: &mut Collector) -> Result<()> {
+    let is_summary = found.attributes.are_summed_up();
+    let Err(e) = dbf::read(path, found) else { return Ok(()) };
+    if !is_summary {
+        return Err(e);
+    }
+    found.attributes = Attributes::default();
+    let said = e.to_string();
+    found.notes.push(format!("no attributes: {}", said.lines().next().unwrap_or_default()));
+    Ok(())
 }
 
 /// Compare the .shx, where there is one, with where the records begin and how long they are.
@@ -59,12 +77,6 @@ fn note_index_that_points_elsewhere(path: &Path, places: &[(usize, usize)], foun
             places.len()
         ));
     }
-}
-
-/// The contents of a file beside the .shp, by one of two spellings of its extension.
-fn beside(path: &Path, extension: &str, capitals: &str) -> Option<Vec<u8>> {
-    let read = |extension: &str| std::fs::read(path.with_extension(extension)).ok();
-    read(extension).or_else(|| read(capitals))
 }
 
 /// A .prj that is missing or not understood is a note: the scene can name the CRS.

@@ -1,6 +1,8 @@
 //! What a vector file holds, for people.
 
+use super::attributes::Wanted;
 use super::collector::{Collector, parts_of};
+use super::column_summary::ColumnSummary;
 use super::{VectorFormat, geopackage, read_collected};
 use crate::crs::Crs;
 use crate::error::Result;
@@ -32,6 +34,8 @@ pub struct VectorSummary {
     pub bounds: PlanBox,
     /// The CRS the file states.
     pub crs: Option<Crs>,
+    /// Its columns of attributes, in the file's order.
+    pub columns: Vec<ColumnSummary>,
     /// What the user should know.
     pub notes: Vec<String>,
 }
@@ -46,12 +50,12 @@ pub fn describe(path: &Path) -> Result<Vec<VectorSummary>> {
 
 fn describe_layers(path: &Path) -> Result<Vec<VectorSummary>> {
     if super::format_of(path)? != VectorFormat::GeoPackage {
-        let (format, found) = read_collected(path, None)?;
+        let (format, found) = read_collected(path, None, Wanted::Summary)?;
         return Ok(vec![summary(format, None, &[], found)]);
     }
     let layers = geopackage::layer_names(path)?;
     let one = |layer: &String| {
-        let (format, found) = read_collected(path, Some(layer))?;
+        let (format, found) = read_collected(path, Some(layer), Wanted::Summary)?;
         Ok(summary(format, Some(layer.clone()), &layers, found))
     };
     layers.iter().map(one).collect()
@@ -76,6 +80,7 @@ fn summary(
         vertices: found.stored_vertices,
         bounds: PlanBox::around(parts().flatten().copied()),
         crs: found.crs,
+        columns: found.attributes.into_summaries(),
         notes: found.notes,
     }
 }

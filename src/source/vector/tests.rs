@@ -1,3 +1,5 @@
+mod attributes;
+
 use super::*;
 use crate::scene::Shape;
 use crate::space::Plan;

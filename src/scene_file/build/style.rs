@@ -1,0 +1,65 @@
+//! The style of a layer.
+
+use super::by_column::{as_number, setting};
+use crate::error::Result;
+use crate::scene::{Cap, Color, Join};
+use crate::scene_file::by_column::{
+    FillSpec, LineSpec, OutlineSpec, PaintSpec, StyleSetting, StyleSpec, WidthSpec,
+};
+use crate::scene_file::names::JoinName;
+use crate::scene_file::section::{Section, as_color};
+
+pub(super) fn style(section: &mut Section<'_>) -> Result<StyleSpec> {
+    let origin = section.origin();
+    Ok(StyleSpec {
+        fill: section.take("fill").map(|node| Section::read(origin, node, fill)).transpose()?,
+        outline: section.take("outline").map(|node| Section::read(origin, node, outline)).transpose()?,
+        line: section.take("line").map(|node| Section::read(origin, node, line)).transpose()?,
+    })
+}
+
+fn fill(section: &mut Section<'_>) -> Result<FillSpec> {
+    Ok(FillSpec { paint: paint(section)?, rule: section.name("rule")?.unwrap_or_default() })
+}
+
+fn outline(section: &mut Section<'_>) -> Result<OutlineSpec> {
+    let line = stroke(section, Cap::Butt)?;
+    Ok(OutlineSpec { line, mode: section.name("mode")?.unwrap_or_default() })
+}
+
+fn line(section: &mut Section<'_>) -> Result<LineSpec> {
+    let cap = section.name("cap")?.unwrap_or_default();
+    stroke(section, cap)
+}
+
+fn stroke(section: &mut Section<'_>, cap: Cap) -> Result<LineSpec> {
+    Ok(LineSpec { paint: paint(section)?, width: width(section)?, join: join(section)?, cap })
+}
+
+fn paint(section: &mut Section<'_>) -> Result<PaintSpec> {
+    let black = StyleSetting::Constant(Color([0.0, 0.0, 0.0, 1.0]));
+    Ok(PaintSpec {
+        color: setting(section, "color", as_color)?.unwrap_or(black),
+        opacity: setting(section, "opacity", as_number)?.unwrap_or(StyleSetting::Constant(1.0)),
+    })
+}
+
+fn width(section: &mut Section<'_>) -> Result<WidthSpec> {
+    let metres = setting(section, "width_m", as_number)?;
+    let pixels = setting(section, "width_px", as_number)?;
+    Ok(pixels.map_or(WidthSpec::Metres(metres.unwrap_or(StyleSetting::Constant(1.0))), WidthSpec::Pixels))
+}
+
+fn join(section: &mut Section<'_>) -> Result<Join> {
+    let name = section.name("join")?.unwrap_or(JoinName::Round);
+    if name != JoinName::Miter
+        && let Some((key, place)) = section.first_of(&["miter_limit"])
+    {
+        return Err(section.error_at(place, format!("`{key}` goes with join = \"miter\" only")));
+    }
+    Ok(match name {
+        JoinName::Round => Join::Round,
+        JoinName::Bevel => Join::Bevel,
+        JoinName::Miter => Join::Miter { limit: section.number("miter_limit")?.unwrap_or(4.0) },
+    })
+}

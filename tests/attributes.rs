@@ -1,0 +1,54 @@
+//! Layers by their columns: a picture by classes is the picture of a layer for each class.
+
+mod drawing;
+
+use drapery::technique::Kind;
+use drawing::{frame_of, scene, stage, truth_of};
+
+const TERRAIN: &str = "kind = \"fbm\", seed = 3, posts = [33, 33], cell_m = 30.0, height_m = 200.0";
+const CAMERA: &str = "eye = [0, -900, 700], target = [0, 0, 60]";
+
+/// Fields, paths and lakes of three classes, in an order of their own.
+const FEATURES: &str = r#"features = [
+  { polygon = [[-300, -200], [100, -200], [100, 150], [-300, 150]], properties = { class = "wood", rank = 1 } },
+  { line = [[-400, -100], [0, 50], [350, -50]], properties = { class = "road", rank = 3 } },
+  { polygon = [[[-50, -300], [300, -300], [300, 100], [-50, 100]], [[50, -100], [150, -100], [150, 0], [50, 0]]], properties = { class = "lake", rank = 2 } },
+  { line = [[0, -350], [30, 300]], properties = { class = "path", rank = 4 } },
+  { polygon = [[-200, 50], [200, 50], [0, 320]], properties = { class = "wood", rank = 1 } },
+]"#;
+
+/// One layer whose styles are told by a column, drawn by rank.
+const BY_COLUMN: &str = r##"
+order = { by = "rank" }
+fill = { color = { by = "class", map = { wood = "#228b22", lake = "#3388ff" } }, opacity = { by = "rank", stops = [[1, 0.75], [3, 0.25]] } }
+line = { color = { by = "class", map = { path = "#553311" }, default = "#cc2200" }, width_m = { by = "class", map = { road = 40, path = 15 } }, join = "round", cap = "round" }
+"##;
+
+/// The same, a layer for each class.
+const BY_LAYER: [(&str, &str); 4] = [
+    ("wood", "fill = { color = \"#228b22\", opacity = 0.75 }"),
+    ("lake", "fill = { color = \"#3388ff\", opacity = 0.5 }"),
+    ("road", "line = { color = \"#cc2200\", width_m = 40, join = \"round\", cap = \"round\" }"),
+    ("path", "line = { color = \"#553311\", width_m = 15, join = \"round\", cap = \"round\" }"),
+];
+
+#[test]
+fn a_picture_by_classes_is_that_of_a_layer_for_each_class() {
+    let one = scene(TERRAIN, CAMERA, &format!("[[layer]]\n{FEATURES}\n{BY_COLUMN}"));
+    let class = |(class, style): &(&str, &str)| {
+        format!("[[layer]]\nname = \"{class}\"\n{FEATURES}\nwhere = {{ class = \"{class}\" }}\n{style}\n")
+    };
+    let many = scene(TERRAIN, CAMERA, &BY_LAYER.iter().map(class).collect::<String>());
+    let (one, many) = (stage(&one, &[]), stage(&many, &[]));
+    assert_eq!((one.scene.layers[0].styles.len(), many.scene.layers.len()), (4, 4));
+    let pictures = [&one, &many].map(|stage| frame_of(Kind::InverseProjection, stage, &[]).image);
+    assert_eq!(pictures[0], pictures[1]);
+    let truths = [&one, &many].map(truth_of);
+    assert_eq!(truths[0].low.values(), truths[1].low.values());
+    assert_eq!(truths[0].high.values(), truths[1].high.values());
+    let reversed = stage(
+        &scene(TERRAIN, CAMERA, &format!("[[layer]]\n{FEATURES}\n{BY_COLUMN}")),
+        &["layer.0.order.descending=true"],
+    );
+    assert_ne!(frame_of(Kind::InverseProjection, &reversed, &[]).image, pictures[0], "the order is seen");
+}
