@@ -37,30 +37,52 @@
 
 pub mod buffer;
 pub mod compare;
+#[cfg(feature = "render")]
 pub mod crs;
+#[cfg(feature = "render")]
 pub mod draw_list;
 mod error;
+#[cfg(feature = "render")]
 pub mod export;
+#[cfg(feature = "render")]
 pub mod footprint;
+#[cfg(feature = "render")]
 pub mod golden;
+#[cfg(feature = "render")]
 pub mod interval;
 pub mod math;
 pub mod output;
+#[cfg(feature = "render")]
 pub mod parallel;
+#[cfg(feature = "render")]
 pub mod parameter;
+#[cfg(feature = "render")]
 pub mod predicate;
+#[cfg(feature = "render")]
 pub mod raster;
+#[cfg(feature = "render")]
 pub mod report;
+#[cfg(feature = "render")]
 pub mod resolve;
+#[cfg(feature = "render")]
 pub mod sampling;
+#[cfg(feature = "render")]
 pub mod scene;
+#[cfg(feature = "render")]
 pub mod scene_file;
+#[cfg(feature = "render")]
 pub mod source;
+#[cfg(feature = "render")]
 pub mod space;
+#[cfg(feature = "render")]
 pub mod stage;
+#[cfg(feature = "render")]
 pub mod technique;
+#[cfg(feature = "render")]
 pub mod terrain;
+#[cfg(feature = "render")]
 pub mod truth;
+#[cfg(feature = "render")]
 pub mod visibility;
 
 pub use error::{Error, Position, Result};

@@ -12,9 +12,14 @@ mod bytes;
 mod collector;
 mod flatgeobuf;
 mod geojson;
+#[cfg(feature = "gpkg")]
+mod geopackage;
+#[cfg(not(feature = "gpkg"))]
+#[path = "without_geopackage.rs"]
 mod geopackage;
 mod shapefile;
 mod summary;
+#[cfg(feature = "gpkg")]
 mod wkb;
 
 pub use summary::{VectorSummary, describe};
