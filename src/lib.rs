@@ -85,4 +85,4 @@ pub mod truth;
 #[cfg(feature = "render")]
 pub mod visibility;
 
-pub use error::{Error, Position, Result};
+pub use error::{Error, ErrorKind, Position, Result};

@@ -53,7 +53,7 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments) -> Outcome {
     let budget = arguments.truth.budget()?;
     if arguments.technique == Name::Truth {
-        let refusal = Error::new("a client cannot draw by `truth`: it is in every bundle, to judge by");
+        let refusal = Error::usage("a client cannot draw by `truth`: it is in every bundle, to judge by");
         return Err(refusal.help("name a technique, such as -t clipmap").into());
     }
     let kind = techniques::built(arguments.technique)?;

@@ -68,7 +68,7 @@ impl Certified {
     /// How far the values of a picture are from the truth.
     pub(super) fn difference(&self, image: &Image) -> Result<Difference> {
         let difference = Difference::of(&self.expected, image);
-        difference.map_err(|what| Error::internal(format!("against the truth: {what}")))
+        difference.map_err(|what| Error::internal(format!("against the truth: {what}")).caused_by(what))
     }
 
     /// How far a picture is from the truth.

@@ -69,9 +69,7 @@ impl SceneInput {
 
 fn from_stdin() -> Result<String> {
     let mut bytes = Vec::new();
-    std::io::stdin()
-        .read_to_end(&mut bytes)
-        .map_err(|error| Error::new(format!("stdin cannot be read: {error}")))?;
+    std::io::stdin().read_to_end(&mut bytes).map_err(|error| Error::io("stdin cannot be read", error))?;
     decode(bytes, Path::new(STDIN))
 }
 

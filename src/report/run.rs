@@ -224,7 +224,7 @@ impl Report {
     /// Internal errors only.
     pub fn to_json(&self) -> Result<String> {
         let text = serde_json::to_string_pretty(self);
-        Ok(text.map_err(|error| Error::internal(format!("report.json: {error}")))? + "\n")
+        Ok(text.map_err(|error| Error::internal(format!("report.json: {error}")).caused_by(error))? + "\n")
     }
 }
 

@@ -88,7 +88,7 @@ impl SceneFile {
 /// When it cannot be read or is not UTF-8.
 pub fn text_of(path: &Path) -> Result<String> {
     let bytes = std::fs::read(path)
-        .map_err(|error| Error::new(format!("this scene file cannot be read: {error}")).in_file(path))?;
+        .map_err(|error| Error::io("this scene file cannot be read", error).in_file(path))?;
     decode(bytes, path)
 }
 

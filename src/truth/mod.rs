@@ -70,11 +70,11 @@ impl Budget {
     /// When the width is not in 0..=1 or the depth is over [`Budget::MOST_DEPTH`].
     pub fn new(width: f64, depth: u32) -> Result<Self> {
         if !(0.0..=1.0).contains(&width) {
-            return Err(Error::new(format!("a truth of width {width} cannot be asked for"))
+            return Err(Error::usage(format!("a truth of width {width} cannot be asked for"))
                 .help("give a width from 0 (as narrow as the depth allows) to 1, such as 0.002"));
         }
         if depth > Self::MOST_DEPTH {
-            return Err(Error::new(format!("2^{depth} pieces a pixel are too many"))
+            return Err(Error::usage(format!("2^{depth} pieces a pixel are too many"))
                 .help(format!("give a depth of at most {}", Self::MOST_DEPTH)));
         }
         Ok(Self { width, depth, coverage: false })

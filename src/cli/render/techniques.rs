@@ -90,7 +90,7 @@ pub(in crate::cli) fn built(name: Name) -> Result<Kind> {
         Name::Technique(kind) => Ok(kind),
         Name::Planned(name, _) => {
             let refusal = format!("this version of drapery does not have the technique `{name}` yet");
-            Err(Error::new(refusal).help(format!("it has truth, {}", has())))
+            Err(Error::unsupported(refusal).help(format!("it has truth, {}", has())))
         }
         Name::Truth => Err(Error::internal("the truth is no technique")),
     }
@@ -142,7 +142,7 @@ pub(super) fn buffers(asked: &[String], truth: bool, kinds: &[Kind]) -> Result<B
     });
     let unknown = asked.iter().find(|name| *name != ALL && !offered.contains(&name.as_str()));
     if let Some(name) = unknown {
-        return Err(Error::new(format!("there is no buffer `{name}`"))
+        return Err(Error::usage(format!("there is no buffer `{name}`"))
             .help(format!("buffers here: {}, or {ALL}", offered.join(", "))));
     }
     Ok(if asked.iter().any(|name| name == ALL) { Buffers::All } else { Buffers::Named(asked.to_vec()) })

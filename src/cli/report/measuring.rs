@@ -222,7 +222,7 @@ fn truth_run(certified: &Certified, varied: Vec<String>) -> Result<(Run, Differe
     let halves = report::half_widths(&certified.truth)?;
     let nothing = Image::new(halves.width(), halves.height(), 4, vec![0.0; halves.values().len()])?;
     let doubt = Difference::of(&Expected::exactly(nothing), &halves)
-        .map_err(|what| Error::internal(format!("the truth's widths: {what}")))?;
+        .map_err(|what| Error::internal(format!("the truth's widths: {what}")).caused_by(what))?;
     let run = Run {
         technique: TRUTH.into(),
         varied,

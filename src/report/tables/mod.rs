@@ -166,7 +166,7 @@ impl Tables {
     /// Internal errors only.
     pub fn to_json(&self) -> Result<String> {
         let text = serde_json::to_string_pretty(self);
-        Ok(text.map_err(|error| Error::internal(format!("tables.json: {error}")))? + "\n")
+        Ok(text.map_err(|error| Error::internal(format!("tables.json: {error}")).caused_by(error))? + "\n")
     }
 
     /// The text of `tables.csv`: a row a solution of a data set.

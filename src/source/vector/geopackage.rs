@@ -38,25 +38,27 @@ pub(super) fn layer_names(path: &Path) -> Result<Vec<String>> {
     Ok(tables.into_iter().map(|table| table.name).collect())
 }
 
-fn damaged(e: &rusqlite::Error) -> Error {
-    Error::new(format!("the GeoPackage cannot be read: {e}")).help("check that the file was copied whole")
+fn damaged(e: rusqlite::Error) -> Error {
+    Error::new(format!("the GeoPackage cannot be read: {e}"))
+        .caused_by(e)
+        .help("check that the file was copied whole")
 }
 
 fn open(path: &Path) -> Result<Connection> {
     let flags =
         OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_URI | OpenFlags::SQLITE_OPEN_NO_MUTEX;
-    let connection = Connection::open_with_flags(immutable_uri(path)?, flags).map_err(|e| damaged(&e))?;
+    let connection = Connection::open_with_flags(immutable_uri(path)?, flags).map_err(damaged)?;
     connection
         .execute_batch(
             "PRAGMA trusted_schema = OFF; PRAGMA cell_size_check = ON; PRAGMA temp_store = MEMORY;",
         )
-        .map_err(|e| damaged(&e))?;
+        .map_err(damaged)?;
     Ok(connection)
 }
 
 /// `file:` URI of a path, everything but plain characters escaped.
 fn immutable_uri(path: &Path) -> Result<String> {
-    let absolute = std::path::absolute(path).map_err(|e| super::cannot_read(&e))?;
+    let absolute = std::path::absolute(path).map_err(super::cannot_read)?;
     let text = absolute.to_str().ok_or_else(|| {
         Error::new("the path is not valid Unicode, which SQLite needs").help("rename the file")
     })?;
@@ -95,12 +97,12 @@ fn tables_of(connection: &Connection) -> Result<Vec<Table>> {
                JOIN gpkg_contents c ON c.table_name = g.table_name WHERE c.data_type = 'features' \
                ORDER BY g.table_name";
     let mut statement = connection.prepare(sql).map_err(|e| {
-        damaged(&e).help("a GeoPackage has the tables gpkg_contents and gpkg_geometry_columns; this may be another kind of SQLite file")
+        damaged(e).help("a GeoPackage has the tables gpkg_contents and gpkg_geometry_columns; this may be another kind of SQLite file")
     })?;
     let table =
         |row: &rusqlite::Row<'_>| Ok(Table { name: row.get(0)?, geometry: row.get(1)?, srs: row.get(2)? });
-    let rows = statement.query_map([], table).map_err(|e| damaged(&e))?;
-    rows.collect::<rusqlite::Result<_>>().map_err(|e| damaged(&e))
+    let rows = statement.query_map([], table).map_err(damaged)?;
+    rows.collect::<rusqlite::Result<_>>().map_err(damaged)
 }
 
 fn chosen<'a>(tables: &'a [Table], layer: Option<&str>) -> Result<&'a Table> {
@@ -129,7 +131,7 @@ fn crs_of(connection: &Connection, srs: i64, notes: &mut Vec<String>) -> Option<
     };
     let parsed = match connection.query_row(sql, [srs], row) {
         Ok((organization, id, definition)) => crs_of_row(&organization, id, &definition),
-        Err(e) => Err(damaged(&e)),
+        Err(e) => Err(damaged(e)),
     };
     parsed.map_err(|e| notes.push(format!("the CRS {srs} of the layer is not understood: {}", e.what()))).ok()
 }
@@ -150,14 +152,14 @@ fn read_rows(connection: &Connection, table: &Table, found: &mut Collector) -> R
     let order =
         primary_key(connection, table)?.map_or_else(String::new, |key| format!(" ORDER BY {}", quoted(&key)));
     let sql = format!("SELECT {} FROM {}{order}", quoted(&table.geometry), quoted(&table.name));
-    let mut statement = connection.prepare(&sql).map_err(|e| damaged(&e))?;
-    let mut rows = statement.query([]).map_err(|e| damaged(&e))?;
+    let mut statement = connection.prepare(&sql).map_err(damaged)?;
+    let mut rows = statement.query([]).map_err(damaged)?;
     loop {
         let index = found.current();
-        let Some(row) = rows.next().map_err(|e| damaged(&e).in_feature(index))? else {
+        let Some(row) = rows.next().map_err(|e| damaged(e).in_feature(index))? else {
             return Ok(());
         };
-        let value = row.get_ref(0).map_err(|e| damaged(&e).in_feature(index))?;
+        let value = row.get_ref(0).map_err(|e| damaged(e).in_feature(index))?;
         read_geometry(value, found).map_err(|e| e.in_feature(index))?;
         found.next_feature();
     }
@@ -169,7 +171,7 @@ fn primary_key(connection: &Connection, table: &Table) -> Result<Option<String>>
     match connection.query_row(sql, [&table.name], |row| row.get(0)) {
         Ok(name) => Ok(Some(name)),
         Err(rusqlite::Error::QueryReturnedNoRows) => Ok(None),
-        Err(e) => Err(damaged(&e)),
+        Err(e) => Err(damaged(e)),
     }
 }
 

@@ -15,7 +15,7 @@ pub(super) fn layer_names(_: &Path) -> Result<Vec<String>> {
 }
 
 fn missing() -> Error {
-    Error::new("this build of drapery reads no GeoPackages: it lacks the feature `gpkg`").help(
+    Error::unsupported("this build of drapery reads no GeoPackages: it lacks the feature `gpkg`").help(
         "build it with `--features gpkg`, or convert the file: ogr2ogr -f FlatGeobuf out.fgb in.gpkg LAYER",
     )
 }

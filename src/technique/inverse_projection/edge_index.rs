@@ -58,7 +58,7 @@ impl<'l> EdgeIndex<'l> {
         let mut edges = expanded(list);
         if edges.len() > u32::MAX as usize / 2 {
             return Err(
-                Error::new("more edges than this program can number").help("give the terrain a `window`")
+                Error::unsupported("more edges than this program can number").help("give the terrain a `window`")
             );
         }
         let layout = Layout::new(&edges, bounds);
