@@ -9,7 +9,6 @@ mod completions;
 mod export;
 mod golden;
 mod info;
-mod measure;
 mod new;
 mod refusal;
 mod render;
@@ -17,6 +16,7 @@ mod report;
 mod scene_input;
 mod schema;
 mod stop;
+mod truth_arguments;
 
 use clap::{ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::ffi::OsString;

@@ -35,6 +35,7 @@ mod spec;
 mod suggest;
 #[cfg(test)]
 mod tests;
+mod text;
 mod tree;
 
 pub use keys::SCHEMA;
@@ -44,6 +45,7 @@ pub use spec::{
     CameraSpec, DataFile, GroundSpec, HeightEncoding, LayerSource, LayerSpec, SceneFile, Spot,
     TerrainGenerator, TerrainKind, TerrainSource, TerrainSpec, VectorGenerator, VectorKind, ViewSpec,
 };
+pub use text::SceneText;
 
 use crate::error::{Error, Result};
 use glam::DVec3;

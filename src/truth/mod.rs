@@ -173,6 +173,14 @@ pub struct Truth {
 }
 
 impl Truth {
+    /// The truth of a stage from its scene's own camera. ([`certify`] takes any view, and tells how far it is.)
+    ///
+    /// # Errors
+    /// When the camera shows nothing.
+    pub fn of(stage: &Stage, budget: &Budget) -> Result<Self> {
+        Ok(certify(stage, &stage.view()?, budget, &|_| {}))
+    }
+
     /// The estimate as 8-bit code values.
     pub fn image(&self) -> Buffer<[u8; 4]> {
         let codes = self.estimate.values().iter().map(|c| code_values(*c)).collect();
