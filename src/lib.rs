@@ -14,7 +14,7 @@
 //! let frame = Technique::InverseProjection.draw(&scene.stage)?;
 //! let picture = Image::from_rgba8(&frame.image)?;
 //! let verdict = Verdict::on(&picture, &expected(&truth)?, Limits::new(1.0 / 255.0, 0)?);
-//! println!("{verdict}"); // FAIL: 94 of 3072 pixels are over the tolerance ...
+//! println!("{verdict}"); // FAIL: 296 of 3072 pixels are over the tolerance ...
 //! # assert!(!verdict.passed());
 //! # Ok::<(), drapery::Error>(())
 //! ```

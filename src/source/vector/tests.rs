@@ -347,6 +347,7 @@ fn damaged_geometries_in_a_geopackage_are_refused_by_feature() {
 fn a_build_without_geopackages_says_which_feature_it_lacks() {
     let (_folder, path) = file("a.gpkg", b"SQLite format 3\0 and so on");
     for refused in [super::read(&path, None).unwrap_err(), describe(&path).unwrap_err()] {
+        assert_eq!(refused.kind(), crate::ErrorKind::Unsupported, "{refused}");
         assert!(refused.what().contains("feature `gpkg`"), "{refused}");
         assert!(refused.help_text().is_some_and(|help| help.contains("--features gpkg")), "{refused}");
     }
