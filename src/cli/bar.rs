@@ -16,6 +16,7 @@ pub(super) struct Bar {
 }
 
 impl Bar {
+    #[expect(clippy::disallowed_methods, reason = "this is the clock that the library is lent")]
     pub(super) fn new() -> Self {
         let target = if io::stderr().is_terminal() {
             ProgressDrawTarget::stderr()
