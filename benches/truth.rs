@@ -6,7 +6,7 @@
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use drapery::compare::Difference;
-use drapery::report;
+use drapery::measure;
 use drapery::sampling::sample;
 use drapery::scene_file::SceneFile;
 use drapery::stage::Stage;
@@ -42,8 +42,8 @@ fn certified(stage: &Stage) -> Truth {
 /// Largest and mean error of n x n samples, as distances out of the truth's intervals.
 fn errors(stage: &Stage, truth: &Truth, n: usize) -> (f64, f64) {
     let sampled = sample(stage, &stage.view().expect("a view"), n, &|_| {});
-    let image = report::image(&sampled.colors).expect("pixels");
-    let expected = report::expected(truth).expect("bounds in order");
+    let image = measure::image(&sampled.colors).expect("pixels");
+    let expected = measure::expected(truth).expect("bounds in order");
     let metrics = Difference::of(&expected, &image).expect("one size").metrics(0.0);
     (metrics.max, metrics.mean)
 }
@@ -54,7 +54,7 @@ fn truth(c: &mut Criterion) {
     for segments in [1_000, 1_000_000] {
         let stage = stage(segments);
         let truth = certified(&stage);
-        let mean = report::half_widths(&truth).expect("pixels");
+        let mean = measure::half_widths(&truth).expect("pixels");
         let mean = mean.values().iter().sum::<f64>() / mean.values().len() as f64;
         #[allow(clippy::print_stderr, reason = "a bench's figures are for people")]
         {

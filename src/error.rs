@@ -1,7 +1,9 @@
 //! What went wrong, where, and what to do about it.
 
 use std::fmt;
+use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// The result of everything in this crate that can refuse its input.
 pub type Result<T> = std::result::Result<T, Error>;
@@ -9,20 +11,50 @@ pub type Result<T> = std::result::Result<T, Error>;
 /// A refusal: what is wrong, where, and what to do.
 ///
 /// `Display` prints `path:line:column: what` (or as much of the place as is known), then the help on a line of
-/// its own. The fields stay private so that more can be told later.
+/// its own. A program matches on [`Error::kind`]; the error of the system or of a library that led here is
+/// [`source`](std::error::Error::source) (its words are in `Display` already). The fields stay private so that more can be
+/// told later.
+///
+/// ```
+/// use drapery::{ErrorKind, compare::Image};
+/// use std::error::Error;
+/// let error = Image::read("no/such.png".as_ref()).unwrap_err();
+/// assert_eq!(error.kind(), ErrorKind::Io);
+/// assert_eq!(error.to_string(), "no/such.png: this picture is missing");
+/// assert!(error.source().is_some_and(|source| source.is::<std::io::Error>()));
+/// ```
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Error(Box<Inner>);
 
 #[derive(Debug, Clone)]
 struct Inner {
+    kind: ErrorKind,
     what: String,
     help: Option<String>,
     path: Option<PathBuf>,
     position: Option<Position>,
     feature: Option<usize>,
     named: Option<(Option<PathBuf>, Position)>,
-    internal: bool,
+    // Shared, so that an error can be cloned: those of the system cannot.
+    source: Option<Arc<dyn std::error::Error + Send + Sync>>,
+}
+
+/// What a program can do about an [`Error`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum ErrorKind {
+    /// The call is wrong: an argument out of range, a name that nothing has.
+    Usage,
+    /// What a file, a scene or an override says is wrong: damaged, contradictory, out of range.
+    Input,
+    /// The input is well-formed, but beyond this build, this version or this technique: a feature that was left out, a compression or
+    /// a CRS that is not known, a scene that a technique does not cover, more than can be numbered or held.
+    Unsupported,
+    /// The system refuses to read or to write: a missing file, a permission, a full disk.
+    Io,
+    /// A bug of ours.
+    Internal,
 }
 
 /// A place in a text file: counted from 1, columns in characters.
@@ -37,24 +69,56 @@ pub struct Position {
 }
 
 impl Error {
-    /// A wrong call or input (exit status 2).
+    /// A wrong input.
     pub fn new(what: impl Into<String>) -> Self {
+        Self::of(ErrorKind::Input, what.into())
+    }
+
+    /// A wrong call.
+    pub fn usage(what: impl Into<String>) -> Self {
+        Self::of(ErrorKind::Usage, what.into())
+    }
+
+    /// Something that is not done here, though nothing is wrong with it.
+    pub fn unsupported(what: impl Into<String>) -> Self {
+        Self::of(ErrorKind::Unsupported, what.into())
+    }
+
+    /// A refusal of the system: what could not be done, then the system's own words.
+    pub fn io(what: impl fmt::Display, error: io::Error) -> Self {
+        Self::of(ErrorKind::Io, format!("{what}: {error}")).caused_by(error)
+    }
+
+    /// A bug of ours.
+    pub fn internal(what: impl Into<String>) -> Self {
+        Self::of(ErrorKind::Internal, what.into())
+    }
+
+    fn of(kind: ErrorKind, what: String) -> Self {
         Self(Box::new(Inner {
-            what: what.into(),
+            kind,
+            what,
             help: None,
             path: None,
             position: None,
             feature: None,
             named: None,
-            internal: false,
+            source: None,
         }))
     }
 
-    /// A bug of ours (exit status 3).
-    pub fn internal(what: impl Into<String>) -> Self {
-        let mut error = Self::new(what);
-        error.0.internal = true;
-        error
+    /// Keeps the error that led here.
+    #[must_use]
+    pub fn caused_by(mut self, source: impl std::error::Error + Send + Sync + 'static) -> Self {
+        self.0.source = Some(Arc::new(source));
+        self
+    }
+
+    /// Says it in other words, made of those it has.
+    #[must_use]
+    pub fn reworded(mut self, words: impl FnOnce(&str) -> String) -> Self {
+        self.0.what = words(&self.0.what);
+        self
     }
 
     /// Says what to do about it.
@@ -113,9 +177,14 @@ impl Error {
         self.0.position
     }
 
-    /// Whether this is a bug of ours rather than a wrong input.
+    /// What a program can do about it.
+    pub fn kind(&self) -> ErrorKind {
+        self.0.kind
+    }
+
+    /// Whether this is a bug of ours.
     pub fn is_internal(&self) -> bool {
-        self.0.internal
+        self.kind() == ErrorKind::Internal
     }
 }
 
@@ -148,4 +217,42 @@ impl fmt::Display for Error {
     }
 }
 
-impl std::error::Error for Error {}
+impl std::error::Error for Error {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        self.0.source.as_deref().map(|source| source as _)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::error::Error as _;
+
+    #[test]
+    fn a_refusal_of_the_system_is_told_and_kept() {
+        let error =
+            Error::io("this file cannot be read", io::Error::other("on fire")).in_file(Path::new("a"));
+        assert_eq!(error.to_string(), "a: this file cannot be read: on fire");
+        let (kept, again) = (error.clone(), error.reworded(|what| format!("`key`: {what}")));
+        assert_eq!(again.what(), "`key`: this file cannot be read: on fire");
+        for error in [kept, again] {
+            let source = error.source().and_then(|source| source.downcast_ref::<io::Error>());
+            assert_eq!(source.map(ToString::to_string), Some("on fire".into()));
+            assert_eq!(error.kind(), ErrorKind::Io);
+        }
+    }
+
+    #[test]
+    fn an_error_has_the_kind_that_it_was_made_of_and_no_source_of_its_own() {
+        let made = [
+            (Error::new("a"), ErrorKind::Input),
+            (Error::usage("a"), ErrorKind::Usage),
+            (Error::unsupported("a"), ErrorKind::Unsupported),
+            (Error::internal("a"), ErrorKind::Internal),
+        ];
+        for (error, kind) in made {
+            assert_eq!((error.kind(), error.is_internal()), (kind, kind == ErrorKind::Internal));
+            assert!(error.source().is_none() && error.to_string() == "a");
+        }
+    }
+}

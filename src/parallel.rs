@@ -54,13 +54,14 @@ const MOST_THREADS: usize = 1024;
 /// When there are more than any machine has cores for, or the machine refuses them.
 pub fn with_threads<U: Send>(threads: usize, f: impl FnOnce() -> U + Send) -> Result<U> {
     if threads > MOST_THREADS {
-        return Err(Error::new(format!(
+        return Err(Error::usage(format!(
             "{threads} threads are more than the {MOST_THREADS} that can be used"
         ))
         .help("leave --threads out: there are then as many as the machine has cores"));
     }
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(|e| {
-        Error::new(format!("cannot start {threads} threads: {e}")).help("use a smaller --threads")
+        Error::io(format!("cannot start {threads} threads"), std::io::Error::other(e))
+            .help("use a smaller --threads")
     })?;
     Ok(pool.install(f))
 }

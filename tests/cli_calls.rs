@@ -1,5 +1,5 @@
 //! The command line as a user or a script calls it: what goes where, and the exit status.
-
+#![cfg(feature = "cli")]
 #![allow(clippy::unwrap_used, reason = "helpers of tests are no tests to the lint")]
 
 use std::io::Write;

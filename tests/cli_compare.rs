@@ -1,5 +1,5 @@
 //! `drapery compare` as a user or a script calls it: each failure by its name, and the exit status.
-
+#![cfg(feature = "cli")]
 #![allow(clippy::unwrap_used, reason = "helpers of tests are no tests to the lint")]
 
 use drapery::buffer::{Buffer, Plane, Values};

@@ -1,5 +1,5 @@
 //! `drapery export` as an engineer with a GPU calls it: what is in a bundle, and that one can draw with it.
-
+#![cfg(feature = "cli")]
 #![allow(clippy::unwrap_used, reason = "helpers of tests are no tests to the lint")]
 
 use serde_json::Value;

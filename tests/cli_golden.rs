@@ -1,5 +1,5 @@
 //! `drapery golden` as a user or a script calls it: what it says, what it writes, and the exit status.
-
+#![cfg(feature = "cli")]
 #![allow(clippy::unwrap_used, reason = "helpers of tests are no tests to the lint")]
 
 use std::fs;

@@ -1,5 +1,5 @@
 //! `drapery render` as a user or a script calls it: what it writes, where, and what it leaves when it fails.
-
+#![cfg(feature = "cli")]
 #![allow(clippy::unwrap_used, reason = "helpers of tests are no tests to the lint")]
 
 use drapery::technique::Kind;

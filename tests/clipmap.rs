@@ -1,4 +1,5 @@
 //! The clipmap texture (Taibo et al. 2014) on scenes whose answer is known, and the failures that it has by design, made on purpose.
+#![cfg(feature = "render")]
 
 mod drawing;
 

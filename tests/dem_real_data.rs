@@ -1,7 +1,7 @@
 //! Real terrain files, read and compared with what other programs read in them.
 //!
 //! The data lie in the folder that `DRAPERY_DATA` names, else in `../shared/data`; without them the tests say so and pass.
-
+#![cfg(feature = "render")]
 #![allow(
     clippy::unwrap_used,
     clippy::print_stdout,

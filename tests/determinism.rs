@@ -2,6 +2,7 @@
 //!
 //! The hashes below are those of every buffer of a scene together, by inverse projection. They change only when a pixel changes, which is
 //! then said in the commit. (Goldens hold those of all techniques.)
+#![cfg(feature = "render")]
 
 use drapery::buffer::Plane;
 use drapery::scene_file::{Override, SceneFile};

@@ -1,5 +1,6 @@
 //! Meshes whose vertices have plan points and an up of their own: the same pictures however the world is turned, and a cap of a sphere
 //! against brute force.
+#![cfg(feature = "render")]
 
 mod drawing;
 

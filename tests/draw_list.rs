@@ -1,4 +1,5 @@
 //! One list of what is painted: truth, supersampling and every technique draw its items, whatever layer and style they are of.
+#![cfg(feature = "render")]
 
 mod drawing;
 

@@ -1,5 +1,5 @@
 //! The goldens of this project hold; and a golden that does not is found out, by name, whatever is wrong with it.
-
+#![cfg(feature = "render")]
 #![allow(clippy::unwrap_used, reason = "helpers of tests are no tests to the lint")]
 
 use drapery::buffer::Buffer;

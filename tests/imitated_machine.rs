@@ -1,4 +1,5 @@
 //! The imitated machine sees what exact mathematics sees, but for what its precision, snapping and depth buffer explain.
+#![cfg(feature = "render")]
 
 use drapery::parallel;
 use drapery::raster::device::{Pipeline, Real, Window};

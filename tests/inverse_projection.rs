@@ -1,4 +1,5 @@
 //! Inverse projection (She 2016) on scenes whose answer is known.
+#![cfg(feature = "render")]
 
 use drapery::buffer::{Plane, Values};
 use drapery::scene::{

@@ -1,7 +1,7 @@
 //! Whole scenes of published terrain and vectors, loaded, and starter scenes for them.
 //!
 //! The data lie in the folder that `DRAPERY_DATA` names, else in `../shared/data`; without them the tests say so and pass.
-
+#![cfg(all(feature = "cli", feature = "gpkg"))]
 #![allow(
     clippy::unwrap_used,
     clippy::print_stdout,

@@ -1,5 +1,6 @@
 //! What is declared of techniques, parameters and buffers holds wherever it is used: the scene file, its schema, `result.json`, frames,
 //! the contract.
+#![cfg(feature = "cli")]
 
 mod drawing;
 

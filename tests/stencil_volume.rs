@@ -1,4 +1,5 @@
 //! Stencil volumes (Schneider & Klein 2007) on scenes whose answer is known, and the failures that the paper warns of, made on purpose.
+#![cfg(feature = "render")]
 
 mod drawing;
 

@@ -1,5 +1,6 @@
 //! The truth against what is known without it: closed forms of `docs/semantics.md`'s definitions, brute-force sampling, and
 //! itself on other machines' worth of threads. (Exact rational arithmetic: `src/truth/tile/tests.rs`.)
+#![cfg(feature = "render")]
 
 use drapery::math;
 use drapery::scene::{

@@ -1,7 +1,7 @@
 //! The vector readers on published data, where it is at hand.
 //!
 //! Vertices are counted as the files store them, closing vertices of rings included, which is also how GDAL counts.
-
+#![cfg(feature = "gpkg")]
 #![allow(clippy::unwrap_used, clippy::print_stdout)] // helpers of tests may stop a test and say what is skipped
 
 use drapery::crs::{Crs, PlanSpace};

@@ -1,4 +1,5 @@
 //! Each sample sees the triangle that exact rational ray casting finds, whatever the tiles, the camera and the terrain.
+#![cfg(feature = "render")]
 
 use dashu::rational::RBig;
 use drapery::math;

@@ -72,7 +72,7 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
 fn check_call(arguments: &Arguments) -> Result<()> {
     let Arguments { expected, actual, json, heatmap, .. } = arguments;
     if is_one_file(expected, actual)? {
-        return Err(Error::new(format!(
+        return Err(Error::usage(format!(
             "the same file twice: {} and {} are one file, which would pass whatever it shows",
             expected.display(),
             actual.display()
@@ -80,12 +80,14 @@ fn check_call(arguments: &Arguments) -> Result<()> {
         .help("compare two files; equal content is no hindrance"));
     }
     if json.is_some() && json == heatmap {
-        return Err(Error::new("--json and --heatmap name the same file").help("name two"));
+        return Err(Error::usage("--json and --heatmap name the same file").help("name two"));
     }
     for output in [json, heatmap].into_iter().flatten().filter(|path| !is_standard(path) && path.exists()) {
         for input in [expected, actual] {
             if is_one_file(output, input)? {
-                return Err(Error::new("this picture is compared, and would be written over").in_file(output));
+                return Err(
+                    Error::usage("this picture is compared, and would be written over").in_file(output)
+                );
             }
         }
     }
@@ -113,7 +115,7 @@ fn read(path: &Path) -> Result<Image> {
     }
     let mut bytes = Vec::new();
     let read = std::io::stdin().read_to_end(&mut bytes);
-    read.map_err(|error| Error::new(format!("stdin cannot be read: {error}")))?;
+    read.map_err(|error| Error::io("stdin cannot be read", error))?;
     Image::decode(&bytes).map_err(|error| error.in_file(Path::new("<stdin>")))
 }
 

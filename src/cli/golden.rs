@@ -5,6 +5,7 @@ use super::refusal::harmless;
 use super::stop::{Outcome, Status, Stop};
 use drapery::Result;
 use drapery::golden::{self, Checked, Failure, Fault, IMAGE, Manifest, Selection};
+use drapery::measure::Watch;
 use drapery::output::{Batch, write_png};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};

@@ -38,8 +38,7 @@ enum Encoding {
 
 pub(super) fn run(arguments: &Arguments) -> Outcome {
     let path = &arguments.file;
-    std::fs::metadata(path)
-        .map_err(|error| Error::new(format!("this file cannot be read: {error}")).in_file(path))?;
+    std::fs::metadata(path).map_err(|error| Error::io("this file cannot be read", error).in_file(path))?;
     let tables = match extension(path).as_str() {
         "toml" => vec![of_scene(&SceneFile::read(path, &[])?)],
         "shp" | "geojson" | "json" | "fgb" | "gpkg" => of_vectors(path)?,

@@ -10,7 +10,6 @@ mod completions;
 mod export;
 mod golden;
 mod info;
-mod measure;
 mod new;
 mod refusal;
 mod render;
@@ -18,6 +17,7 @@ mod report;
 mod scene_input;
 mod schema;
 mod stop;
+mod truth_arguments;
 mod written;
 
 use clap::{ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand};

@@ -229,7 +229,7 @@ fn two_digits(width: f64) -> f64 {
 }
 
 fn require(path: &Path) -> Result<()> {
-    let refuse = |error| Error::new(format!("this file cannot be read: {error}")).in_file(path);
+    let refuse = |error| Error::io("this file cannot be read", error).in_file(path);
     std::fs::metadata(path).map(drop).map_err(refuse)
 }
 

@@ -50,7 +50,7 @@ impl Stop {
     pub(super) fn stdout(error: io::Error) -> Self {
         match error.kind() {
             io::ErrorKind::BrokenPipe => Stop::PipeClosed,
-            _ => Error::new(format!("stdout cannot be written: {error}")).into(),
+            _ => Error::io("stdout cannot be written", error).into(),
         }
     }
 }

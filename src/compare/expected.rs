@@ -27,11 +27,11 @@ impl Expected {
     /// When they differ in size, or a lower end lies above its upper end.
     pub fn between(lo: Image, hi: Image) -> Result<Self> {
         if shape(&lo) != shape(&hi) {
-            return Err(Error::new("the two ends of the expected intervals differ in size or channels"));
+            return Err(Error::usage("the two ends of the expected intervals differ in size or channels"));
         }
         if let Some(index) = (0..lo.values().len()).find(|i| lo.values()[*i] > hi.values()[*i]) {
             let Place { x, y, channel } = lo.place(index);
-            return Err(Error::new(format!(
+            return Err(Error::usage(format!(
                 "the expected interval of pixel {x},{y}, channel {channel} is upside down: {} to {}",
                 lo.values()[index],
                 hi.values()[index]
@@ -118,6 +118,8 @@ impl Mismatch {
         wrong.into_iter().find_map(found)
     }
 }
+
+impl std::error::Error for Mismatch {}
 
 impl fmt::Display for Mismatch {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

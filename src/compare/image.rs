@@ -34,10 +34,10 @@ impl Image {
     pub fn new(width: usize, height: usize, channels: usize, values: Vec<f64>) -> Result<Self> {
         let wanted = width.checked_mul(height).and_then(|pixels| pixels.checked_mul(channels));
         if wanted == Some(0) {
-            return Err(Error::new("there is nothing to compare: the picture has no pixel or no channel"));
+            return Err(Error::usage("there is nothing to compare: the picture has no pixel or no channel"));
         }
         if wanted != Some(values.len()) {
-            return Err(Error::new(format!(
+            return Err(Error::usage(format!(
                 "a picture of {width} x {height} pixels of {channels} channels cannot have {} values",
                 values.len()
             )));

@@ -56,7 +56,8 @@ impl Report<'_> {
             "metrics": measured.map(|measured| metrics_json(&measured.metrics, &measured.difference)),
         });
         let text = serde_json::to_string_pretty(&document);
-        let text = text.map_err(|error| Error::internal(format!("the verdict as JSON: {error}")))?;
+        let text =
+            text.map_err(|error| Error::internal(format!("the verdict as JSON: {error}")).caused_by(error))?;
         Ok(text + "\n")
     }
 }

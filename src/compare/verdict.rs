@@ -23,7 +23,7 @@ impl Limits {
     /// When the tolerance is negative, infinite or not a number.
     pub fn new(tolerance: f64, allow: usize) -> Result<Self> {
         if !(tolerance >= 0.0 && tolerance.is_finite()) {
-            return Err(Error::new(format!("{tolerance} is no tolerance"))
+            return Err(Error::usage(format!("{tolerance} is no tolerance"))
                 .help("it is a distance in units of 1, such as 0, 0.01 or 2/255"));
         }
         Ok(Self { tolerance, allow })

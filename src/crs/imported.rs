@@ -72,7 +72,8 @@ fn rounded(value: f64, quanta: f64) -> f64 {
 
 fn load(text: &str) -> Result<Arc<Proj>> {
     Proj::from_proj_string(text).map(Arc::new).map_err(|e| {
-        Error::new(format!("cannot set up the projection '{text}': {e}"))
+        Error::unsupported(format!("cannot set up the projection '{text}': {e}"))
+            .caused_by(e)
             .help("reproject the data, for example to UTM, or name another CRS")
     })
 }

@@ -65,7 +65,7 @@ impl Crs {
     /// When the code is not known or names a system without a plane of coordinates (geocentric, vertical).
     pub fn from_epsg(code: u32) -> Result<Self> {
         let known = epsg::known(code).ok_or_else(|| {
-            Error::new(format!("EPSG:{code} is not a CRS known here"))
+            Error::unsupported(format!("EPSG:{code} is not a CRS known here"))
                 .help("write it as a PROJ string or as WKT, or reproject the data")
         })?;
         let mut crs = Self::from_definition(&Definition::parse(&known.proj)?).map_err(|e| {

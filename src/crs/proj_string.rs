@@ -136,7 +136,7 @@ impl Definition {
         let name = self.text("units").unwrap_or("m");
         let known = UNITS.iter().find(|u| u.0 == name);
         known.map(|u| u.1).ok_or_else(|| {
-            Error::new(format!("the PROJ string's unit '{name}' is not known"))
+            Error::unsupported(format!("the PROJ string's unit '{name}' is not known"))
                 .help("give the metres in a unit as +to_meter=")
         })
     }
@@ -182,7 +182,7 @@ fn shift_of_numbers(numbers: &[f64], ellipsoid: &Ellipsoid) -> Result<Datum> {
 fn ellipsoid_named(name: &str) -> Result<Ellipsoid> {
     let found = ELLIPSOIDS.iter().find(|e| e.0.eq_ignore_ascii_case(name));
     found.map(|e| Ellipsoid::from_inverse_flattening(e.1, e.2)).ok_or_else(|| {
-        Error::new(format!("the PROJ string's ellipsoid '{name}' is not known"))
+        Error::unsupported(format!("the PROJ string's ellipsoid '{name}' is not known"))
             .help("give its radius and inverse flattening as +a= and +rf=")
     })
 }
@@ -190,7 +190,7 @@ fn ellipsoid_named(name: &str) -> Result<Ellipsoid> {
 fn known_datum(name: &str) -> Result<(&'static str, &'static [f64])> {
     let found = DATUMS.iter().find(|d| d.0.eq_ignore_ascii_case(name));
     found.map(|d| (d.1, d.2)).ok_or_else(|| {
-        Error::new(format!("the PROJ string's datum '{name}' is not known"))
+        Error::unsupported(format!("the PROJ string's datum '{name}' is not known"))
             .help("give its ellipsoid and shift as +ellps= and +towgs84=")
     })
 }

@@ -48,7 +48,7 @@ impl Projection {
         let plain = matches!(definition.text("axis"), None | Some("enu"));
         match definition.text("proj").unwrap_or("") {
             "longlat" | "latlong" | "latlon" | "lonlat" => Ok(Self::Geographic),
-            "geocent" | "cart" => Err(Error::new("geocentric coordinates have no plan")
+            "geocent" | "cart" => Err(Error::unsupported("geocentric coordinates have no plan")
                 .help("reproject the data to longitude and latitude or to a projected CRS")),
             "tmerc" | "etmerc" if plain => transverse(definition, ellipsoid),
             "utm" if plain => utm(definition, ellipsoid),

@@ -193,7 +193,7 @@ const ANGLE: [&str; 2] = ["UNIT", "ANGLEUNIT"];
 
 fn crs_of(root: &Node) -> Result<Crs> {
     let node = root.find(&PROJECTED).or_else(|| root.find(&GEOGRAPHIC)).ok_or_else(|| {
-        Error::new(format!("a {} is not a CRS of places on the earth", root.keyword))
+        Error::unsupported(format!("a {} is not a CRS of places on the earth", root.keyword))
             .help("georeference the data, or name the CRS by its EPSG code")
     })?;
     if let Some(Ok(crs)) = node.epsg().map(Crs::from_epsg) {

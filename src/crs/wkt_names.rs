@@ -51,7 +51,7 @@ pub(crate) fn proj_text(
 ) -> Result<String> {
     let value = |key: &str| parameters.iter().find(|p| p.0 == key).map(|p| p.1);
     let proj = proj_of(method, value("alpha")).ok_or_else(|| {
-        Error::new(format!("the projection '{name}' is not supported"))
+        Error::unsupported(format!("the projection '{name}' is not supported"))
             .help("reproject the data, for example to UTM, or name the CRS by its EPSG code")
     })?;
     let mut text = format!("+proj={proj}");

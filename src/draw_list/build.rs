@@ -97,7 +97,8 @@ fn check(count: usize, what: &str) -> Result<()> {
     if count <= MOST {
         return Ok(());
     }
-    Err(Error::new(format!("more {what} than this program can number")).help("give the terrain a `window`"))
+    Err(Error::unsupported(format!("more {what} than this program can number"))
+        .help("give the terrain a `window`"))
 }
 
 impl DrawList {

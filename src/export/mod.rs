@@ -1,16 +1,25 @@
-//! A scene and its pictures -> files for a program that draws the same on a graphics processor.
+//! A scene and its pictures -> folders of files: [`Pictures`] as `drapery render` writes them, and a [`Bundle`] for a program that draws
+//! the same on a graphics processor.
 //!
-//! Input: a loaded scene, its mesh and view; a technique's buffers. Output: tables of the mesh, the features as GeoJSON, the numbers
-//! of the view as JSON, the tiles of a texture as pictures. `layout.md` tells a reader of the bundle what is where. Refuses: nothing.
+//! Input: a stage, the technique, how exact the truth is. Output: pictures, buffers and `result.json`; for a bundle also tables of the
+//! mesh, the features as GeoJSON, the numbers of the view as JSON, the tiles of a texture as pictures. `layout.md` tells a reader of the
+//! bundle what is where. Refuses: what a technique refuses; then nothing is written.
 
+mod buffers;
+mod bundle;
 mod features;
 mod mesh;
 mod parameters;
+mod pictures;
+mod run_files;
 mod tiles;
 
+pub use buffers::Buffers;
+pub use bundle::Bundle;
 pub use features::write_features;
 pub use mesh::{plan_points, triangles, vertices};
 pub use parameters::{Camera, Canvas, Ground, Parameters};
+pub use pictures::Pictures;
 pub use tiles::{TilePicture, tiles};
 
 /// What the files of a bundle hold, for people.

@@ -134,7 +134,8 @@ impl Parameters {
     /// Internal errors only.
     pub fn to_json(&self) -> Result<String> {
         let text = serde_json::to_string_pretty(self);
-        Ok(text.map_err(|error| Error::internal(format!("parameters.json: {error}")))? + "\n")
+        Ok(text.map_err(|error| Error::internal(format!("parameters.json: {error}")).caused_by(error))?
+            + "\n")
     }
 }
 

@@ -10,7 +10,7 @@ mod primitive;
 mod stroke;
 
 pub use box_tree::BoxTree;
-pub use primitive::{Convex, HalfPlane, MOST_SIDES, Primitive, Sides};
+pub use primitive::{HalfPlane, MOST_SIDES, Primitive};
 
 use crate::draw_list::{Chain, DrawList, Role, Side};
 use crate::parallel;

@@ -126,5 +126,5 @@ fn gone(folder: &Path, before: &Manifest, after: &Manifest, selection: &Selectio
 
 fn remove(path: &Path) -> Result<()> {
     std::fs::remove_file(path)
-        .map_err(|error| Error::new(format!("this picture cannot be removed: {error}")).in_file(path))
+        .map_err(|error| Error::io("this picture cannot be removed", error).in_file(path))
 }

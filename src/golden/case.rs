@@ -82,7 +82,7 @@ pub fn cases(folder: &Path) -> Result<Vec<Case>> {
 pub fn selected(folder: &Path, selection: &Selection) -> Result<Vec<Case>> {
     let all = cases(folder)?;
     if !all.iter().any(|case| selection.matches(&case.name)) {
-        return Err(Error::new("no golden is selected here")
+        return Err(Error::usage("no golden is selected here")
             .in_file(folder)
             .help("goldens are DIR/TOPIC/CASE.toml; `drapery golden list` names them"));
     }
@@ -116,8 +116,9 @@ fn case(folder: &Path, name: &str) -> Result<Case> {
 
 fn settings(path: &Path) -> Result<Settings> {
     let text = fs::read_to_string(path)
-        .map_err(|error| Error::new(format!("this file cannot be read: {error}")).in_file(path))?;
-    toml::from_str(&text).map_err(|error| Error::new(error.to_string().trim_end()).in_file(path))
+        .map_err(|error| Error::io("this file cannot be read", error).in_file(path))?;
+    toml::from_str(&text)
+        .map_err(|error| Error::new(error.to_string().trim_end()).caused_by(error).in_file(path))
 }
 
 /// The files in the folders of a folder, as `topic/name`, sorted.
@@ -134,7 +135,7 @@ fn files(folder: &Path) -> Result<Vec<String>> {
 }
 
 fn names_in(folder: &Path) -> Result<Vec<String>> {
-    let refuse = |error| Error::new(format!("this golden folder cannot be read: {error}")).in_file(folder);
+    let refuse = |error| Error::io("this golden folder cannot be read", error).in_file(folder);
     let mut names = Vec::new();
     for entry in fs::read_dir(folder).map_err(refuse)? {
         let name = entry.map_err(refuse)?.file_name();

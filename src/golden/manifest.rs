@@ -57,15 +57,15 @@ impl Manifest {
         match std::fs::read_to_string(&path) {
             Ok(text) => Self::parse(&text).map_err(|error| error.in_file(&path)),
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Self::default()),
-            Err(error) => Err(Error::new(format!("this manifest cannot be read: {error}")).in_file(&path)),
+            Err(error) => Err(Error::io("this manifest cannot be read", error).in_file(&path)),
         }
     }
 
     fn parse(text: &str) -> Result<Self> {
-        let document: Document =
-            toml::from_str(text).map_err(|error| Error::new(error.to_string().trim_end()))?;
+        let document: Document = toml::from_str(text)
+            .map_err(|error| Error::new(error.to_string().trim_end()).caused_by(error))?;
         if document.schema != SCHEMA {
-            return Err(Error::new(format!("this manifest has the schema {}", document.schema))
+            return Err(Error::unsupported(format!("this manifest has the schema {}", document.schema))
                 .help(format!("this version reads {SCHEMA}")));
         }
         let mut manifest = Self::default();

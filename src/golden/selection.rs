@@ -24,7 +24,7 @@ impl Selection {
     /// When there is no such part.
     pub fn new(only: Option<&str>, (part, parts): (usize, usize)) -> Result<Self> {
         if part == 0 || part > parts {
-            return Err(Error::new(format!("there is no part {part} of {parts}"))
+            return Err(Error::usage(format!("there is no part {part} of {parts}"))
                 .help("parts are counted from 1, such as 1/4 to 4/4"));
         }
         Ok(Self { only: only.map(str::to_owned), part, parts })

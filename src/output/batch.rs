@@ -34,9 +34,8 @@ impl Batch {
     /// # Errors
     /// When something else has the folder's name, or nothing can be written there: known before the work is done.
     pub fn into(folder: &Path) -> Result<Self> {
-        let refuse = |error: io::Error| {
-            Error::new(format!("this output folder cannot be written: {error}")).in_file(folder)
-        };
+        let refuse =
+            |error: io::Error| Error::io("this output folder cannot be written", error).in_file(folder);
         let staging = match fs::metadata(folder) {
             Ok(found) if found.is_dir() => create_staging(folder, "batch"),
             Ok(_) => Err(io::Error::other("it is a file")),
@@ -52,8 +51,7 @@ impl Batch {
     /// When it cannot be written, or a folder has its name; says which file.
     pub fn stage(&mut self, name: &str, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
         let path = self.folder.join(name);
-        let refuse =
-            |error: io::Error| Error::new(format!("this file cannot be written: {error}")).in_file(&path);
+        let refuse = |error: io::Error| Error::io("this file cannot be written", error).in_file(&path);
         if path.is_dir() {
             return Err(refuse(io::Error::other("a folder has this name")));
         }
@@ -76,9 +74,8 @@ impl Batch {
     /// When the system refuses a move. Moves in one folder that could be written a moment ago hardly fail; where one
     /// does, those before it have been made, and each file is still whole.
     pub fn commit(self) -> Result<()> {
-        let refuse = |path: &Path, error: io::Error| {
-            Error::new(format!("this cannot be put in its place: {error}")).in_file(path)
-        };
+        let refuse =
+            |path: &Path, error: io::Error| Error::io("this cannot be put in its place", error).in_file(path);
         if self.folder.is_dir() {
             for name in &self.names {
                 let place = self.folder.join(name);

@@ -134,7 +134,7 @@ impl RenderResult {
     /// Internal errors only.
     pub fn to_json(&self) -> Result<String> {
         let text = serde_json::to_string_pretty(self);
-        let text = text.map_err(|error| Error::internal(format!("result.json: {error}")))?;
+        let text = text.map_err(|error| Error::internal(format!("result.json: {error}")).caused_by(error))?;
         Ok(text + "\n")
     }
 }

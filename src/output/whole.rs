@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 /// # Errors
 /// When the file cannot be made or `write` fails; says which file. What was there before is still there then.
 pub fn write_whole(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
-    let refuse = |error: io::Error| Error::new(format!("this file cannot be written: {error}")).in_file(path);
+    let refuse = |error: io::Error| Error::io("this file cannot be written", error).in_file(path);
     // What a link leads to is replaced, not the link; a device or a pipe is written to.
     let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     if fs::metadata(&target).is_ok_and(|found| !found.is_file() && !found.is_dir()) {

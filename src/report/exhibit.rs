@@ -49,9 +49,12 @@ pub(super) fn scale() -> Result<Vec<u8>> {
     let distances = Image::new(STEPS, 1, 1, (0..STEPS).map(value).collect())?;
     let zero = Expected::exactly(Image::new(STEPS, 1, 1, vec![0.0; STEPS])?);
     let difference = Difference::of(&zero, &distances);
-    png(&difference.map_err(|what| Error::internal(format!("the scale: {what}")))?.heat_map(TOLERANCE))
+    png(&difference
+        .map_err(|what| Error::internal(format!("the scale: {what}")).caused_by(what))?
+        .heat_map(TOLERANCE))
 }
 
 fn png(picture: &Buffer<[u8; 4]>) -> Result<Vec<u8>> {
-    small_png(picture).map_err(|error| Error::internal(format!("a picture of the report: {error}")))
+    small_png(picture)
+        .map_err(|error| Error::internal(format!("a picture of the report: {error}")).caused_by(error))
 }

@@ -2,6 +2,7 @@
 
 use crate::compare::Metrics;
 use crate::error::{Error, Result};
+use crate::measure::Times;
 use crate::output::{ByName, SceneResult};
 use std::cmp::Ordering;
 
@@ -69,29 +70,6 @@ pub struct Run {
     pub image_hash: String,
     /// Whether no other run of the scene is as fast and has as small a root mean square error.
     pub on_front: bool,
-}
-
-/// Milliseconds of some repetitions.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
-pub struct Times {
-    /// The median.
-    pub median: f64,
-    /// The shortest.
-    pub min: f64,
-    /// The longest.
-    pub max: f64,
-}
-
-impl Times {
-    /// The times of some repetitions; none: 0.
-    pub fn of(mut times: Vec<f64>) -> Self {
-        times.sort_by(f64::total_cmp);
-        let at = |k: usize| times.get(k).copied().unwrap_or(0.0);
-        let (count, middle) = (times.len(), times.len() / 2);
-        let is_odd = count % 2 == 1;
-        let median = if is_odd || count == 0 { at(middle) } else { (at(middle - 1) + at(middle)) / 2.0 };
-        Self { median, min: at(0), max: at(count.saturating_sub(1)) }
-    }
 }
 
 /// How far a picture is from the truth, in units of 1.
@@ -224,20 +202,6 @@ impl Report {
     /// Internal errors only.
     pub fn to_json(&self) -> Result<String> {
         let text = serde_json::to_string_pretty(self);
-        Ok(text.map_err(|error| Error::internal(format!("report.json: {error}")))? + "\n")
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_median_is_not_moved_by_one_slow_run() {
-        let median = |times: &[f64]| Times::of(times.to_vec()).median;
-        assert_eq!(median(&[3.0]), 3.0);
-        assert_eq!(median(&[900.0, 1.0, 2.0]), 2.0);
-        assert_eq!(median(&[900.0, 1.0, 2.0, 2.5]), 2.25);
-        assert_eq!(Times::of(vec![9.0, 1.0, 2.0]), Times { median: 2.0, min: 1.0, max: 9.0 });
+        Ok(text.map_err(|error| Error::internal(format!("report.json: {error}")).caused_by(error))? + "\n")
     }
 }

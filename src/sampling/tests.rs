@@ -37,7 +37,7 @@ fn sampled(stage: &Stage, n: usize) -> Sampled {
 fn many_samples_come_near_the_truth() {
     let stage = stage();
     let truth = truth::certify(&stage, &stage.view().unwrap(), &Budget::default(), &|_| {});
-    let expected = crate::report::expected(&truth).unwrap();
+    let expected = crate::measure::expected(&truth).unwrap();
     let rmse = |n| {
         let colors = sampled(&stage, n).colors.values().as_flattened().to_vec();
         let image = Image::new(48, 32, 4, colors).unwrap();

@@ -23,6 +23,18 @@ pub struct Camera {
 }
 
 impl Camera {
+    /// A camera at `eye` that looks at `target`, with the scene file's defaults: perspective, 45 degrees, z up, from a metre away on.
+    pub fn new(eye: World, target: World) -> Self {
+        Self {
+            eye,
+            target,
+            up: DVec3::Z,
+            projection: Projection::Perspective { fov_y_deg: 45.0 },
+            near_m: 1.0,
+            far_m: None,
+        }
+    }
+
     /// The view of this camera on a picture.
     ///
     /// # Errors

@@ -50,6 +50,30 @@ pub struct Scene {
     pub notes: Vec<String>,
 }
 
+impl Scene {
+    /// A scene that no file says: local coordinates are plan coordinates, all else is as in a scene file that says nothing.
+    pub fn new(camera: Camera, layers: Vec<Layer>) -> Self {
+        Self {
+            name: "scene".into(),
+            origin: DVec3::ZERO,
+            plan_space: "metres".into(),
+            image: ImageSettings {
+                width: 1200,
+                height: 800,
+                background: Color::from_rgba8([0xff, 0xff, 0xff, 0xff]),
+            },
+            camera,
+            diagonal: Diagonal::default(),
+            ground: Ground::Color(Color::from_rgba8([0xc8, 0xb8, 0x9a, 0xff])),
+            layers,
+            compositing: Compositing::default(),
+            device: Device::default(),
+            technique: TechniqueSettings::default(),
+            notes: Vec::new(),
+        }
+    }
+}
+
 /// The terrain's heights, before triangulation.
 #[derive(Debug, Clone)]
 pub enum Surface {

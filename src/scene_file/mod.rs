@@ -36,6 +36,7 @@ mod spec;
 mod suggest;
 #[cfg(test)]
 mod tests;
+mod text;
 mod tree;
 
 pub use by_column::{
@@ -50,6 +51,7 @@ pub use spec::{
     TerrainGenerator, TerrainKind, TerrainSource, TerrainSpec, VectorGenerator, VectorKind, ViewSpec,
 };
 pub(crate) use suggest::{nearest, nearest_or_all};
+pub use text::SceneText;
 
 use crate::error::{Error, Result};
 use glam::DVec3;
@@ -94,7 +96,7 @@ impl SceneFile {
 /// When it cannot be read or is not UTF-8.
 pub fn text_of(path: &Path) -> Result<String> {
     let bytes = std::fs::read(path)
-        .map_err(|error| Error::new(format!("this scene file cannot be read: {error}")).in_file(path))?;
+        .map_err(|error| Error::io("this scene file cannot be read", error).in_file(path))?;
     decode(bytes, path)
 }
 

@@ -83,7 +83,8 @@ pub(super) fn parse(origin: &Origin<'_>) -> Result<Node> {
     let start = |error: &toml::de::Error| error.span().map_or(0, |span| span.start);
     if let Some(error) = errors.iter().min_by_key(|error| start(error)) {
         let place = Place::File(error.span().unwrap_or(0..0));
-        return Err(origin.error(&place, format!("this is not TOML: {}", error.message())));
+        let refusal = origin.error(&place, format!("this is not TOML: {}", error.message()));
+        return Err(refusal.caused_by(error.clone()));
     }
     Ok(Node { value: Value::Table(table(root.get_ref(), None)), place: Place::File(0..0) })
 }

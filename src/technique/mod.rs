@@ -19,6 +19,7 @@ use crate::buffer::{Buffer, Plane};
 use crate::error::Result;
 use crate::space::ViewFrame;
 use crate::stage::Stage;
+use crate::visibility::TILE;
 
 declaration::techniques! {
     Clipmap is clipmap,
@@ -34,6 +35,16 @@ pub const PLANNED: [(&str, &str); 4] = [
     ("analytic", "Hierarchical classification and closed-form coverage (ours)"),
 ];
 
+impl Kind {
+    /// Draws a stage once, from its scene's own camera. ([`prepare`] once and [`Prepared::frame`] draw many views.)
+    ///
+    /// # Errors
+    /// When the technique does not draw such a scene, or the camera shows nothing.
+    pub fn draw(self, stage: &Stage) -> Result<Frame> {
+        prepare(self, stage)?.frame(&stage.view()?, &FrameOptions::default())
+    }
+}
+
 /// How a frame is drawn; nothing here changes a pixel.
 #[derive(Clone, Copy)]
 pub struct FrameOptions<'a> {
@@ -43,6 +54,13 @@ pub struct FrameOptions<'a> {
     pub buffers: &'a [String],
     /// Called with the share of the frame that is done (0..=1), from any thread.
     pub progress: &'a (dyn Fn(f64) + Sync),
+}
+
+impl Default for FrameOptions<'_> {
+    /// The picture alone, in tiles of the usual size.
+    fn default() -> Self {
+        Self { tile: TILE, buffers: &[], progress: &|_| {} }
+    }
 }
 
 /// What a technique draws.

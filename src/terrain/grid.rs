@@ -38,7 +38,7 @@ impl Grid {
     pub fn new(posts: Posts, diagonal: Diagonal) -> Result<Self> {
         let cells = (posts.columns() - 1) as u64 * (posts.rows() - 1) as u64;
         if cells * 2 >= u64::from(u32::MAX) {
-            return Err(Error::new(format!("{cells} cells are more than this program can number"))
+            return Err(Error::unsupported(format!("{cells} cells are more than this program can number"))
                 .help("give the terrain a `window`"));
         }
         let mut levels = vec![leaf_level(&posts)];

@@ -55,7 +55,7 @@ fn refused(error: InsertionError) -> Error {
         InsertionError::TooLarge => "a coordinate is beyond 3e60",
         InsertionError::NAN => "a coordinate is not a number",
     };
-    Error::new(format!("the points cannot be triangulated: {why}"))
+    Error::new(format!("the points cannot be triangulated: {why}")).caused_by(error)
 }
 
 impl Tin {
@@ -65,9 +65,8 @@ impl Tin {
     /// When a coordinate is out of range, or the points span no triangle.
     pub fn new(points: Vec<World>) -> Result<Self> {
         if points.len() >= u32::MAX as usize / 2 {
-            return Err(
-                Error::new("more points than this program can number").help("give the terrain a `window`")
-            );
+            return Err(Error::unsupported("more points than this program can number")
+                .help("give the terrain a `window`"));
         }
         let samples = points.iter().enumerate().map(|(i, &at)| Sample { at, index: i as u32 }).collect();
         let delaunay = DelaunayTriangulation::<Sample>::bulk_load_stable(samples).map_err(refused)?;

@@ -70,11 +70,11 @@ impl Budget {
     /// When the width is not in 0..=1 or the depth is over [`Budget::MOST_DEPTH`].
     pub fn new(width: f64, depth: u32) -> Result<Self> {
         if !(0.0..=1.0).contains(&width) {
-            return Err(Error::new(format!("a truth of width {width} cannot be asked for"))
+            return Err(Error::usage(format!("a truth of width {width} cannot be asked for"))
                 .help("give a width from 0 (as narrow as the depth allows) to 1, such as 0.002"));
         }
         if depth > Self::MOST_DEPTH {
-            return Err(Error::new(format!("2^{depth} pieces a pixel are too many"))
+            return Err(Error::usage(format!("2^{depth} pieces a pixel are too many"))
                 .help(format!("give a depth of at most {}", Self::MOST_DEPTH)));
         }
         Ok(Self { width, depth, coverage: false })
@@ -173,6 +173,14 @@ pub struct Truth {
 }
 
 impl Truth {
+    /// The truth of a stage from its scene's own camera. ([`certify`] takes any view, and tells how far it is.)
+    ///
+    /// # Errors
+    /// When the camera shows nothing.
+    pub fn of(stage: &Stage, budget: &Budget) -> Result<Self> {
+        Ok(certify(stage, &stage.view()?, budget, &|_| {}))
+    }
+
     /// The estimate as 8-bit code values.
     pub fn image(&self) -> Buffer<[u8; 4]> {
         let codes = self.estimate.values().iter().map(|c| code_values(*c)).collect();

@@ -4,7 +4,7 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests are no tests to the lint")]
 
 use drapery::compare::{Difference, Image, Metrics};
-use drapery::report;
+use drapery::measure;
 use drapery::scene::{Scene, Surface};
 use drapery::scene_file::{Override, SceneFile};
 use drapery::stage::Stage;
@@ -48,7 +48,7 @@ pub fn truth_of(stage: &Stage) -> Truth {
 
 /// How far a picture is from the truth.
 pub fn errors(truth: &Truth, image: &Image) -> Metrics {
-    Difference::of(&report::expected(truth).unwrap(), image).unwrap().metrics(0.0)
+    Difference::of(&measure::expected(truth).unwrap(), image).unwrap().metrics(0.0)
 }
 
 /// A number of a frame.

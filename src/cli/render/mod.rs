@@ -1,16 +1,16 @@
 //! `drapery render [SCENE]`
 
-pub(super) mod draw;
 pub(super) mod techniques;
 
 use super::bar::Bar;
-use super::measure::{Certified, TruthArguments, scene_result};
-use super::scene_input::SceneInput;
+use super::scene_input;
 use super::stop::{Outcome, Status};
-use drapery::output::{Batch, RESULT_SCHEMA, RenderResult, RunResult};
+use super::truth_arguments::TruthArguments;
+use drapery::export::{Buffers, Pictures};
+use drapery::output::{Batch, RenderResult, RunResult};
+use drapery::scene_file::SceneText;
 use drapery::truth::Budget;
 use drapery::{Result, parallel};
-use draw::{Drawing, Wish};
 use std::path::PathBuf;
 use techniques::Asked;
 
@@ -56,13 +56,13 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments) -> Outcome {
     let asked = techniques::asked(&arguments.techniques)?;
     let budget = arguments.truth.budget()?;
-    let scene = SceneInput::read(arguments.scene.as_deref(), &arguments.overrides)?;
+    let scene = scene_input::read(arguments.scene.as_deref(), &arguments.overrides)?;
     let batch = Batch::into(&arguments.output)?;
     let bar = Bar::new();
-    let runs = parallel::with_threads(arguments.threads, || {
+    let result = parallel::with_threads(arguments.threads, || {
         render(arguments, (&asked, &budget), &scene, batch, &bar)
     })?;
-    for run in runs.map_err(|error| scene.blame(error))? {
+    for run in result.map_err(|error| scene_input::blame(&scene, error))?.runs {
         bar.say(&told(arguments, &run));
     }
     Ok(Status::Passed)
@@ -72,34 +72,23 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
 fn render(
     arguments: &Arguments,
     (asked, budget): (&Asked, &Budget),
-    input: &SceneInput,
-    mut batch: Batch,
+    text: &SceneText,
+    batch: Batch,
     bar: &Bar,
-) -> Result<Vec<RunResult>> {
-    let stage = input.stage(bar)?;
-    let view = stage.view()?;
-    let kinds = techniques::applying(asked, &stage, bar)?;
-    let wish = Wish {
-        buffers: techniques::buffers(&arguments.buffers, asked.truth, &kinds)?,
+) -> Result<RenderResult> {
+    let scene = scene_input::open(text, bar)?;
+    let stage = &scene.stage;
+    let kinds = techniques::applying(asked, stage, bar)?;
+    let pictures = Pictures {
+        stage,
+        hash: &text.file.hash,
+        truth: asked.truth,
+        techniques: &kinds,
+        buffers: &Buffers::named(&arguments.buffers, asked.truth, &kinds)?,
+        budget,
         repeat: arguments.repeat,
     };
-    let certified = Certified::of((&stage, &view), budget, if asked.truth { wish.repeat } else { 1 }, bar)?;
-
-    let mut drawing = Drawing { stage: &stage, view: &view, certified: &certified, batch: &mut batch, bar };
-    let truth = if asked.truth { Some(drawing.truth(&wish)) } else { None };
-    let techniques = kinds.iter().map(|kind| Ok(drawing.run(*kind, &wish)?.0));
-    let runs: Result<Vec<RunResult>> = truth.into_iter().chain(techniques).collect();
-
-    let result = RenderResult {
-        schema: RESULT_SCHEMA,
-        scene: scene_result(&stage, &input.file),
-        notes: stage.scene.notes.clone(),
-        runs: runs?,
-    };
-    let text = result.to_json()?;
-    batch.stage("result.json", |to| to.write_all(text.as_bytes()))?;
-    batch.commit()?;
-    Ok(result.runs)
+    pictures.write(batch, bar)
 }
 
 /// A run in a line, for people.

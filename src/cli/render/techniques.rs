@@ -1,17 +1,12 @@
-//! Which techniques a call asks for, and which buffers of theirs.
+//! Which techniques a call asks for.
 
-use crate::cli::bar::Bar;
-use crate::cli::measure::applicable;
 use clap::ValueEnum;
 use clap::builder::PossibleValue;
+use drapery::measure::{Watch, applicable};
 use drapery::report::TRUTH;
 use drapery::stage::Stage;
 use drapery::technique::{self, Kind, PLANNED};
-use drapery::truth::Truth;
 use drapery::{Error, Result};
-
-/// Every buffer that a technique has.
-const ALL: &str = "all";
 
 /// What can be named.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -90,7 +85,7 @@ pub(in crate::cli) fn built(name: Name) -> Result<Kind> {
         Name::Technique(kind) => Ok(kind),
         Name::Planned(name, _) => {
             let refusal = format!("this version of drapery does not have the technique `{name}` yet");
-            Err(Error::new(refusal).help(format!("it has truth, {}", has())))
+            Err(Error::unsupported(refusal).help(format!("it has truth, {}", has())))
         }
         Name::Truth => Err(Error::internal("the truth is no technique")),
     }
@@ -100,50 +95,10 @@ pub(in crate::cli) fn built(name: Name) -> Result<Kind> {
 ///
 /// # Errors
 /// When one that is asked for does not apply.
-pub(super) fn applying(asked: &Asked, stage: &Stage, bar: &Bar) -> Result<Vec<Kind>> {
+pub(super) fn applying(asked: &Asked, stage: &Stage, watch: &dyn Watch) -> Result<Vec<Kind>> {
     if let Some(kinds) = &asked.kinds {
         kinds.iter().try_for_each(|kind| technique::applies(*kind, stage))?;
         return Ok(kinds.clone());
     }
-    applicable(stage, bar)
-}
-
-/// The buffers to make.
-#[derive(Debug, Clone, PartialEq)]
-pub(in crate::cli) enum Buffers {
-    /// All that a technique has.
-    All,
-    /// Those of these names that a technique has.
-    Named(Vec<String>),
-}
-
-impl Buffers {
-    /// Whether one of this name is asked for.
-    pub(in crate::cli) fn wants(&self, name: &str) -> bool {
-        match self {
-            Self::All => true,
-            Self::Named(names) => names.iter().any(|wanted| wanted == name),
-        }
-    }
-}
-
-/// The buffers that are asked for.
-///
-/// # Errors
-/// When neither the truth (if its picture is asked for) nor a technique has one of them: known before anything is drawn.
-pub(super) fn buffers(asked: &[String], truth: bool, kinds: &[Kind]) -> Result<Buffers> {
-    let of_truth = if truth { &Truth::PLANES[..] } else { &[] };
-    let planes = of_truth.iter().chain(kinds.iter().flat_map(|kind| kind.declaration().planes));
-    let mut offered: Vec<&str> = Vec::new();
-    planes.for_each(|plane| {
-        if !offered.contains(&plane.name) {
-            offered.push(plane.name)
-        }
-    });
-    let unknown = asked.iter().find(|name| *name != ALL && !offered.contains(&name.as_str()));
-    if let Some(name) = unknown {
-        return Err(Error::new(format!("there is no buffer `{name}`"))
-            .help(format!("buffers here: {}, or {ALL}", offered.join(", "))));
-    }
-    Ok(if asked.iter().any(|name| name == ALL) { Buffers::All } else { Buffers::Named(asked.to_vec()) })
+    applicable(stage, watch)
 }

@@ -13,7 +13,9 @@ use std::io::Cursor;
 pub(super) const MAGIC: &[u8] = b"\x76\x2f\x31\x01";
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Image> {
-    let refuse = |error: ::exr::error::Error| Error::new(format!("this EXR file cannot be read: {error}"));
+    let refuse = |error: ::exr::error::Error| {
+        Error::new(format!("this EXR file cannot be read: {error}")).caused_by(error)
+    };
     let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(refuse)?;
     let (width, height, names) = check(&meta)?;
     let read = ::exr::image::read::read().no_deep_data().largest_resolution_level().all_channels();
@@ -34,14 +36,14 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Image> {
 /// The size, and the channels in their order; refuses what cannot be compared.
 fn check(meta: &MetaData) -> Result<(usize, usize, Vec<String>)> {
     let [header] = &meta.headers[..] else {
-        return Err(Error::new(format!("this EXR file has {} parts", meta.headers.len()))
+        return Err(Error::unsupported(format!("this EXR file has {} parts", meta.headers.len()))
             .help("one part can be compared: write the picture to a file of its own"));
     };
     let (width, height) = (header.layer_size.x(), header.layer_size.y());
     check_size(width, height, header.channels.list.len())?;
     let window = header.shared_attributes.display_window;
     if header.own_attributes.layer_position != window.position || header.layer_size != window.size {
-        return Err(Error::new("this EXR file's data window is not its display window")
+        return Err(Error::unsupported("this EXR file's data window is not its display window")
             .help("write the whole picture, so that both are the same"));
     }
     Ok((width, height, names(header)?))
@@ -56,7 +58,7 @@ fn names(header: &Header) -> Result<Vec<String>> {
         ["B", "G", "R"] => Ok(["R", "G", "B"].map(String::from).to_vec()),
         ["A", "B", "G", "R"] => Ok(["R", "G", "B", "A"].map(String::from).to_vec()),
         [_] => Ok(has),
-        _ => Err(Error::new(format!("this EXR file has the channels {}", has.join(", ")))
+        _ => Err(Error::unsupported(format!("this EXR file has the channels {}", has.join(", ")))
             .help("R, G, B with or without A can be compared, or a single channel")),
     }
 }

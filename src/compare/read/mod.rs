@@ -23,13 +23,7 @@ impl Image {
     /// # Errors
     /// When it is missing or cannot be read, or is none of these.
     pub fn read(path: &Path) -> Result<Self> {
-        let bytes = std::fs::read(path).map_err(|error| {
-            let what = match error.kind() {
-                io::ErrorKind::NotFound => "this picture is missing".into(),
-                _ => format!("this picture cannot be read: {error}"),
-            };
-            Error::new(what).in_file(path)
-        })?;
+        let bytes = std::fs::read(path).map_err(|error| unreadable(error, path))?;
         Self::decode(&bytes).map_err(|error| error.in_file(path))
     }
 
@@ -45,16 +39,23 @@ impl Image {
         } else if bytes.starts_with(npy::MAGIC) {
             npy::decode(bytes)
         } else {
-            Err(Error::new("this is no picture that can be compared").help("PNG, EXR and .npy files can be"))
+            Err(Error::unsupported("this is no picture that can be compared")
+                .help("PNG, EXR and .npy files can be"))
         }
     }
+}
+
+fn unreadable(error: io::Error, path: &Path) -> Error {
+    let is_missing = error.kind() == io::ErrorKind::NotFound;
+    let error = Error::io("this picture cannot be read", error).in_file(path);
+    if is_missing { error.reworded(|_| "this picture is missing".into()) } else { error }
 }
 
 /// Refuses a picture that is too large to compare, before memory is taken for it.
 fn check_size(width: usize, height: usize, channels: usize) -> Result<()> {
     let pixels = width.checked_mul(height);
     if channels > MOST_CHANNELS || pixels.is_none_or(|pixels| pixels > MOST_PIXELS) {
-        return Err(Error::new(format!(
+        return Err(Error::unsupported(format!(
             "a picture of {width} x {height} pixels of {channels} channels is too large to compare"
         ))
         .help(format!("at most {MOST_PIXELS} pixels of {MOST_CHANNELS} channels can be")));
@@ -67,15 +68,7 @@ fn check_size(width: usize, height: usize, channels: usize) -> Result<()> {
 /// # Errors
 /// When one of them is missing or cannot be looked at.
 pub fn same_file(a: &Path, b: &Path) -> Result<bool> {
-    let identity = |path: &Path| {
-        identity(path).map_err(|error| {
-            let what = match error.kind() {
-                io::ErrorKind::NotFound => "this picture is missing".into(),
-                _ => format!("this picture cannot be read: {error}"),
-            };
-            Error::new(what).in_file(path)
-        })
-    };
+    let identity = |path: &Path| identity(path).map_err(|error| unreadable(error, path));
     Ok(identity(a)? == identity(b)?)
 }
 

@@ -11,7 +11,9 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Image> {
     let (head, data) = split(bytes).ok_or_else(|| broken("it ends before its values"))?;
     let head = std::str::from_utf8(head).map_err(|_| broken("its header is no text"))?;
     if entry(head, "fortran_order")?.trim() != "False" {
-        return Err(Error::new("this .npy array is in Fortran order").help("save numpy.ascontiguousarray(a)"));
+        return Err(
+            Error::unsupported("this .npy array is in Fortran order").help("save numpy.ascontiguousarray(a)")
+        );
     }
     let [height, width, channels] = shape(entry(head, "shape")?)?;
     check_size(width, height, channels)?;
@@ -56,7 +58,7 @@ fn shape(text: &str) -> Result<[usize; 3]> {
     match sides.as_deref() {
         Ok([height, width]) => Ok([*height, *width, 1]),
         Ok([height, width, channels]) => Ok([*height, *width, *channels]),
-        _ => Err(Error::new(format!("this .npy array of the shape {} is no picture", text.trim()))
+        _ => Err(Error::unsupported(format!("this .npy array of the shape {} is no picture", text.trim()))
             .help("(rows, columns) and (rows, columns, channels) are")),
     }
 }
@@ -68,7 +70,7 @@ fn values(kind: &str, data: &[u8]) -> Result<Vec<f64>> {
         "<u4" => numbers(data, |b| f64::from(u32::from_le_bytes(b))),
         "<u2" => numbers(data, |b| f64::from(u16::from_le_bytes(b)) / 65535.0),
         "|u1" => numbers(data, |[b]| f64::from(b) / 255.0),
-        _ => Err(Error::new(format!("this .npy array holds values of the kind `{kind}`"))
+        _ => Err(Error::unsupported(format!("this .npy array holds values of the kind `{kind}`"))
             .help("<f8, <f4, <u4, <u2 and |u1 can be compared: a.astype(numpy.float64)")),
     }
 }

@@ -12,7 +12,8 @@ pub(super) const MAGIC: &[u8] = b"\x89PNG\r\n\x1a\n";
 const MOST_BYTES: u64 = 8 * MOST_PIXELS as u64;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Image> {
-    let refuse = |error: image::ImageError| Error::new(format!("this PNG cannot be read: {error}"));
+    let refuse =
+        |error: image::ImageError| Error::new(format!("this PNG cannot be read: {error}")).caused_by(error);
     let mut reader = ImageReader::with_format(Cursor::new(bytes), ImageFormat::Png);
     let mut limits = Limits::default();
     limits.max_alloc = Some(MOST_BYTES);

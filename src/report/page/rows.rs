@@ -1,7 +1,8 @@
 //! The table of a scene's runs; a click on a column's head sorts by it.
 
 use super::super::axis::{duration, short};
-use super::super::{Run, SceneReport, Times};
+use super::super::{Run, SceneReport};
+use crate::measure::Times;
 use maud::{Markup, html};
 
 const HEADS: [(&str, &str); 12] = [

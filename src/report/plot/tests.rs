@@ -1,6 +1,7 @@
 use super::*;
+use crate::measure::Times;
 use crate::output::{ByName, SceneResult};
-use crate::report::{Errors, Times};
+use crate::report::Errors;
 
 fn run(technique: &str, varied: &str, line: Option<&str>, (ms, error): (f64, f64)) -> Run {
     let error = Errors {

@@ -1,16 +1,18 @@
 //! The tables of Taibo et al. 2014, section 5, measured anew: memory, generation and rendering of each solution on data sets of the
 //! paper's three kinds, and what a change of the width takes.
 //!
-//! Input: measurements of each [`Variant`] and [`WidthChange`] on a data set. Output: [`Tables`], as `tables.json`, `tables.csv` and a page.
-//! Refuses: nothing. It measures no time itself.
+//! Input: data sets, each an opened scene ([`measure()`] runs every [`Variant`] and [`WidthChange`] on it). Output: [`Tables`], as
+//! `tables.json`, `tables.csv` and a page. Refuses: a scene without lines and outlines.
 
+mod measuring;
 mod page;
 
+pub use measuring::measure;
 pub use page::page;
 
-use super::Times;
 use crate::error::{Error, Result};
-use crate::output::SceneResult;
+use crate::measure::Times;
+use crate::output::{Batch, SceneResult};
 
 /// The version of the layout of `tables.json` and of the columns of `tables.csv`.
 pub const TABLES_SCHEMA: u32 = 1;
@@ -166,7 +168,19 @@ impl Tables {
     /// Internal errors only.
     pub fn to_json(&self) -> Result<String> {
         let text = serde_json::to_string_pretty(self);
-        Ok(text.map_err(|error| Error::internal(format!("tables.json: {error}")))? + "\n")
+        Ok(text.map_err(|error| Error::internal(format!("tables.json: {error}")).caused_by(error))? + "\n")
+    }
+
+    /// Writes `tables.html`, `tables.csv` and `tables.json`; they are in their places when it returns.
+    ///
+    /// # Errors
+    /// When a file cannot be written: then none is.
+    pub fn write(&self, mut batch: Batch) -> Result<()> {
+        let json = self.to_json()?;
+        batch.stage("tables.html", |to| to.write_all(page(self).as_bytes()))?;
+        batch.stage("tables.csv", |to| to.write_all(self.to_csv().as_bytes()))?;
+        batch.stage("tables.json", |to| to.write_all(json.as_bytes()))?;
+        batch.commit()
     }
 
     /// The text of `tables.csv`: a row a solution of a data set.

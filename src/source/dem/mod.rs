@@ -118,7 +118,7 @@ fn read_grid(file: &mut dyn GridFile, window: Option<[f64; 4]>) -> Result<Dem> {
 
 /// More posts than one call may read.
 fn too_many_posts(part: &frame::Part) -> Error {
-    Error::new(format!(
+    Error::unsupported(format!(
         "{} x {} posts are more than the {MAX_POSTS} that can be read at once",
         part.columns, part.rows
     ))

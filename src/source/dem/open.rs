@@ -52,7 +52,7 @@ pub(super) fn is_png(path: &Path) -> bool {
 
 /// Opens a plain file for reading.
 fn open_file(path: &Path) -> Result<File> {
-    let refuse = |e: io::Error| Error::new(format!("cannot be opened: {e}")).help("check the path");
+    let refuse = |e: io::Error| Error::io("cannot be opened", e).help("check the path");
     let meta = std::fs::metadata(path).map_err(refuse)?;
     if meta.is_dir() {
         return Err(Error::new("this is a directory").help("name the terrain file in it"));
@@ -71,7 +71,7 @@ fn refuse_packed(magic: &[u8]) -> Result<()> {
         [b'B', b'Z', b'h', ..] => ("packed with bzip2", "bunzip2 -k"),
         _ => return Ok(()),
     };
-    Err(Error::new(format!("the file is {kind}")).help(format!("unpack it first: {tool} FILE")))
+    Err(Error::unsupported(format!("the file is {kind}")).help(format!("unpack it first: {tool} FILE")))
 }
 
 fn extension(path: &Path) -> String {
@@ -90,17 +90,18 @@ fn unknown(extension: &str) -> Error {
     } else {
         format!("terrain files of the kind .{extension} are unknown")
     };
-    Error::new(what).help(
+    Error::unsupported(what).help(
         "known are .tif .hgt .asc .png .xyz; convert others with: gdal_translate FILE OUT.tif -co COMPRESS=DEFLATE",
     )
 }
 
 /// Says that reading failed.
-#[expect(clippy::needless_pass_by_value, reason = "fits map_err")]
 pub(super) fn unreadable(error: io::Error) -> Error {
     if error.kind() == io::ErrorKind::UnexpectedEof {
-        Error::new("the file ends too early").help("it may be half a download: fetch it again")
+        Error::new("the file ends too early")
+            .caused_by(error)
+            .help("it may be half a download: fetch it again")
     } else {
-        Error::new(format!("cannot be read: {error}"))
+        Error::io("cannot be read", error)
     }
 }

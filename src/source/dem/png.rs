@@ -149,9 +149,8 @@ fn limits() -> Limits {
     limits
 }
 
-#[expect(clippy::needless_pass_by_value, reason = "fits map_err")]
 fn damaged(error: ImageError) -> Error {
-    Error::new(format!("the PNG is damaged: {error}")).help("fetch or export it again")
+    Error::new(format!("the PNG is damaged: {error}")).caused_by(error).help("fetch or export it again")
 }
 
 #[cfg(test)]

@@ -208,7 +208,7 @@ fn too_few(count: usize, all: [f64; 4]) -> Error {
 }
 
 fn too_many() -> Error {
-    Error::new(format!("more than the {MAX_POINTS} points that can be read at once"))
+    Error::unsupported(format!("more than the {MAX_POINTS} points that can be read at once"))
         .help("read a part of it: window = [x0, y0, x1, y1]")
 }
 

@@ -32,11 +32,10 @@ impl<'a> Named<'a> {
 
     /// Refuses a path where there is nothing: that is the scene's fault, so its line is shown.
     pub(super) fn require(&self) -> Result<()> {
-        let missing =
-            std::fs::metadata(self.path()).is_err_and(|error| error.kind() == std::io::ErrorKind::NotFound);
-        if !missing {
-            return Ok(());
-        }
+        let missing = match std::fs::metadata(self.path()) {
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => error,
+            _ => return Ok(()),
+        };
         let help = match self.nearest() {
             Some(near) => format!("did you mean `{near}`?"),
             None => format!(
@@ -44,7 +43,8 @@ impl<'a> Named<'a> {
                 self.path().display()
             ),
         };
-        let error = Error::new(format!("there is no file `{}`", self.file.written)).help(help);
+        let words = format!("there is no file `{}`", self.file.written);
+        let error = Error::io(&words, missing).reworded(|_| words).help(help);
         Err(match (self.file.position, self.scene) {
             (Some(position), Some(scene)) => error.in_file(scene).at(position),
             (Some(position), None) => error.at(position),
@@ -67,12 +67,8 @@ impl<'a> Named<'a> {
 }
 
 /// An error of a value that a key of the scene states.
-#[expect(clippy::needless_pass_by_value, reason = "fits map_err")]
 pub(super) fn of_key(scene: &SceneFile, key: &str, error: Error) -> Error {
-    let mut placed = Error::new(format!("`{key}`: {}", error.what()));
-    if let Some(help) = error.help_text() {
-        placed = placed.help(help);
-    }
+    let placed = error.reworded(|what| format!("`{key}`: {what}"));
     match &scene.path {
         Some(path) => placed.in_file(path),
         None => placed,

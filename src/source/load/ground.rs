@@ -9,7 +9,7 @@ use crate::scene_file::{GroundSpec, SceneFile};
 use crate::source::dem::world_file;
 use crate::space::{Plan, PlanBox};
 use glam::DVec2;
-use image::{ImageReader, Limits};
+use image::{ImageError, ImageReader, Limits};
 use std::path::Path;
 
 /// The most texels of an image (1 GiB of colours).
@@ -35,18 +35,19 @@ fn imagery(path: &Path, terrain: &Terrain) -> Result<Imagery> {
 }
 
 fn texels(path: &Path) -> Result<Buffer<Color>> {
-    let refuse = |error: &dyn std::fmt::Display| {
-        Error::new(format!("the image cannot be read: {error}")).help("imagery is a PNG")
+    let unreadable = |error| Error::io("the image cannot be read", error).help("imagery is a PNG");
+    let damaged = |error: ImageError| {
+        Error::new(format!("the image cannot be read: {error}")).caused_by(error).help("imagery is a PNG")
     };
     let mut reader =
-        ImageReader::open(path).and_then(ImageReader::with_guessed_format).map_err(|error| refuse(&error))?;
+        ImageReader::open(path).and_then(ImageReader::with_guessed_format).map_err(unreadable)?;
     let mut limits = Limits::default();
     limits.max_alloc = Some(8 * MOST_TEXELS as u64);
     reader.limits(limits);
-    let image = reader.decode().map_err(|error| refuse(&error))?;
+    let image = reader.decode().map_err(damaged)?;
     let (width, height) = (image.width() as usize, image.height() as usize);
     if width * height > MOST_TEXELS {
-        return Err(Error::new(format!("{width} x {height} texels are too many"))
+        return Err(Error::unsupported(format!("{width} x {height} texels are too many"))
             .help(format!("at most {MOST_TEXELS} in all: make the image smaller")));
     }
     // 16 bits hold 8-bit values exactly: v * 257 / 65535 = v / 255.

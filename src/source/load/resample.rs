@@ -28,8 +28,11 @@ pub(super) fn resample(source: &Posts, map: &PlanFrom) -> Result<Resampled> {
     let high = ((bounds.max.to_vec() - anchor) / cell).floor();
     let size = high - low + DVec2::ONE;
     if !(size.x >= 2.0 && size.y >= 2.0 && size.x * size.y <= MAX_POSTS as f64) {
-        return Err(Error::new(format!("resampled, the terrain would have {} x {} posts", size.x, size.y))
-            .help("leave `crs` out, or read a part of the terrain (`window`)"));
+        return Err(Error::unsupported(format!(
+            "resampled, the terrain would have {} x {} posts",
+            size.x, size.y
+        ))
+        .help("leave `crs` out, or read a part of the terrain (`window`)"));
     }
     let (columns, rows) = (size.x as usize, size.y as usize);
     let row = |j: usize| -> Vec<f64> {

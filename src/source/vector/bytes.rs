@@ -36,6 +36,7 @@ impl<'a> Cursor<'a> {
         self.take(N)?.try_into().ok()
     }
 
+    #[cfg(feature = "gpkg")]
     pub(super) fn u8(&mut self) -> Option<u8> {
         self.array::<1>().map(|[byte]| byte)
     }

@@ -26,8 +26,8 @@ pub(super) fn read(path: &Path, wanted: Wanted) -> Result<Collector> {
     let mut cursor = Cursor::new(&bytes);
     check_magic(&mut cursor)?;
     let header_bytes = sized(&mut cursor).ok_or_else(|| damaged("it ends within its header"))?;
-    let header =
-        size_prefixed_root_as_header(header_bytes).map_err(|e| damaged(&format!("its header: {e}")))?;
+    let header = size_prefixed_root_as_header(header_bytes)
+        .map_err(|e| damaged(&format!("its header: {e}")).caused_by(e))?;
     found.crs = crs_of(&header, &mut found.notes);
     skip_index(&mut cursor, &header)?;
     read_features(cursor, &header, &mut found)?;
@@ -43,7 +43,7 @@ fn check_magic(cursor: &mut Cursor<'_>) -> Result<()> {
     match cursor.take(8) {
         Some([b'f', b'g', b'b', 3, b'f', b'g', b'b', _]) => Ok(()),
         Some([b'f', b'g', b'b', version, ..]) => {
-            Err(Error::new(format!("version {version} of FlatGeobuf is not supported"))
+            Err(Error::unsupported(format!("version {version} of FlatGeobuf is not supported"))
                 .help("write it as version 3"))
         }
         _ => Err(damaged("it does not begin as one")),
@@ -100,8 +100,8 @@ fn read_features(mut cursor: Cursor<'_>, header: &Header<'_>, found: &mut Collec
         let index = found.current();
         let bytes =
             sized(&mut cursor).ok_or_else(|| damaged("it ends within this feature").in_feature(index))?;
-        let feature =
-            size_prefixed_root_as_feature(bytes).map_err(|e| damaged(&e.to_string()).in_feature(index))?;
+        let feature = size_prefixed_root_as_feature(bytes)
+            .map_err(|e| damaged(&e.to_string()).caused_by(e).in_feature(index))?;
         match feature.geometry() {
             Some(geometry) => {
                 add(&geometry, header.geometry_type(), found, 0).map_err(|e| e.in_feature(index))?
@@ -219,7 +219,7 @@ fn add(geometry: &Geometry<'_>, stated: GeometryType, found: &mut Collector, dep
         }
         other => {
             let name = other.variant_name().unwrap_or("unknown");
-            return Err(Error::new(format!("geometries of type {name} are not supported"))
+            return Err(Error::unsupported(format!("geometries of type {name} are not supported"))
                 .help("convert curves and surfaces to lines and polygons"));
         }
     }

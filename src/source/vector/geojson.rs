@@ -31,7 +31,7 @@ fn read_text(text: &[u8], wanted: Wanted) -> Result<Collector> {
     let parsed = (&mut reading).deserialize(&mut json).and_then(|top| json.end().map(|()| top));
     let top = match (parsed, reading.failure.take()) {
         (_, Some(failure)) => return Err(failure),
-        (Err(e), None) => return Err(malformed(&e, &reading)),
+        (Err(e), None) => return Err(malformed(e, &reading)),
         (Ok(top), None) => top,
     };
     let mut found = reading.found;
@@ -41,12 +41,13 @@ fn read_text(text: &[u8], wanted: Wanted) -> Result<Collector> {
     Ok(found)
 }
 
-fn malformed(e: &serde_json::Error, reading: &Reading) -> Error {
+fn malformed(e: serde_json::Error, reading: &Reading) -> Error {
     let whole = e.to_string();
     let place = format!(" at line {} column {}", e.line(), e.column());
     let error = Error::new(format!("this is not GeoJSON: {}", whole.strip_suffix(&place).unwrap_or(&whole)))
         .help("check that the file was copied whole; one object a file, numbers and not NaN as coordinates")
         .at(Position { line: e.line(), column: if e.column() == 0 { 1 } else { e.column() }, length: 1 });
+    let error = error.caused_by(e);
     if reading.in_features { error.in_feature(reading.found.current()) } else { error }
 }
 
@@ -290,7 +291,7 @@ fn add_top(top: Top, found: &mut Collector) -> Result<()> {
             }
             add_feature(top.geometry, found)
         }
-        "Topology" => Err(Error::new("TopoJSON is not supported").help("convert it to GeoJSON")),
+        "Topology" => Err(Error::unsupported("TopoJSON is not supported").help("convert it to GeoJSON")),
         _ => add_feature(
             Some(Geometry { kind: top.kind, coordinates: top.coordinates, geometries: top.geometries }),
             found,

@@ -40,25 +40,27 @@ pub(super) fn layer_names(path: &Path) -> Result<Vec<String>> {
     Ok(tables.into_iter().map(|table| table.name).collect())
 }
 
-fn damaged(e: &rusqlite::Error) -> Error {
-    Error::new(format!("the GeoPackage cannot be read: {e}")).help("check that the file was copied whole")
+fn damaged(e: rusqlite::Error) -> Error {
+    Error::new(format!("the GeoPackage cannot be read: {e}"))
+        .caused_by(e)
+        .help("check that the file was copied whole")
 }
 
 fn open(path: &Path) -> Result<Connection> {
     let flags =
         OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_URI | OpenFlags::SQLITE_OPEN_NO_MUTEX;
-    let connection = Connection::open_with_flags(immutable_uri(path)?, flags).map_err(|e| damaged(&e))?;
+    let connection = Connection::open_with_flags(immutable_uri(path)?, flags).map_err(damaged)?;
     connection
         .execute_batch(
             "PRAGMA trusted_schema = OFF; PRAGMA cell_size_check = ON; PRAGMA temp_store = MEMORY;",
         )
-        .map_err(|e| damaged(&e))?;
+        .map_err(damaged)?;
     Ok(connection)
 }
 
 /// `file:` URI of a path, everything but plain characters escaped.
 fn immutable_uri(path: &Path) -> Result<String> {
-    let absolute = std::path::absolute(path).map_err(|e| super::cannot_read(&e))?;
+    let absolute = std::path::absolute(path).map_err(super::cannot_read)?;
     let text = absolute.to_str().ok_or_else(|| {
         Error::new("the path is not valid Unicode, which SQLite needs").help("rename the file")
     })?;
@@ -97,12 +99,12 @@ fn tables_of(connection: &Connection) -> Result<Vec<Table>> {
                JOIN gpkg_contents c ON c.table_name = g.table_name WHERE c.data_type = 'features' \
                ORDER BY g.table_name";
     let mut statement = connection.prepare(sql).map_err(|e| {
-        damaged(&e).help("a GeoPackage has the tables gpkg_contents and gpkg_geometry_columns; this may be another kind of SQLite file")
+        damaged(e).help("a GeoPackage has the tables gpkg_contents and gpkg_geometry_columns; this may be another kind of SQLite file")
     })?;
     let table =
         |row: &rusqlite::Row<'_>| Ok(Table { name: row.get(0)?, geometry: row.get(1)?, srs: row.get(2)? });
-    let rows = statement.query_map([], table).map_err(|e| damaged(&e))?;
-    rows.collect::<rusqlite::Result<_>>().map_err(|e| damaged(&e))
+    let rows = statement.query_map([], table).map_err(damaged)?;
+    rows.collect::<rusqlite::Result<_>>().map_err(damaged)
 }
 
 fn chosen<'a>(tables: &'a [Table], layer: Option<&str>) -> Result<&'a Table> {
@@ -131,7 +133,7 @@ fn crs_of(connection: &Connection, srs: i64, notes: &mut Vec<String>) -> Option<
     };
     let parsed = match connection.query_row(sql, [srs], row) {
         Ok((organization, id, definition)) => crs_of_row(&organization, id, &definition),
-        Err(e) => Err(damaged(&e)),
+        Err(e) => Err(damaged(e)),
     };
     parsed.map_err(|e| notes.push(format!("the CRS {srs} of the layer is not understood: {}", e.what()))).ok()
 }
@@ -162,11 +164,11 @@ fn read_rows(connection: &Connection, table: &Table, found: &mut Collector) -> R
     let fields = if found.attributes.are_read() { fields(connection, table, found)? } else { Vec::new() };
     let names: String = fields.iter().map(|field| format!(", {}", quoted(&field.name))).collect();
     let sql = format!("SELECT {}{names} FROM {}{order}", quoted(&table.geometry), quoted(&table.name));
-    let mut statement = connection.prepare(&sql).map_err(|e| damaged(&e))?;
-    let mut rows = statement.query([]).map_err(|e| damaged(&e))?;
+    let mut statement = connection.prepare(&sql).map_err(damaged)?;
+    let mut rows = statement.query([]).map_err(damaged)?;
     loop {
         let index = found.current();
-        let Some(row) = rows.next().map_err(|e| damaged(&e).in_feature(index))? else {
+        let Some(row) = rows.next().map_err(|e| damaged(e).in_feature(index))? else {
             return Ok(());
         };
         read_row(row, &fields, found).map_err(|e| e.in_feature(index))?;
@@ -175,9 +177,9 @@ fn read_rows(connection: &Connection, table: &Table, found: &mut Collector) -> R
 }
 
 fn read_row(row: &rusqlite::Row<'_>, fields: &[Field], found: &mut Collector) -> Result<()> {
-    read_geometry(row.get_ref(0).map_err(|e| damaged(&e))?, found)?;
+    read_geometry(row.get_ref(0).map_err(damaged)?, found)?;
     for (at, field) in fields.iter().enumerate() {
-        let stored = row.get_ref(at + 1).map_err(|e| damaged(&e))?;
+        let stored = row.get_ref(at + 1).map_err(damaged)?;
         read_value(stored, field, found)?;
     }
     Ok(())
@@ -186,12 +188,12 @@ fn read_row(row: &rusqlite::Row<'_>, fields: &[Field], found: &mut Collector) ->
 /// The columns beside the geometry whose values are wanted.
 fn fields(connection: &Connection, table: &Table, found: &mut Collector) -> Result<Vec<Field>> {
     let sql = "SELECT name, type FROM pragma_table_info(?1) ORDER BY cid";
-    let mut statement = connection.prepare(sql).map_err(|e| damaged(&e))?;
+    let mut statement = connection.prepare(sql).map_err(damaged)?;
     let column = |row: &rusqlite::Row<'_>| Ok((row.get::<_, String>(0)?, row.get::<_, String>(1)?));
-    let columns = statement.query_map([&table.name], column).map_err(|e| damaged(&e))?;
+    let columns = statement.query_map([&table.name], column).map_err(damaged)?;
     let mut fields = Vec::new();
     for column in columns {
-        let (name, kind) = column.map_err(|e| damaged(&e))?;
+        let (name, kind) = column.map_err(damaged)?;
         if name.eq_ignore_ascii_case(&table.geometry) {
             continue;
         }
@@ -227,7 +229,7 @@ fn primary_key(connection: &Connection, table: &Table) -> Result<Option<String>>
     match connection.query_row(sql, [&table.name], |row| row.get(0)) {
         Ok(name) => Ok(Some(name)),
         Err(rusqlite::Error::QueryReturnedNoRows) => Ok(None),
-        Err(e) => Err(damaged(&e)),
+        Err(e) => Err(damaged(e)),
     }
 }
 

@@ -20,9 +20,14 @@ mod column_summary;
 mod dbf;
 mod flatgeobuf;
 mod geojson;
+#[cfg(feature = "gpkg")]
+mod geopackage;
+#[cfg(not(feature = "gpkg"))]
+#[path = "without_geopackage.rs"]
 mod geopackage;
 mod shapefile;
 mod summary;
+#[cfg(feature = "gpkg")]
 mod wkb;
 
 pub use column_summary::{ColumnKind, ColumnSummary};
@@ -129,7 +134,7 @@ fn format_of(path: &Path) -> Result<VectorFormat> {
             Err(Error::new(format!("the name says {promised} but the content is a {found}"))
                 .help("give the file the extension of what it is"))
         }
-        (None, None) => Err(Error::new("this is no vector file of a kind known here")
+        (None, None) => Err(Error::unsupported("this is no vector file of a kind known here")
             .help("use .geojson, .json, .shp, .fgb or .gpkg")),
     }
 }
@@ -139,21 +144,21 @@ fn beginning_of(path: &Path) -> Result<Vec<u8>> {
         return Err(Error::new("this is a folder, not a file").help("name the file in it"));
     }
     let mut start = Vec::new();
-    File::open(path).and_then(|file| file.take(512).read_to_end(&mut start)).map_err(|e| cannot_read(&e))?;
+    File::open(path).and_then(|file| file.take(512).read_to_end(&mut start)).map_err(cannot_read)?;
     Ok(start)
 }
 
-fn cannot_read(e: &std::io::Error) -> Error {
+fn cannot_read(e: std::io::Error) -> Error {
     let help = match e.kind() {
         std::io::ErrorKind::NotFound => "check the path; a scene's paths are relative to the scene file",
         _ => "check the file's permissions",
     };
-    Error::new(format!("cannot read the file: {e}")).help(help)
+    Error::io("cannot read the file", e).help(help)
 }
 
 /// The whole file in memory.
 fn contents_of(path: &Path) -> Result<Vec<u8>> {
-    std::fs::read(path).map_err(|e| cannot_read(&e))
+    std::fs::read(path).map_err(cannot_read)
 }
 
 fn promised_by_name(path: &Path) -> Option<VectorFormat> {

@@ -153,7 +153,7 @@ fn read_record(mut record: Cursor<'_>, found: &mut Collector) -> Result<()> {
         3 | 13 | 23 => found.add_line(parts_of_record(record)?)?,
         5 | 15 | 25 => found.add_polygon(parts_of_record(record)?)?,
         31 => {
-            return Err(Error::new("a multipatch is a body, not a shape in the plan")
+            return Err(Error::unsupported("a multipatch is a body, not a shape in the plan")
                 .help("export its footprint as polygons"));
         }
         _ => return Err(damaged(&format!("{kind} is no type of shape"))),

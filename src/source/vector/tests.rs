@@ -62,6 +62,7 @@ fn shp_parts(kind: u32, parts: &[&[(f64, f64)]]) -> Vec<u8> {
     out
 }
 
+#[cfg(feature = "gpkg")]
 fn wkb_polygon() -> Vec<u8> {
     let mut out = vec![b'G', b'P', 0, 1, 0, 0, 0, 0];
     out.extend([1]);
@@ -76,6 +77,7 @@ fn wkb_polygon() -> Vec<u8> {
 }
 
 /// A GeoPackage with these layers, each with one geometry.
+#[cfg(feature = "gpkg")]
 fn gpkg(layers: &[&str], blob: &[u8]) -> Vec<u8> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("made.gpkg");
@@ -305,6 +307,7 @@ fn a_truncated_flatgeobuf_is_refused() {
     }
 }
 
+#[cfg(feature = "gpkg")]
 #[test]
 fn geopackage_reads_its_only_layer_and_asks_which_of_several() {
     let one = gpkg(&["lakes"], &wkb_polygon());
@@ -320,6 +323,7 @@ fn geopackage_reads_its_only_layer_and_asks_which_of_several() {
     assert_eq!(describe(&path).unwrap().len(), 2);
 }
 
+#[cfg(feature = "gpkg")]
 #[test]
 fn damaged_geometries_in_a_geopackage_are_refused_by_feature() {
     let good = wkb_polygon();
@@ -338,6 +342,17 @@ fn damaged_geometries_in_a_geopackage_are_refused_by_feature() {
         deep.extend([1, 7, 0, 0, 0, 1, 0, 0, 0]);
     }
     assert!(refusal("a.gpkg", &gpkg(&["x"], &deep)).contains("deep"));
+}
+
+#[cfg(not(feature = "gpkg"))]
+#[test]
+fn a_build_without_geopackages_says_which_feature_it_lacks() {
+    let (_folder, path) = file("a.gpkg", b"SQLite format 3\0 and so on");
+    for refused in [super::read(&path, None).unwrap_err(), describe(&path).unwrap_err()] {
+        assert_eq!(refused.kind(), crate::ErrorKind::Unsupported, "{refused}");
+        assert!(refused.what().contains("feature `gpkg`"), "{refused}");
+        assert!(refused.help_text().is_some_and(|help| help.contains("--features gpkg")), "{refused}");
+    }
 }
 
 #[test]
@@ -393,6 +408,7 @@ fn samples() -> &'static [(&'static str, Vec<u8>)] {
             ("a.geojson", JSON.as_bytes().to_vec()),
             ("a.shp", shp(5, &[shp_parts(5, &[&SQUARE]), shp_parts(3, &[&SQUARE, &SQUARE])])),
             ("a.fgb", fgb()),
+            #[cfg(feature = "gpkg")]
             ("a.gpkg", gpkg(&["lakes"], &wkb_polygon())),
         ]
     })
@@ -402,7 +418,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(1000))]
 
     #[test]
-    fn any_damage_gives_features_or_words(sample in 0_usize..4, (changes, cut) in changes()) {
+    fn any_damage_gives_features_or_words(sample in 0..samples().len(), (changes, cut) in changes()) {
         let (name, bytes) = &samples()[sample];
         if let Ok(read) = read_bytes(name, &mutated(bytes.clone(), &changes, cut)) {
             prop_assert!(read.features.iter().flat_map(|f| collector::parts_of(&f.shape)).flatten().all(|p| p.is_finite()));
@@ -410,7 +426,7 @@ proptest! {
     }
 
     #[test]
-    fn any_bytes_after_a_magic_give_features_or_words(sample in 0_usize..4, tail in prop::collection::vec(any::<u8>(), 0..400)) {
+    fn any_bytes_after_a_magic_give_features_or_words(sample in 0..samples().len(), tail in prop::collection::vec(any::<u8>(), 0..400)) {
         let (name, bytes) = &samples()[sample];
         let magic = [1, 36, 12, 100][sample];
         let _ = read_bytes(name, &[&bytes[..magic], &tail].concat());

@@ -86,7 +86,7 @@ fn geometry(cursor: &mut Cursor<'_>, found: &mut Collector, depth: usize) -> Res
             }
         }
         kind => {
-            return Err(Error::new(format!(
+            return Err(Error::unsupported(format!(
                 "geometries of WKB type {kind} (curves, surfaces) are not supported"
             ))
             .help("convert curves to lines and polygons"));

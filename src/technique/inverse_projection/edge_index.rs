@@ -57,9 +57,8 @@ impl<'l> EdgeIndex<'l> {
     pub fn new(list: &'l DrawList, bounds: &PlanBox) -> Result<Self> {
         let mut edges = expanded(list);
         if edges.len() > u32::MAX as usize / 2 {
-            return Err(
-                Error::new("more edges than this program can number").help("give the terrain a `window`")
-            );
+            return Err(Error::unsupported("more edges than this program can number")
+                .help("give the terrain a `window`"));
         }
         let layout = Layout::new(&edges, bounds);
         let mut index = Self {

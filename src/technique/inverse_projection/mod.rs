@@ -87,7 +87,7 @@ impl<'s> Prepare<'s> {
 pub fn applies(stage: &Stage) -> Result<()> {
     match stage.scene.layers.iter().find(|layer| layer.has_width_in_pixels()) {
         None => Ok(()),
-        Some(layer) => Err(Error::new(format!(
+        Some(layer) => Err(Error::unsupported(format!(
             "inverse-projection draws widths in metres (She 3.1), layer `{}` has width_px",
             layer.name
         ))

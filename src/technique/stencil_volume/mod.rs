@@ -81,7 +81,7 @@ impl<'s> Prepare<'s> {
         let settings: Settings = stage.scene.technique.get();
         let extrusion = Extrusion::new(&stage.draw_list, &stage.mesh, &settings);
         if extrusion.corners.len() > u32::MAX as usize / 2 {
-            return Err(Error::new("more corners of volumes than this program can number")
+            return Err(Error::unsupported("more corners of volumes than this program can number")
                 .help("give the terrain a `window`"));
         }
         if let Some(object) = settings.object.filter(|o| *o as usize >= extrusion.objects.len()) {
@@ -103,13 +103,13 @@ impl<'s> Prepare<'s> {
 /// The reason why it cannot.
 pub fn applies(stage: &Stage) -> Result<()> {
     if stage.mesh.drape() != Drape::Vertical {
-        return Err(Error::new(
+        return Err(Error::unsupported(
             "stencil-volume's walls are vertical, this terrain's points do not lie straight over their plan points",
         )
         .help("leave the technique out"));
     }
     if let Some(layer) = stage.scene.layers.iter().find(|layer| layer.has_width_in_pixels()) {
-        return Err(Error::new(format!(
+        return Err(Error::unsupported(format!(
             "stencil-volume extrudes footprints that do not depend on the view, layer `{}` has width_px",
             layer.name
         ))
@@ -122,7 +122,7 @@ pub fn applies(stage: &Stage) -> Result<()> {
         outlines.any(|outline| outline.mode != OutlineMode::Normal)
     };
     match stage.scene.layers.iter().find(is_cut) {
-        Some(layer) if stage.scene.device.stencil_bits < 2 => Err(Error::new(format!(
+        Some(layer) if stage.scene.device.stencil_bits < 2 => Err(Error::unsupported(format!(
             "the outline of layer `{}` needs a second bit of the stencil, to be cut to its polygon",
             layer.name
         ))
@@ -140,7 +140,7 @@ fn has_room((width, height): (usize, usize), n: u32) -> Result<()> {
     if samples <= MOST_SAMPLES {
         return Ok(());
     }
-    Err(Error::new(format!("stencil-volume has no room for {samples} samples: at most 2^27 in all"))
+    Err(Error::unsupported(format!("stencil-volume has no room for {samples} samples: at most 2^27 in all"))
         .help("use fewer samples a pixel, or a smaller image"))
 }
 

@@ -36,7 +36,7 @@ impl Compression {
             50002 => "JPEG XL",
             _ => "an unknown one",
         };
-        Err(Error::new(format!("unsupported compression {code} ({name})"))
+        Err(Error::unsupported(format!("unsupported compression {code} ({name})"))
             .help("convert it: gdal_translate -co COMPRESS=DEFLATE FILE OUT.tif"))
     }
 
@@ -86,7 +86,7 @@ impl<R: BufRead> Read for LzwReader<R> {
             self.packed.consume(read);
             match step.status {
                 Err(error) if written == 0 => {
-                    return Err(io::Error::new(io::ErrorKind::InvalidData, error.to_string()));
+                    return Err(io::Error::new(io::ErrorKind::InvalidData, error));
                 }
                 Ok(LzwStatus::Done | LzwStatus::NoProgress) | Err(_) => return Ok(written),
                 Ok(LzwStatus::Ok) if written > 0 || read == 0 => return Ok(written),
@@ -113,7 +113,7 @@ impl Predictor {
             1 => Ok(Self::None),
             2 => Ok(Self::Horizontal),
             3 if floating => Ok(Self::FloatingPoint),
-            _ => Err(Error::new(format!("unsupported TIFF predictor {code} for these samples"))
+            _ => Err(Error::unsupported(format!("unsupported TIFF predictor {code} for these samples"))
                 .help("convert it: gdal_translate -co COMPRESS=DEFLATE FILE OUT.tif")),
         }
     }

@@ -87,7 +87,7 @@ fn coding<R: Read + Seek>(directory: &Directory, source: &mut Source<R>) -> Resu
             .help("extract the heights: gdal_translate -b 1 FILE OUT.tif"));
     }
     if get(tag::FILL_ORDER, 1)? != 1 {
-        return Err(Error::new("the TIFF's bytes hold their bits in reverse (FillOrder 2)")
+        return Err(Error::unsupported("the TIFF's bytes hold their bits in reverse (FillOrder 2)")
             .help("rewrite the file: gdal_translate FILE OUT.tif"));
     }
     let sample = Sample::from_tags(get(tag::BITS, 1)?, get(tag::SAMPLE_FORMAT, 1)?)?;
@@ -111,7 +111,7 @@ fn check_equal_bits<R: Read + Seek>(directory: &Directory, source: &mut Source<R
     if bits.windows(2).all(|pair| pair[0] == pair[1]) {
         return Ok(());
     }
-    Err(Error::new("the TIFF's bands have samples of different sizes")
+    Err(Error::unsupported("the TIFF's bands have samples of different sizes")
         .help("extract the heights: gdal_translate -b 1 FILE OUT.tif"))
 }
 

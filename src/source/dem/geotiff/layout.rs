@@ -145,7 +145,7 @@ impl Layout {
 fn checked_block((columns, rows): (u64, u64), pixel_bytes: usize) -> Result<(usize, usize)> {
     let longest = LONGEST_ROW / pixel_bytes as u64;
     if columns == 0 || rows == 0 || columns > longest || rows > 1 << 31 {
-        return Err(Error::new(format!(
+        return Err(Error::unsupported(format!(
             "blocks of {columns} x {rows} samples are not supported (a row may have {longest})"
         ))
         .help("convert it: gdal_translate -co TILED=YES FILE OUT.tif"));

@@ -78,7 +78,7 @@ impl<R: Read + Seek> GeoTiff<R> {
         buffers.heights.resize(self.columns_in(block), 0.0);
         let (mut samples, first) = self.open_block(block, rows.start)?;
         for row in first..rows.end {
-            samples.read_exact(&mut buffers.bytes).map_err(|e| damaged(&e, block, row))?;
+            samples.read_exact(&mut buffers.bytes).map_err(|e| damaged(e, block, row))?;
             if row >= rows.start {
                 coding.decode(buffers);
                 nodata.apply(&mut buffers.heights, scaling);
@@ -183,11 +183,11 @@ impl Coding {
     }
 }
 
-fn damaged(error: &io::Error, block: &Block, row: usize) -> Error {
+fn damaged(error: io::Error, block: &Block, row: usize) -> Error {
     let what = if error.kind() == io::ErrorKind::UnexpectedEof {
         format!("block {} ends before its row {row} of {}", block.index, block.size.1)
     } else {
         format!("block {} cannot be unpacked: {error}", block.index)
     };
-    Error::new(what).help("the file is damaged: fetch it again")
+    Error::new(what).caused_by(error).help("the file is damaged: fetch it again")
 }

@@ -49,7 +49,7 @@ fn affine<R: Read + Seek>(directory: &Directory, source: &mut Source<R>) -> Resu
     match (&scale[..], &ties[..]) {
         (&[sx, sy, ..], &[c, r, _, x, y, ..]) => Ok(Some([sx, 0.0, x - c * sx, 0.0, -sy, y + r * sy])),
         ([], []) => Ok(None),
-        ([], _) => Err(Error::new("the file is placed by ground control points only")
+        ([], _) => Err(Error::unsupported("the file is placed by ground control points only")
             .help("warp it first: gdalwarp FILE OUT.tif")),
         _ => Err(Error::new("the file gives a pixel scale without a tie point")
             .help("georeference it: gdal_edit.py -a_ullr west north east south FILE")),

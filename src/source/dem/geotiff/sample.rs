@@ -36,7 +36,7 @@ impl Sample {
                     3 => "floating-point",
                     _ => "complex or unknown",
                 };
-                return Err(Error::new(format!("unsupported samples: {kind}, {bits} bits"))
+                return Err(Error::unsupported(format!("unsupported samples: {kind}, {bits} bits"))
                     .help("convert it: gdal_translate -ot Float32 FILE OUT.tif"));
             }
         })

@@ -34,7 +34,7 @@ const ITEMS_AT_A_TIME: usize = 1024;
 const MOST: usize = u32::MAX as usize / 2;
 
 fn too_many_vertices() -> Error {
-    Error::new("more vertices than this program can number").help("give the terrain a `window`")
+    Error::unsupported("more vertices than this program can number").help("give the terrain a `window`")
 }
 
 /// Everything that tiles are made of.

@@ -1,48 +1,40 @@
-//! One technique's run, its files staged.
+//! The files of one run, staged: its picture and its buffers.
 
-use super::techniques::Buffers;
-use crate::cli::bar::Bar;
-use crate::cli::measure::{Certified, Drawn, device_words};
-use drapery::buffer::{Buffer, Plane, PlaneKind};
-use drapery::output::{Batch, BufferResult, ByName, ErrorResult, ImageResult, Npy, RunResult};
-use drapery::output::{absolute, look, write_png};
-use drapery::report::TRUTH;
-use drapery::scene::Device;
-use drapery::space::ViewFrame;
-use drapery::stage::Stage;
-use drapery::technique::{Frame, Kind};
-use drapery::truth::Truth;
-use drapery::{Error, Result};
-
-/// What is wanted of each technique.
-pub(in crate::cli) struct Wish {
-    pub(in crate::cli) buffers: Buffers,
-    /// How many runs to time.
-    pub(in crate::cli) repeat: u32,
-}
+use super::Buffers;
+use crate::buffer::{Buffer, Plane, PlaneKind};
+use crate::error::{Error, Result};
+use crate::measure::{Certified, Drawn, Watch, device_words};
+use crate::output::{Batch, BufferResult, ByName, ErrorResult, ImageResult, Npy, RunResult};
+use crate::output::{absolute, look, write_png};
+use crate::scene::Device;
+use crate::space::ViewFrame;
+use crate::stage::Stage;
+use crate::technique::{Frame, Kind};
+use crate::truth::{self, Truth};
 
 /// Draws a stage into a batch of files.
-pub(in crate::cli) struct Drawing<'a> {
-    pub(in crate::cli) stage: &'a Stage,
-    pub(in crate::cli) view: &'a ViewFrame,
-    pub(in crate::cli) certified: &'a Certified,
-    pub(in crate::cli) batch: &'a mut Batch,
-    pub(in crate::cli) bar: &'a Bar,
+pub(super) struct RunFiles<'a> {
+    pub(super) stage: &'a Stage,
+    pub(super) view: &'a ViewFrame,
+    pub(super) certified: &'a Certified,
+    pub(super) buffers: &'a Buffers,
+    pub(super) batch: &'a mut Batch,
+    pub(super) watch: &'a dyn Watch,
 }
 
-impl Drawing<'_> {
+impl RunFiles<'_> {
     /// Stages the truth's files.
-    pub(in crate::cli) fn truth(&mut self, wish: &Wish) -> Result<RunResult> {
+    pub(super) fn truth(&mut self) -> Result<RunResult> {
         let certified = self.certified;
         let truth = &certified.truth;
         let image = truth.image();
-        let path = format!("{TRUTH}.png");
+        let path = format!("{}.png", truth::NAME);
         self.batch.stage(&path, |to| write_png(&image, to))?;
-        let kinds = Truth::PLANES.iter().filter(|kind| wish.buffers.wants(kind.name));
+        let kinds = Truth::PLANES.iter().filter(|kind| self.buffers.wants(kind.name));
         let planes: Vec<Plane> = kinds.filter_map(|kind| truth.plane(kind.name)).collect();
-        let buffers = self.stage_planes((TRUTH, &Truth::PLANES), &planes);
+        let buffers = self.stage_planes((truth::NAME, &Truth::PLANES), &planes);
         Ok(RunResult {
-            technique: TRUTH.into(),
+            technique: truth::NAME.into(),
             parameters: certified.parameters(),
             device: device_words(&Device::default()),
             image: ImageResult { path, width: image.width(), height: image.height(), hash: image.hash() },
@@ -55,11 +47,11 @@ impl Drawing<'_> {
         })
     }
 
-    /// Runs a technique and stages its files; what is told of it, and its frame.
-    pub(in crate::cli) fn run(&mut self, kind: Kind, wish: &Wish) -> Result<(RunResult, Frame)> {
-        self.bar.start(kind.name());
-        let wants_buffer = |name: &str| wish.buffers.wants(name);
-        let drawn = Drawn::by(kind, (self.stage, self.view), (wish.repeat, &wants_buffer), self.bar)?;
+    /// Runs a technique `repeat` times and stages its files; what is told of it, and its frame.
+    pub(super) fn technique(&mut self, kind: Kind, repeat: u32) -> Result<(RunResult, Frame)> {
+        self.watch.start(kind.name());
+        let wants_buffer = |name: &str| self.buffers.wants(name);
+        let drawn = Drawn::by(kind, (self.stage, self.view), (repeat, &wants_buffer), self.watch)?;
         let name = kind.name();
         let path = format!("{name}.png");
         self.batch.stage(&path, |to| write_png(&drawn.frame.image, to))?;

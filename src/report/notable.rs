@@ -1,9 +1,9 @@
 //! The pictures of a technique that a report shows: that of the scene's own settings, the best, the worst.
 
-use drapery::Result;
-use drapery::buffer::Buffer;
-use drapery::compare::Difference;
-use drapery::report::{Exhibit, Run};
+use super::{Exhibit, Run};
+use crate::buffer::Buffer;
+use crate::compare::Difference;
+use crate::error::Result;
 
 /// A run with its picture.
 #[derive(Clone)]

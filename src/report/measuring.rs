@@ -1,22 +1,21 @@
 //! All runs of a scene: the truth, each technique over its sweep, supersampling.
 
 use super::notable::Notable;
-use crate::cli::bar::Bar;
-use crate::cli::measure::{Certified, Drawn, applicable, device_words, scene_result, timed, unequal};
-use crate::cli::scene_input::SceneInput;
-use drapery::buffer::Buffer;
-use drapery::compare::{Difference, Expected, Image};
-use drapery::output::ByName;
-use drapery::report::sweep::{self, Variation};
-use drapery::report::{self, Errors, Exhibit, Run, SUPERSAMPLING, SceneReport, TRUTH, Times};
-use drapery::resolve::code_values;
-use drapery::sampling::{Sampled, sample};
-use drapery::scene::{Device, TechniqueSettings};
-use drapery::space::ViewFrame;
-use drapery::stage::Stage;
-use drapery::technique::{self, Kind};
-use drapery::truth::Budget;
-use drapery::{Error, Result};
+use super::sweep::{self, Variation};
+use super::{Errors, Exhibit, Run, SUPERSAMPLING, SceneReport, TRUTH, flip};
+use crate::buffer::Buffer;
+use crate::compare::{Difference, Expected, Image};
+use crate::error::{Error, Result};
+use crate::measure::{self, Certified, Drawn, Times, Watch};
+use crate::measure::{applicable, device_words, scene_result, supersampled};
+use crate::open::Opened;
+use crate::output::ByName;
+use crate::resolve::code_values;
+use crate::scene::{Device, TechniqueSettings};
+use crate::scene_file::SceneText;
+use crate::space::ViewFrame;
+use crate::technique::{self, Kind};
+use crate::truth::Budget;
 
 /// Samples a side of a pixel that supersampling is tried with.
 const SAMPLES: [usize; 7] = [1, 2, 4, 8, 16, 32, 64];
@@ -28,34 +27,48 @@ const MOST_SAMPLES: usize = 1 << 28;
 const WIDTHS: [f64; 2] = [1e-4, 1e-6];
 
 /// A scene's numbers and pictures.
-pub(super) struct Measured {
-    pub(super) report: SceneReport,
-    pub(super) exhibits: Vec<Exhibit>,
+#[derive(Debug)]
+pub struct Measured {
+    /// The numbers.
+    pub report: SceneReport,
+    /// The pictures, the most important first.
+    pub exhibits: Vec<Exhibit>,
+}
+
+/// Measures a scene: the truth, every technique that draws it over the settings of its sweep, and supersampling, each `repeat` times
+/// (at least once).
+///
+/// # Errors
+/// When the camera shows nothing; internal errors. A technique that refuses a setting is left out, and the watch is told.
+pub fn measure(scene: Opened, budget: &Budget, repeat: u32, watch: &dyn Watch) -> Result<Measured> {
+    let mut measuring = Measuring::new(scene, budget, repeat, watch)?;
+    measuring.truth()?;
+    measuring.techniques()?;
+    measuring.supersampling()?;
+    Ok(measuring.finish())
 }
 
 /// A scene being measured.
-pub(super) struct Measuring<'a> {
-    input: &'a SceneInput,
-    stage: Stage,
+struct Measuring<'a> {
+    scene: Opened,
     view: ViewFrame,
     certified: Certified,
     repeat: u32,
-    bar: &'a Bar,
+    watch: &'a dyn Watch,
     runs: Vec<Run>,
     exhibits: Vec<Exhibit>,
 }
 
 impl<'a> Measuring<'a> {
-    /// Loads the scene and computes its truth.
-    pub(super) fn new(input: &'a SceneInput, budget: &Budget, repeat: u32, bar: &'a Bar) -> Result<Self> {
-        let stage = input.stage(bar)?;
-        let view = stage.view()?;
-        let certified = Certified::of((&stage, &view), budget, repeat, bar)?;
-        Ok(Self { input, stage, view, certified, repeat, bar, runs: Vec::new(), exhibits: Vec::new() })
+    /// Computes the scene's truth.
+    fn new(scene: Opened, budget: &Budget, repeat: u32, watch: &'a dyn Watch) -> Result<Self> {
+        let view = scene.view()?;
+        let certified = Certified::of((&scene.stage, &view), budget, repeat, watch)?;
+        Ok(Self { scene, view, certified, repeat, watch, runs: Vec::new(), exhibits: Vec::new() })
     }
 
     /// The truth as a run, and narrower ones: what certainty costs.
-    pub(super) fn truth(&mut self) -> Result<()> {
+    fn truth(&mut self) -> Result<()> {
         let (run, doubt) = truth_run(&self.certified, Vec::new())?;
         let image = self.certified.truth.image();
         let caption = "the right picture · its heat map: half the width of each interval".to_owned();
@@ -64,21 +77,22 @@ impl<'a> Measuring<'a> {
         let budget = self.certified.budget;
         for width in WIDTHS.into_iter().filter(|width| *width < budget.width) {
             let narrower = Budget { width, ..budget };
-            let certified = Certified::of((&self.stage, &self.view), &narrower, self.repeat, self.bar)?;
+            let certified =
+                Certified::of((&self.scene.stage, &self.view), &narrower, self.repeat, self.watch)?;
             self.runs.push(truth_run(&certified, vec![format!("width={width}")])?.0);
         }
         Ok(())
     }
 
     /// Every technique that draws the scene.
-    pub(super) fn techniques(&mut self) -> Result<()> {
-        for kind in applicable(&self.stage, self.bar)? {
-            let tries = tries(sweep::variations(&kind.declaration().sweep), self.input)?;
+    fn techniques(&mut self) -> Result<()> {
+        for kind in applicable(&self.scene.stage, self.watch)? {
+            let tries = tries(sweep::variations(&kind.declaration().sweep), &self.scene.text)?;
             let mut notable = Notable::default();
             for (k, one) in tries.iter().enumerate() {
-                self.bar.start(&format!("{} {}/{}", kind.name(), k + 1, tries.len()));
-                self.stage.scene.technique = one.technique.clone();
-                self.stage.scene.device = one.device;
+                self.watch.start(&format!("{} {}/{}", kind.name(), k + 1, tries.len()));
+                let scene = &mut self.scene.stage.scene;
+                (scene.technique, scene.device) = (one.technique.clone(), one.device);
                 if let Some(run) = self.technique(kind, one, &mut notable)? {
                     self.runs.push(run);
                 }
@@ -91,11 +105,16 @@ impl<'a> Measuring<'a> {
     /// A technique at one setting; `None` where it refuses that, which is told.
     fn technique(&self, kind: Kind, one: &Try, notable: &mut Notable) -> Result<Option<Run>> {
         let varied = sweep::words(&one.variation.changes);
-        if let Err(error) = technique::applies(kind, &self.stage) {
-            let what = format!("note: {} {} is left out: {}", kind.name(), varied.join(" "), error.what());
-            return if error.is_internal() { Err(error) } else { Ok((self.bar.say(&what), None).1) };
+        let stage = &self.scene.stage;
+        if let Err(error) = technique::applies(kind, stage) {
+            if error.is_internal() {
+                return Err(error);
+            }
+            let what = format!("{} {} is left out: {}", kind.name(), varied.join(" "), error.what());
+            self.watch.note(&what);
+            return Ok(None);
         }
-        let drawn = Drawn::by(kind, (&self.stage, &self.view), (self.repeat, &|_| false), self.bar)?;
+        let drawn = Drawn::by(kind, (stage, &self.view), (self.repeat, &|_| false), self.watch)?;
         let image = &drawn.frame.image;
         let difference = self.certified.difference(&Image::from_rgba8(image)?)?;
         let run = Run {
@@ -104,7 +123,7 @@ impl<'a> Measuring<'a> {
             is_own: one.is_own,
             line: one.variation.line.clone(),
             parameters: drawn.parameters,
-            device: device_words(&self.stage.scene.device),
+            device: device_words(&stage.scene.device),
             prepare_ms: drawn.prepare,
             frame_ms: drawn.draw,
             structure_bytes: drawn.structure_bytes,
@@ -119,15 +138,16 @@ impl<'a> Measuring<'a> {
     }
 
     /// Plain supersampling with more and more samples.
-    pub(super) fn supersampling(&mut self) -> Result<()> {
+    fn supersampling(&mut self) -> Result<()> {
         let pixels = self.view.width() * self.view.height();
         let mut notable = Notable::default();
         for n in SAMPLES.into_iter().filter(|n| *n == 1 || n * n * pixels <= MOST_SAMPLES) {
-            self.bar.start(&format!("{SUPERSAMPLING} {n} x {n}"));
-            let (sampled, times) = self.sampled(n)?;
+            self.watch.start(&format!("{SUPERSAMPLING} {n} x {n}"));
+            let drawn = (&self.scene.stage, &self.view);
+            let (sampled, times) = supersampled(drawn, n, self.repeat, self.watch)?;
             let codes = sampled.colors.values().iter().map(|color| code_values(*color)).collect();
             let image = Buffer::from_values(sampled.colors.width(), sampled.colors.height(), codes);
-            let difference = self.certified.difference(&report::image(&sampled.colors)?)?;
+            let difference = self.certified.difference(&measure::image(&sampled.colors)?)?;
             let run = Run {
                 technique: SUPERSAMPLING.into(),
                 varied: vec![format!("n={n}")],
@@ -151,33 +171,18 @@ impl<'a> Measuring<'a> {
         Ok(())
     }
 
-    /// A supersampled picture, drawn as often as is asked for.
-    fn sampled(&self, n: usize) -> Result<(Sampled, Times)> {
-        let once = || timed(|| Ok(sample(&self.stage, &self.view, n, &|share| self.bar.done(share))));
-        let (sampled, first) = once()?;
-        let mut times = vec![first];
-        for _ in 1..self.repeat {
-            let (again, ms) = once()?;
-            if again.colors != sampled.colors {
-                return Err(unequal(SUPERSAMPLING));
-            }
-            times.push(ms);
-        }
-        Ok((sampled, Times::of(times)))
-    }
-
     fn errors(&self, difference: &Difference, image: &Buffer<[u8; 4]>) -> Errors {
-        let flip = report::flip(&self.certified.truth.image(), image);
+        let flip = flip(&self.certified.truth.image(), image);
         Errors::of(&difference.metrics(0.0), flip)
     }
 
     /// The scene's part of the report.
-    pub(super) fn finish(self) -> Measured {
+    fn finish(self) -> Measured {
         let mut report = SceneReport {
-            scene: scene_result(&self.stage, &self.input.file),
+            scene: scene_result(&self.scene.stage, &self.scene.text.file.hash),
             width: self.view.width(),
             height: self.view.height(),
-            notes: self.stage.scene.notes.clone(),
+            notes: self.scene.notes().to_vec(),
             reference_width_max: self.certified.truth.widest(),
             runs: self.runs,
         };
@@ -196,10 +201,10 @@ struct Try {
 }
 
 /// The settings of a sweep in a scene, each once: where a line of the plot has the scene's own, that is it.
-fn tries(variations: Vec<Variation>, input: &SceneInput) -> Result<Vec<Try>> {
+fn tries(variations: Vec<Variation>, scene: &SceneText) -> Result<Vec<Try>> {
     let mut all: Vec<Try> = Vec::new();
     for variation in variations {
-        let file = input.changed(&variation.changes)?;
+        let file = scene.changed(&variation.changes)?;
         let mut one = Try { variation, technique: file.technique, device: file.device, is_own: false };
         let is_same = |known: &Try| known.technique == one.technique && known.device == one.device;
         match all.iter().position(is_same) {
@@ -219,10 +224,10 @@ fn tries(variations: Vec<Variation>, input: &SceneInput) -> Result<Vec<Try>> {
 
 /// A truth as a run: its error is what its estimate may be off, the half widths that are returned with it.
 fn truth_run(certified: &Certified, varied: Vec<String>) -> Result<(Run, Difference)> {
-    let halves = report::half_widths(&certified.truth)?;
+    let halves = measure::half_widths(&certified.truth)?;
     let nothing = Image::new(halves.width(), halves.height(), 4, vec![0.0; halves.values().len()])?;
     let doubt = Difference::of(&Expected::exactly(nothing), &halves)
-        .map_err(|what| Error::internal(format!("the truth's widths: {what}")))?;
+        .map_err(|what| Error::internal(format!("the truth's widths: {what}")).caused_by(what))?;
     let run = Run {
         technique: TRUTH.into(),
         varied,

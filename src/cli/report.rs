@@ -1,0 +1,151 @@
+//! `drapery report SCENE...`
+
+use super::bar::Bar;
+use super::scene_input;
+use super::stop::{Outcome, Status, Stop};
+use super::truth_arguments::TruthArguments;
+use drapery::output::Batch;
+use drapery::report::tables::{self, DATA_SETS, DataSet, TABLES_SCHEMA, Tables};
+use drapery::report::{self, SceneReport};
+use drapery::scene_file::{DEFAULT_SCENE, SceneText};
+use drapery::{Opened, Result, parallel};
+use std::path::PathBuf;
+
+const EXAMPLES: &str = "\
+Examples:
+  drapery report scene.toml                             a page about one scene, in report/
+  drapery report alps.toml coast.toml -o paper          both on one page
+  drapery report scene.toml --repeat 9 --threads 1      steadier times, of one thread
+  drapery report scene.toml --set image.width=600 --set image.height=400
+  drapery report scene.toml --truth-width 0.01          a coarser truth, sooner there
+  drapery report --tables --repeat 1                    Taibo's tables on 1.2 to 11 million segments, minutes
+  drapery report --tables roads.toml -o tables          the same for your own lines
+
+Measured are the truth, every technique that applies over the settings of its sweep (the scene's own among them), and plain
+supersampling with 1, 4, 16, ... samples a pixel. Each row tells what differs from the scene: `drapery render --set` draws
+it again.
+
+Writes DIR/report.html (one file, readable without a network), DIR/report.csv, DIR/report.json and the plots as
+DIR/NAME-METRIC.svg: all of them, or none when something fails. All numbers but the times are the same in every run.
+
+A whole sweep takes minutes: the truth and each setting are computed --repeat times.
+
+With --tables, memory, generation and rendering of the clipmap's solutions are measured instead (Taibo et al. 2014, section 5),
+without a SCENE on generated data sets of the paper's three kinds; it writes tables.html, tables.csv and tables.json.";
+
+#[derive(Debug, clap::Args)]
+#[command(after_long_help = EXAMPLES)]
+pub(super) struct Arguments {
+    /// The scene files, `-` for stdin; without one, a built-in generated scene.
+    #[arg(value_name = "SCENE")]
+    scenes: Vec<PathBuf>,
+    /// Measure the papers' own tables instead of speed against error.
+    #[arg(long)]
+    tables: bool,
+    /// Change every scene: a dotted path and a TOML value; may be repeated. No value removes the key.
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    overrides: Vec<String>,
+    /// Where the report goes; made where it is missing.
+    #[arg(short, long, value_name = "DIR", default_value = "report")]
+    output: PathBuf,
+    /// Time each run so often; told are the median, the shortest and the longest.
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..))]
+    repeat: u32,
+    /// How many threads; 0: as many as the machine has. The pictures are the same, the times are not.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    threads: usize,
+    #[command(flatten)]
+    truth: TruthArguments,
+}
+
+pub(super) fn run(arguments: &Arguments) -> Outcome {
+    if arguments.tables {
+        return run_tables(arguments);
+    }
+    let budget = arguments.truth.budget()?;
+    let texts = texts(arguments, &[DEFAULT_SCENE])?;
+    let batch = Batch::into(&arguments.output)?;
+    let bar = Bar::new();
+    let measure = |scene| report::measure(scene, &budget, arguments.repeat, &bar);
+    let report = report::write(of_each(arguments, &texts, &bar, measure)?, arguments.repeat, batch)?;
+    for scene in &report.scenes {
+        bar.say(&told(scene));
+    }
+    bar.say(&format!("{}", arguments.output.join(report::PAGE).display()));
+    Ok(Status::Passed)
+}
+
+/// Measures the papers' own tables.
+fn run_tables(arguments: &Arguments) -> Outcome {
+    let texts = texts(arguments, &DATA_SETS)?;
+    let batch = Batch::into(&arguments.output)?;
+    let bar = Bar::new();
+    let data_sets = of_each(arguments, &texts, &bar, |scene| tables::measure(scene, arguments.repeat, &bar))?;
+    let tables = Tables { schema: TABLES_SCHEMA, repeat: arguments.repeat, data_sets };
+    tables.write(batch)?;
+    for set in &tables.data_sets {
+        bar.say(&told_of_tables(set));
+    }
+    bar.say(&format!("{}", arguments.output.join("tables.html").display()));
+    Ok(Status::Passed)
+}
+
+/// The scenes that are asked for, or the built-in ones.
+fn texts(arguments: &Arguments, built_in: &[&str]) -> std::result::Result<Vec<SceneText>, Stop> {
+    let overrides = &arguments.overrides;
+    match arguments.scenes.is_empty() {
+        true => built_in.iter().map(|text| scene_input::built_in(text, overrides)).collect(),
+        false => arguments.scenes.iter().map(|path| scene_input::read(Some(path), overrides)).collect(),
+    }
+}
+
+/// Measures each scene; one after the other is loaded, and gone before the next.
+fn of_each<T: Send>(
+    arguments: &Arguments,
+    texts: &[SceneText],
+    bar: &Bar,
+    measure: impl Fn(Opened) -> Result<T> + Sync,
+) -> std::result::Result<Vec<T>, Stop> {
+    let one = |text: &SceneText| {
+        let measured = || measure(scene_input::open(text, bar)?);
+        let measured = parallel::with_threads(arguments.threads, measured)?;
+        measured.map_err(|error| scene_input::blame(text, error))
+    };
+    texts.iter().map(one).collect()
+}
+
+/// A scene's front in some lines, for people.
+fn told(scene: &SceneReport) -> String {
+    let mut front: Vec<_> = scene.runs.iter().filter(|run| run.on_front).collect();
+    front.sort_by(|a, b| a.frame_ms.median.total_cmp(&b.frame_ms.median));
+    let mut text =
+        format!("{}: {} runs; none is faster and more right than", scene.scene.name, scene.runs.len());
+    for run in front {
+        text.push_str(&format!(
+            "\n  {:>9.1} ms  rmse {:.6}  {}",
+            run.frame_ms.median,
+            run.error.rmse,
+            run.label()
+        ));
+    }
+    text
+}
+
+/// A data set in some lines, for people.
+fn told_of_tables(set: &DataSet) -> String {
+    let mut text = format!("{}: {} segments", set.scene.name, set.segments);
+    for row in &set.solutions {
+        text.push_str(&format!(
+            "\n  {:<14} {:<8} {:>9.1} MiB  generation {:>8.0} ms  rendering {:>8.0} ms",
+            row.solution,
+            if row.is_combined { "combined" } else { "alone" },
+            row.geometry_bytes as f64 / 1_048_576.0,
+            row.generation_ms.median,
+            row.rendering_ms.median,
+        ));
+    }
+    for row in &set.width_changes {
+        text.push_str(&format!("\n  width: {:>9.2} ms  {}", row.ms.median, row.name));
+    }
+    text
+}

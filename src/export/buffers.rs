@@ -1,0 +1,48 @@
+//! Which buffers are wanted beside a picture.
+
+use crate::error::{Error, Result};
+use crate::technique::Kind;
+use crate::truth::Truth;
+
+/// Every buffer that a technique has.
+const ALL: &str = "all";
+
+/// The buffers to make.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Buffers {
+    /// All that a technique has.
+    All,
+    /// Those of these names that a technique has.
+    Named(Vec<String>),
+}
+
+impl Buffers {
+    /// The buffers of these names; `all` is every one.
+    ///
+    /// # Errors
+    /// When neither the truth (if its picture is asked for) nor a technique has one of them: known before anything is drawn.
+    pub fn named(asked: &[String], truth: bool, kinds: &[Kind]) -> Result<Self> {
+        let of_truth = if truth { &Truth::PLANES[..] } else { &[] };
+        let planes = of_truth.iter().chain(kinds.iter().flat_map(|kind| kind.declaration().planes));
+        let mut offered: Vec<&str> = Vec::new();
+        planes.for_each(|plane| {
+            if !offered.contains(&plane.name) {
+                offered.push(plane.name)
+            }
+        });
+        let unknown = asked.iter().find(|name| *name != ALL && !offered.contains(&name.as_str()));
+        if let Some(name) = unknown {
+            return Err(Error::usage(format!("there is no buffer `{name}`"))
+                .help(format!("buffers here: {}, or {ALL}", offered.join(", "))));
+        }
+        Ok(if asked.iter().any(|name| name == ALL) { Self::All } else { Self::Named(asked.to_vec()) })
+    }
+
+    /// Whether one of this name is asked for.
+    pub fn wants(&self, name: &str) -> bool {
+        match self {
+            Self::All => true,
+            Self::Named(names) => names.iter().any(|wanted| wanted == name),
+        }
+    }
+}

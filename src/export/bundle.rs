@@ -1,0 +1,115 @@
+//! A scene and its pictures as files for a program that draws the same on a graphics processor.
+
+use super::run_files::RunFiles;
+use super::{
+    Buffers, LAYOUT, Parameters, TilePicture, plan_points, tiles, triangles, vertices, write_features,
+};
+use crate::buffer::Buffer;
+use crate::error::Result;
+use crate::measure::{Certified, Unwatched, Watch, scene_result};
+use crate::output::{Batch, Npy, RESULT_SCHEMA, RenderResult, write_png};
+use crate::scene::{Ground, Imagery};
+use crate::stage::Stage;
+use crate::technique::clipmap::{self, TILE_TEXELS};
+use crate::technique::{self, Frame, Kind};
+use crate::terrain::Mesh;
+use crate::truth::Budget;
+use std::path::Path;
+
+/// A bundle to be made: mesh, features, matrices and parameters, a technique's picture with all its buffers, a clipmap's tiles, and the
+/// truth. Its `README.md` ([`LAYOUT`]) tells what is where.
+///
+/// ```
+/// use drapery::{Bundle, Opened, Technique};
+/// # let folder = tempfile::tempdir().unwrap();
+/// # let folder = folder.path().join("bundle");
+/// let scene = Opened::parse(drapery::tutorial::SMALL_SCENE)?;
+/// Bundle::of(&scene.stage, Technique::StencilVolume).write_to(&folder)?;
+/// assert!(folder.join("parameters.json").exists());
+/// # Ok::<(), drapery::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy)]
+pub struct Bundle<'a> {
+    /// What is drawn.
+    pub stage: &'a Stage,
+    /// The hash of its scene file (`SceneFile::hash`), for `result.json`.
+    pub hash: &'a str,
+    /// What the client draws by.
+    pub technique: Kind,
+    /// How exact the truth is.
+    pub budget: Budget,
+}
+
+impl<'a> Bundle<'a> {
+    /// A bundle with the default truth, of a scene that no file says.
+    pub fn of(stage: &'a Stage, technique: Kind) -> Self {
+        Self { stage, hash: "", technique, budget: Budget::default() }
+    }
+
+    /// Writes the bundle into a folder, which is made where it is missing; times are not measured.
+    ///
+    /// # Errors
+    /// As [`Bundle::write`].
+    pub fn write_to(&self, folder: impl AsRef<Path>) -> Result<()> {
+        self.write(Batch::into(folder.as_ref())?, &Unwatched)
+    }
+
+    /// Writes the bundle; the files are in their places when it returns.
+    ///
+    /// # Errors
+    /// When the technique does not draw such a scene, or a file cannot be written: then no file is.
+    pub fn write(&self, mut batch: Batch, watch: &dyn Watch) -> Result<()> {
+        let stage = self.stage;
+        let view = stage.view()?;
+        technique::applies(self.technique, stage)?;
+        let certified = Certified::of((stage, &view), &self.budget, 1, watch)?;
+        let (buffers, view) = (&Buffers::All, &view);
+        let mut files = RunFiles { stage, view, certified: &certified, buffers, batch: &mut batch, watch };
+        let truth = files.truth()?;
+        let (run, frame) = files.technique(self.technique, 1)?;
+        for TilePicture { name, picture } in tiles_of(&frame, stage) {
+            batch.stage(&format!("tiles/{name}.png"), |to| write_png(&picture, to))?;
+        }
+        let mesh = stage.mesh_for(view);
+        stage_scene(stage, &mesh, &mut batch)?;
+        let settings = (self.technique.name(), run.parameters.clone(), run.device.clone());
+        let parameters = Parameters::new((&stage.scene, &mesh, view), settings).to_json()?;
+        let (scene, notes) = (scene_result(stage, self.hash), stage.scene.notes.clone());
+        let result =
+            RenderResult { schema: RESULT_SCHEMA, scene, notes, runs: vec![truth, run] }.to_json()?;
+        let texts = [("parameters.json", &parameters[..]), ("result.json", &result), ("README.md", LAYOUT)];
+        for (name, text) in texts {
+            batch.stage(name, |to| to.write_all(text.as_bytes()))?;
+        }
+        batch.commit()
+    }
+}
+
+/// What is drawn: mesh, features, imagery.
+fn stage_scene(stage: &Stage, mesh: &Mesh, batch: &mut Batch) -> Result<()> {
+    let Stage { scene, draw_list, .. } = stage;
+    for table in [vertices(mesh), triangles(mesh)].into_iter().chain(plan_points(mesh)) {
+        let name = format!("mesh.{}.npy", table.name);
+        let table = Npy::new(&table)?;
+        batch.stage(&name, |to| table.write(to))?;
+    }
+    batch.stage("features.geojson", |to| {
+        write_features((&scene.layers, draw_list), scene.origin.truncate(), to)
+    })?;
+    if let Ground::Imagery(Imagery { texels, .. }) = &scene.ground {
+        let codes = texels.values().iter().map(|color| color.0.map(|v| (v * 255.0 + 0.5) as u8));
+        let picture = Buffer::from_values(texels.width(), texels.height(), codes.collect());
+        batch.stage("imagery.png", |to| write_png(&picture, to))?;
+    }
+    Ok(())
+}
+
+/// The tiles of a frame that has such.
+fn tiles_of(frame: &Frame, stage: &Stage) -> Vec<TilePicture> {
+    let plane = |name: &str| frame.planes.iter().find(|plane| plane.name == name);
+    let size = stage.scene.technique.get::<clipmap::Settings>().virtual_size;
+    match (plane("tiles"), plane("tile-keys")) {
+        (Some(pictures), Some(keys)) => tiles(pictures, keys, size, TILE_TEXELS),
+        _ => Vec::new(),
+    }
+}
