@@ -42,6 +42,7 @@ mod error;
 pub mod export;
 pub mod footprint;
 pub mod golden;
+pub mod index;
 pub mod interval;
 pub mod math;
 pub mod output;
@@ -57,6 +58,7 @@ pub mod space;
 pub mod stage;
 pub mod technique;
 pub mod terrain;
+pub mod tiling;
 pub mod truth;
 pub mod visibility;
 

@@ -6,13 +6,12 @@
 //! those that `docs/semantics.md` says.
 
 mod area;
-mod box_tree;
 mod primitive;
 mod stroke;
 
-pub use box_tree::BoxTree;
 pub use primitive::{Convex, HalfPlane, MOST_SIDES, Primitive, Sides};
 
+use crate::index::BoxTree;
 use crate::scene::{Color, Feature, Layer, Line, OutlineMode, Rule, SAME_VERTEX, Shape, Style, Width};
 use crate::space::{Lens, Plan, PlanBox, ViewFrame};
 use area::Area;

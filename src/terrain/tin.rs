@@ -2,6 +2,7 @@
 
 use super::{Bounds, Node};
 use crate::error::{Error, Result};
+use crate::index::{morton, packed_levels};
 use crate::math;
 use crate::parallel;
 use crate::space::World;
@@ -146,17 +147,6 @@ fn order_by_place(points: &[World], triangles: &mut [[u32; 3]]) {
     });
 }
 
-/// The bits of two 16-bit numbers in alternation.
-fn morton(x: u32, y: u32) -> u32 {
-    let spread = |v: u32| {
-        let v = (v | v << 8) & 0x00ff_00ff;
-        let v = (v | v << 4) & 0x0f0f_0f0f;
-        let v = (v | v << 2) & 0x3333_3333;
-        (v | v << 1) & 0x5555_5555
-    };
-    spread(x) | spread(y) << 1
-}
-
 fn hierarchy(points: &[World], triangles: &[[u32; 3]]) -> Vec<Vec<(DVec3, DVec3)>> {
     let around = |corners: &mut dyn Iterator<Item = (DVec3, DVec3)>| {
         let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
@@ -164,12 +154,8 @@ fn hierarchy(points: &[World], triangles: &[[u32; 3]]) -> Vec<Vec<(DVec3, DVec3)
     };
     let corner = |&v: &u32| (points[v as usize].to_vec(), points[v as usize].to_vec());
     let leaf = |c: &[[u32; 3]]| around(&mut c.iter().flatten().map(corner));
-    let mut levels = vec![triangles.chunks(CLUSTER).map(leaf).collect::<Vec<_>>()];
-    while let Some(top) = levels.last().filter(|l| l.len() > 1) {
-        let next = top.chunks(FAN).map(|c| around(&mut c.iter().copied())).collect();
-        levels.push(next);
-    }
-    levels
+    let leaves = triangles.chunks(CLUSTER).map(leaf).collect();
+    packed_levels(leaves, FAN, |nodes| around(&mut nodes.iter().copied()))
 }
 
 #[cfg(test)]

@@ -28,7 +28,6 @@
 mod cache;
 mod frame;
 mod geometry;
-mod quadtree;
 pub mod raster;
 #[cfg(test)]
 mod rational;
@@ -75,7 +74,7 @@ impl<'s> Prepare<'s> {
         let scene = &stage.scene;
         let settings = scene.technique.clipmap;
         let texture = VirtualTexture::over(&stage.mesh.plan_bounds(), settings.virtual_size);
-        let geometry = Geometry::new(&scene.layers, &settings, scene.compositing, &texture.bounds())?;
+        let geometry = Geometry::new(&scene.layers, &settings, scene.compositing)?;
         Ok(Self { stage, settings, texture, geometry, cache: Mutex::default() })
     }
 

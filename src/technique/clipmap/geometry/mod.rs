@@ -12,10 +12,10 @@ pub(super) use areas::AreaRings;
 pub(super) use strokes::Chunk;
 pub(super) use style::{LayerItems, Role, StrokeStyle};
 
-use super::quadtree::Quadtree;
 use super::raster::Folded;
 use super::tessellation::Polyline;
 use crate::error::{Error, Result};
+use crate::index::BoxTree;
 use crate::math;
 use crate::parallel;
 use crate::scene::{
@@ -41,23 +41,18 @@ fn too_many(what: &str) -> Error {
 pub(super) struct Geometry {
     layers: Vec<LayerItems>,
     strokes: Strokes,
-    stroke_index: Quadtree,
+    stroke_index: BoxTree,
     areas: Areas,
-    area_index: Quadtree,
+    area_index: BoxTree,
     joints: Joints,
 }
 
 impl Geometry {
-    /// Keeps what a solution needs of the layers, indexed by the cells of a square.
+    /// Keeps what a solution needs of the layers.
     ///
     /// # Errors
     /// When there is more than can be numbered.
-    pub(super) fn new(
-        layers: &[Layer],
-        settings: &Clipmap,
-        compositing: Compositing,
-        square: &PlanBox,
-    ) -> Result<Self> {
+    pub(super) fn new(layers: &[Layer], settings: &Clipmap, compositing: Compositing) -> Result<Self> {
         let mut items = LayerItems::of_layers(layers, settings, compositing)?;
         let offsets = (settings.solution == Solution::Offsets).then_some(settings.offsets);
         let (mut strokes, mut areas) = (Strokes::new(offsets), Areas::default());
@@ -86,9 +81,9 @@ impl Geometry {
         Ok(Self {
             layers: items,
             strokes,
-            stroke_index: Quadtree::new(&of_strokes, *square),
+            stroke_index: BoxTree::new(&of_strokes),
             areas,
-            area_index: Quadtree::new(&of_areas, *square),
+            area_index: BoxTree::new(&of_areas),
             joints: settings.joints,
         })
     }
@@ -120,18 +115,12 @@ impl Geometry {
 
     /// The chunks of strokes whose vertices' boxes meet one, in draw order.
     pub(super) fn chunks_near(&self, wanted: &PlanBox) -> Vec<u32> {
-        let mut found = Vec::new();
-        self.stroke_index.query(wanted, &mut found);
-        found.sort_unstable();
-        found
+        found_in(&self.stroke_index, wanted)
     }
 
     /// The filled areas whose boxes meet one, in draw order.
     pub(super) fn areas_near(&self, wanted: &PlanBox) -> Vec<AreaRings> {
-        let mut found = Vec::new();
-        self.area_index.query(wanted, &mut found);
-        found.sort_unstable();
-        found.into_iter().map(|area| self.areas.get(area)).collect()
+        found_in(&self.area_index, wanted).into_iter().map(|area| self.areas.get(area)).collect()
     }
 
     /// A chunk.
@@ -192,6 +181,17 @@ impl Geometry {
             }
         }
     }
+}
+
+/// The numbers of the boxes that meet one, in order.
+fn found_in(index: &BoxTree, wanted: &PlanBox) -> Vec<u32> {
+    let mut found = Vec::new();
+    index.query(wanted, |number| {
+        found.push(number);
+        true
+    });
+    found.sort_unstable();
+    found
 }
 
 /// What some features become.
