@@ -6,7 +6,7 @@
 //! 2. [`scene`] is what is drawn, in memory, in scene-local coordinates ([`space`]);
 //! 3. [`terrain`] makes a mesh with bounding boxes of the heights; both together are a [`stage`];
 //! 4. [`raster`] and [`visibility`] find, exactly, which triangle each sample sees, and where;
-//! 5. [`technique`] draws, each beside its paper; [`resolve`] composes colours;
+//! 5. [`technique`] draws, each beside its paper, on a [`canvas`]; [`resolve`] composes colours;
 //! 6. [`output`] writes pictures, buffers and numbers;
 //! 7. [`compare`] says how far a picture is from what is expected; [`golden`] replays what is known;
 //! 8. [`report`] sets that against time, beside the [`truth`] and plain supersampling ([`sampling`]);
@@ -36,6 +36,7 @@
 #![cfg_attr(not(test), warn(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
 pub mod buffer;
+pub mod canvas;
 pub mod compare;
 pub mod crs;
 mod error;

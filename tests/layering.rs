@@ -26,8 +26,13 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ),
     ("resolve", &["terrain", "scene", "space", "buffer"]),
     (
+        "canvas",
+        &["visibility", "resolve", "raster", "stage", "terrain", "scene", "space", "parallel", "buffer"],
+    ),
+    (
         "technique",
         &[
+            "canvas",
             "visibility",
             "resolve",
             "raster",
@@ -45,7 +50,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("output", &["buffer"]),
     ("interval", &[]),
     ("footprint", &["scene", "space", "interval", "predicate", "index", "parallel"]),
-    // No technique, and nothing that decides for one: neither `raster` nor `visibility`.
+    // No technique, and nothing that decides for one: neither `raster`, `visibility` nor `canvas`.
     (
         "truth",
         &[
@@ -82,6 +87,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     (
         "sampling",
         &[
+            "canvas",
             "visibility",
             "footprint",
             "resolve",

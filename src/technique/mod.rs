@@ -8,7 +8,8 @@ pub mod clipmap;
 pub mod inverse_projection;
 pub mod stencil_volume;
 
-use crate::buffer::{Buffer, Plane};
+pub use crate::canvas::{Frame, FrameOptions};
+
 use crate::error::Result;
 use crate::space::ViewFrame;
 use crate::stage::Stage;
@@ -36,28 +37,6 @@ impl Kind {
             Self::InverseProjection => "inverse-projection",
         }
     }
-}
-
-/// How a frame is drawn; nothing here changes a pixel.
-#[derive(Clone, Copy)]
-pub struct FrameOptions<'a> {
-    /// Side of a tile in pixels.
-    pub tile: usize,
-    /// The names of the buffers that are wanted.
-    pub buffers: &'a [String],
-    /// Called with the share of the frame that is done (0..=1), from any thread.
-    pub progress: &'a (dyn Fn(f64) + Sync),
-}
-
-/// What a technique draws.
-#[derive(Debug)]
-pub struct Frame {
-    /// The picture: RGBA, straight alpha, 8-bit code values.
-    pub image: Buffer<[u8; 4]>,
-    /// The buffers that were asked for and exist. Coordinates in them are scene-local.
-    pub planes: Vec<Plane>,
-    /// What was counted, by name.
-    pub counts: Vec<(&'static str, u64)>,
 }
 
 /// A technique with its structures built.

@@ -4,7 +4,7 @@
 //! Input: a [`Stage`]. Output: a picture whose ground carries a texture of the vectors:
 //! 1. the layers are kept in memory as one of the paper's solutions needs them (`geometry`, 4.1 to 4.4), lines tessellated into strips
 //!    ([`tessellation`], 4.2);
-//! 2. the texture is virtual: levels cut into tiles ([`texture`], 2); a frame finds which tiles its pixels touch (`sampling`, `frame`);
+//! 2. the texture is virtual: levels cut into tiles ([`texture`], 2); a frame finds which tiles its pixels touch (`sampling`, `pixel`, `frame`);
 //! 3. those are made, each once ([`tile`]): layers in order, thin lines as line primitives, the others as polygons (Algorithm 2),
 //!    rasterized in one of several ways ([`raster`]), and kept (`cache`);
 //! 4. each pixel samples the texture at its centre and composes it over the ground.
@@ -28,12 +28,14 @@
 mod cache;
 mod frame;
 mod geometry;
+mod pixel;
 pub mod raster;
 #[cfg(test)]
 mod rational;
 mod sampling;
 mod sequences;
 mod simple;
+mod table;
 pub mod tessellation;
 pub mod texture;
 pub mod tile;

@@ -4,7 +4,7 @@
 //! Input: a [`Stage`]. Output: a picture whose every pixel asks the plan for its colour:
 //! 1. preprocess: lines are expanded to polygons of edges with normals (`expansion`, 3.1);
 //! 2. the depth buffer gives each pixel a quadrilateral in the plan (`quadrilateral`, 3.2);
-//! 3. pixels are N (no area), F (wholly in areas) or P (an edge meets the quadrilateral) (`frame`, 3.3);
+//! 3. pixels are N (no area), F (wholly in areas) or P (an edge meets the quadrilateral) (`pixel`, 3.3);
 //! 4. P pixels take n x n samples, bilinear in the quadrilateral (3.4), judged by edge normals (`judgment`, 3.5)
 //!    and averaged.
 //!
@@ -23,6 +23,7 @@ mod edge_index;
 mod expansion;
 mod frame;
 mod judgment;
+mod pixel;
 mod quadrilateral;
 
 use super::{Frame, FrameOptions, Prepared};
@@ -33,10 +34,6 @@ use crate::space::ViewFrame;
 use crate::stage::Stage;
 use edge_index::EdgeIndex;
 use expansion::Areas;
-
-/// A quadrilateral's side may be so many times longer than the longer of the sides that the planes of its two ends
-/// would give it, before it counts as spanning a silhouette.
-const SILHOUETTE_RATIO: f64 = 8.0;
 
 /// The technique with its index built.
 #[derive(Debug)]

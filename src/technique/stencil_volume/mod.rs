@@ -4,8 +4,8 @@
 //! Input: a [`Stage`]. Output: a picture whose features are masks that faces of polyhedra have counted:
 //! 1. extrusion: vector data becomes polyhedra between levels just below and above the terrain (`extrusion`, `stroke`, `heights`; 4.1);
 //! 2. the view: which method counts each polyhedron (`view`, 4.2.1);
-//! 3. counting: the faces' fragments before or behind the terrain go into the stencil (`face`, `block`, `stencil`; 3.1, 4.2.1);
-//! 4. the mask is applied through the polyhedra's boxes and zeroed on the way (`tile`, 4.2.2).
+//! 3. counting: the faces' fragments before or behind the terrain go into the stencil (`face`, `fragments`, `block`, `stencil`; 3.1, 4.2.1);
+//! 4. the mask is applied through the polyhedra's boxes and zeroed on the way (`passes`, 4.2.2).
 //!
 //! With exact mathematics (the default device) the mask is the footprint: a sample is in it exactly when its surface
 //! point's plan point is. Where the paper is silent, see `extrusion`, `view` and `docs/semantics.md`.
@@ -14,10 +14,14 @@
 //! depend on the view), and outlines that are cut to their polygon where the stencil has one bit.
 
 mod block;
+mod context;
 mod extrusion;
 mod face;
+mod fragments;
 mod frame;
 mod heights;
+mod passes;
+mod points;
 mod stencil;
 mod stroke;
 #[cfg(test)]
