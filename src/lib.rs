@@ -37,6 +37,7 @@
 
 pub mod buffer;
 pub mod canvas;
+pub mod certainty;
 pub mod compare;
 pub mod crs;
 mod error;

@@ -25,6 +25,8 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
         &["raster", "terrain", "scene", "space", "predicate", "index", "tiling", "parallel", "buffer"],
     ),
     ("resolve", &["terrain", "scene", "space", "buffer"]),
+    // How uncertainty composes, not who decides: judges and what they judge may share it.
+    ("certainty", &["resolve", "scene"]),
     (
         "canvas",
         &["visibility", "resolve", "raster", "stage", "terrain", "scene", "space", "parallel", "buffer"],
@@ -56,6 +58,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
         &[
             "footprint",
             "interval",
+            "certainty",
             "resolve",
             "stage",
             "terrain",

@@ -9,7 +9,7 @@
 //!   facet.rs    a triangle on the tile: sides, nearness, its map to the plan, with bounds of their errors (form.rs)
 //!   visible.rs  the pixel cut into convex fragments that see one triangle (polygon.rs), and sky
 //!   refine.rs   fragments cut along footprints' borders (shape.rs) until little is unknown of which items hold them
-//!               (knowledge.rs); colours between bounds (color.rs)
+//!               (knowledge.rs); colours between bounds (crate::certainty)
 //! ```
 //!
 //! How it is certified: a border that is straight in the plan is straight on the screen within one triangle. Its line is computed
@@ -18,7 +18,6 @@
 //! is in or out by bounds of the distance, or open. No decision is shared with a technique but the signs of
 //! [`crate::predicate`].
 
-mod color;
 mod facet;
 mod form;
 mod knowledge;
