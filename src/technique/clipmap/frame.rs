@@ -4,6 +4,7 @@ use super::Prepare;
 use super::cache::CacheCounts;
 use super::pixel::{NO_TILE, PixelPainter, Reading};
 use super::sampling::Sampler;
+use super::step::Step;
 use super::table::Table;
 use super::texture::{ClipRegion, TILE, TileKey};
 use super::tile::{Tile, TileCounts, TileMaker, Workbench};
@@ -16,7 +17,7 @@ use crate::parallel::{self, Progress};
 use crate::raster::Lattice;
 use crate::resolve::{Paint, code_values};
 use crate::space::{Plan, ViewFrame, World};
-use crate::visibility::{Hit, Sight};
+use crate::visibility::{self, Hit, Sight};
 use std::sync::Arc;
 
 /// Draws a frame of a view; says what the cache did.
@@ -28,12 +29,39 @@ pub(super) fn draw(
     view: &ViewFrame,
     options: &FrameOptions,
 ) -> Result<(Frame, CacheCounts)> {
-    let stage = prepared.stage;
-    let lattice = Lattice::centres(view, 0);
-    let mut sight = Sight::new(view, &stage.mesh, &stage.scene.device, lattice, options.tile);
-    sight.see();
+    let sight = see(prepared, view, options.tile);
     (options.progress)(0.2);
     Drawing::new(prepared, view, sight).frame(options)
+}
+
+/// Decides one pixel of a view as a frame does, with the tiles that it reads: its steps and its code values.
+pub(super) fn explain(prepared: &Prepare, view: &ViewFrame, [x, y]: [usize; 2]) -> (Vec<Step>, [u8; 4]) {
+    let drawing = Drawing::new(prepared, view, see(prepared, view, visibility::TILE));
+    let (painter, mut steps) = (&drawing.painter, Vec::new());
+    let plan = painter.sight.hit(x, y).map_or(Plan::new(f64::INFINITY, f64::INFINITY), |hit| hit.plan);
+    let reading = painter.reading((x, y), plan, &mut None, &mut steps);
+    let paint = reading.map_or(painter.backdrop.sky, |reading| {
+        let mut keys = Vec::new();
+        painter.tiles(&reading, |key| keys.push(key), &mut steps);
+        keys.sort_unstable();
+        keys.dedup();
+        let mut cache = prepared.take_cache();
+        cache.prepare(drawing.maker.followed_pixel_m(), &drawing.region);
+        let make = |missing: &[TileKey]| drawing.make(missing, &|_| {});
+        let tiles = cache.tiles(&keys, prepared.budget(), &mut CacheCounts::default(), make);
+        prepared.return_cache(cache);
+        let table = Table::new(&keys, tiles, prepared.texture.levels());
+        painter.paint(&reading, &table, &mut painter.backdrop.no_ground(), &mut steps).0
+    });
+    (steps, code_values(painter.backdrop.compositor.encoded(paint)))
+}
+
+/// What the pixels' centres see, found in tiles of `tile` samples a side.
+fn see<'a>(prepared: &'a Prepare, view: &'a ViewFrame, tile: usize) -> Sight<'a> {
+    let stage = prepared.stage;
+    let mut sight = Sight::new(view, &stage.mesh, &stage.scene.device, Lattice::centres(view, 0), tile);
+    sight.see();
+    sight
 }
 
 /// What a frame is made from.
@@ -171,14 +199,15 @@ impl<'a> Drawing<'a> {
         // Neighbours often touch the same tiles.
         let (mut plane, mut last) = (None, [NO_TILE; 4]);
         for (x, plan) in points.into_iter().enumerate() {
-            let reading = self.painter.reading((x, y), plan, &mut plane);
+            let reading = self.painter.reading((x, y), plan, &mut plane, &mut ());
             if let Some(reading) = &reading {
-                let is_coarser = self.painter.tiles(reading, |key| {
+                let visit = |key| {
                     if !last.contains(&key) {
                         row.keys.push(key);
                         last = [key, last[0], last[1], last[2]];
                     }
-                });
+                };
+                let is_coarser = self.painter.tiles(reading, visit, &mut ());
                 row.fallbacks += u64::from(is_coarser);
             }
             row.readings.push(reading);
@@ -200,7 +229,7 @@ impl<'a> Drawing<'a> {
         let mut last = backdrop.no_ground();
         for reading in &row.readings {
             let (paint, texels) = match reading {
-                Some(reading) => self.painter.paint(reading, table, &mut last),
+                Some(reading) => self.painter.paint(reading, table, &mut last, &mut ()),
                 None => (backdrop.sky, 0),
             };
             done.pixels.push(paint);

@@ -35,6 +35,7 @@ mod rational;
 mod sampling;
 mod sequences;
 mod simple;
+mod step;
 mod table;
 pub mod tessellation;
 pub mod texture;
@@ -42,8 +43,9 @@ pub mod tile;
 
 pub use cache::CacheCounts;
 pub use sequences::{Sequences, StripOf};
+pub use step::Step;
 
-use super::{Frame, FrameOptions, Prepared};
+use super::{Explanation, Frame, FrameOptions, Prepared};
 use crate::error::Result;
 use crate::parallel;
 use crate::scene::Clipmap;
@@ -84,6 +86,11 @@ impl<'s> Prepare<'s> {
     /// what the cache did.
     pub fn frame_of(&self, view: &ViewFrame, options: &FrameOptions) -> Result<(Frame, CacheCounts)> {
         frame::draw(self, view, options)
+    }
+
+    /// The steps of a pixel (column, row) of a view's picture, and its code values; see [`super::explain`].
+    pub fn steps_of(&self, view: &ViewFrame, pixel: [usize; 2]) -> (Vec<Step>, [u8; 4]) {
+        frame::explain(self, view, pixel)
     }
 
     /// The virtual texture.
@@ -153,6 +160,11 @@ pub fn applies(_stage: &Stage) -> Result<()> {
 impl Prepared for Prepare<'_> {
     fn frame(&self, view: &ViewFrame, options: &FrameOptions) -> Result<Frame> {
         Ok(self.frame_of(view, options)?.0)
+    }
+
+    fn steps(&self, view: &ViewFrame, pixel: [usize; 2]) -> Result<Explanation> {
+        let (steps, code) = self.steps_of(view, pixel);
+        Ok(Explanation::new(steps, code))
     }
 
     fn structure_bytes(&self) -> usize {

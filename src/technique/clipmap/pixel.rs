@@ -1,9 +1,10 @@
 //! One pixel: where it reads the texture, and the paint that it finds there.
 
 use super::sampling::{Probes, Quad, Sampler};
+use super::step::Step;
 use super::table::Table;
 use super::texture::{TileKey, VirtualTexture};
-use crate::canvas::{Backdrop, LastGround};
+use crate::canvas::{Backdrop, LastGround, Record};
 use crate::resolve::Paint;
 use crate::space::{Plan, ViewFrame};
 use crate::terrain::{Mesh, SKY};
@@ -41,27 +42,41 @@ impl<'a> PixelPainter<'a> {
         (x, y): (usize, usize),
         plan: Plan,
         last: &mut LastPlane<'a>,
+        record: &mut impl Record<Step>,
     ) -> Option<Reading> {
         let triangle = self.sight.triangle(x, y);
         if triangle == SKY || !plan.is_finite() {
+            record.step(|| Step::Sky);
             return None;
         }
+        record.step(|| Step::Seen { triangle, plan });
         if last.as_ref().is_none_or(|(of, _)| *of != triangle) {
             let corners = self.mesh.triangle(triangle);
             *last = Some((triangle, corners.map(|corners| FootprintPlane::new(self.view, &corners))));
         }
         let at = self.sight.lattice().at(x, y);
         let footprint = last.as_ref().and_then(|(_, plane)| plane.as_ref()?.footprint(at));
-        Some(Reading { triangle, plan, probes: self.sampler.probes(plan, footprint.as_ref()) })
+        let probes = self.sampler.probes(plan, footprint.as_ref());
+        record.step(|| {
+            let Probes { level, first, step, count } = probes;
+            Step::Probes { level, count, first, step }
+        });
+        Some(Reading { triangle, plan, probes })
     }
 
     /// Calls `visit` with the tiles that a pixel reads, some of them several times; returns whether it reads a coarser level than it
     /// asks for.
     #[inline(always)]
-    pub(super) fn tiles(&self, reading: &Reading, mut visit: impl FnMut(TileKey)) -> bool {
+    pub(super) fn tiles(
+        &self,
+        reading: &Reading,
+        mut visit: impl FnMut(TileKey),
+        record: &mut impl Record<Step>,
+    ) -> bool {
         let mut is_coarser = false;
         self.sampler.quads(&reading.probes, &mut |quad| {
             is_coarser |= quad.is_fallback;
+            record.step(|| Step::Level { level: quad.level, is_fallback: quad.is_fallback });
             let tiles = self.sampler.tiles_of(&quad);
             for row in tiles.rows.0..=tiles.rows.1 {
                 for column in tiles.columns.0..=tiles.columns.1 {
@@ -74,10 +89,20 @@ impl<'a> PixelPainter<'a> {
 
     /// A pixel's paint, and how many texels it reads; `last` is the ground of the pixel before.
     #[inline(always)]
-    pub(super) fn paint(&self, reading: &Reading, table: &Table, last: &mut LastGround) -> (Paint, u32) {
+    pub(super) fn paint(
+        &self,
+        reading: &Reading,
+        table: &Table,
+        last: &mut LastGround,
+        record: &mut impl Record<Step>,
+    ) -> (Paint, u32) {
         let ground = self.backdrop.paint_at(last, reading.triangle, || reading.plan);
-        let (texture, texels) = self.texture_at(&reading.probes, table);
-        (self.backdrop.compositor.over(ground, texture), texels)
+        let (texture, texels) = self.texture_at(&reading.probes, table, record);
+        let paint = self.backdrop.compositor.over(ground, texture);
+        record.step(|| Step::Texture(texture));
+        record.step(|| Step::Ground(ground));
+        record.step(|| Step::Composed(paint));
+        (paint, texels)
     }
 
     /// The finest tile that a pixel reads at its centre.
@@ -97,19 +122,19 @@ impl<'a> PixelPainter<'a> {
     }
 
     /// The texture's paint where a pixel reads it, and how many texels it reads.
-    fn texture_at(&self, probes: &Probes, table: &Table) -> (Paint, u32) {
-        let mut texels = 0;
-        let mut sum = [0.0; 4];
-        let mut add = |texel: [f32; 4], weight: f64| {
+    fn texture_at(&self, probes: &Probes, table: &Table, record: &mut impl Record<Step>) -> (Paint, u32) {
+        let (mut sum, mut texels) = ([0.0; 4], 0);
+        let mut add = |tile: TileKey, at: (usize, usize), value: [f32; 4], weight: f64| {
             for k in 0..4 {
-                sum[k] += weight * f64::from(texel[k]);
+                sum[k] += weight * f64::from(value[k]);
             }
+            record.step(|| Step::Texel { tile, at, weight, value });
         };
         self.sampler.quads(probes, &mut |Quad { level, at: (column, row), shares, weight, .. }| {
             let (key, (c, r)) = self.sampler.tile_of(level, column, row);
             let Some((east, south)) = shares else {
                 texels += 1;
-                table.get(key).into_iter().for_each(|tile| add(tile.at(c, r), weight));
+                table.get(key).into_iter().for_each(|tile| add(key, (c, r), tile.at(c, r), weight));
                 return;
             };
             texels += 4;
@@ -127,12 +152,13 @@ impl<'a> PixelPainter<'a> {
                 && r + 1 < tile.size
             {
                 let places = [(c, r), (c + 1, r), (c, r + 1), (c + 1, r + 1)];
-                places.into_iter().zip(weights).for_each(|((c, r), weight)| add(tile.at(c, r), weight));
+                let read = places.into_iter().zip(weights);
+                read.for_each(|((c, r), weight)| add(key, (c, r), tile.at(c, r), weight));
                 return;
             }
             for ((dx, dy), weight) in [(0, 0), (1, 0), (0, 1), (1, 1)].into_iter().zip(weights) {
                 let (key, (c, r)) = self.sampler.tile_of(level, column + dx, row + dy);
-                table.get(key).into_iter().for_each(|tile| add(tile.at(c, r), weight));
+                table.get(key).into_iter().for_each(|tile| add(key, (c, r), tile.at(c, r), weight));
             }
         });
         (Paint(sum), texels)

@@ -33,9 +33,9 @@ pub(super) struct Probes {
     /// The level that is asked for, between two of them.
     pub(super) level: f64,
     /// The first probe, in the texels of level 0.
-    first: Texel,
+    pub(super) first: Texel,
     /// From a probe to the next.
-    step: DVec2,
+    pub(super) step: DVec2,
     /// How many there are.
     pub(super) count: u32,
 }

@@ -1,13 +1,16 @@
 //! One frame: rows of pixels, and the buffers of what was decided on the way.
 
 use super::edge_index::EdgeIndex;
-use super::pixel::{Counts, F, GUARD, N, P, PixelPainter};
+use super::pixel::{Counts, GUARD, PixelPainter};
+use super::step::{PixelClass, Step};
 use crate::buffer::{Buffer, Plane, Values};
 use crate::canvas::{Frame, FrameOptions, Kept, Pixels, picture_plane, sight_counts, surface_plane};
 use crate::parallel;
+use crate::resolve::code_values;
 use crate::scene::InverseProjection;
 use crate::space::ViewFrame;
 use crate::stage::Stage;
+use crate::visibility::TILE;
 
 /// The buffers in the order in which a frame has them.
 const ORDER: [&str; 7] = ["depth", "triangle", "plan", "color", "class", "quad", "edges"];
@@ -43,6 +46,19 @@ pub fn draw(
     }
 }
 
+/// Decides one pixel of a view as a frame does: its steps and its code values.
+pub fn explain(
+    (stage, view): (&Stage, &ViewFrame),
+    settings: &InverseProjection,
+    index: &EdgeIndex,
+    [x, y]: [usize; 2],
+) -> (Vec<Step>, [u8; 4]) {
+    let painter = PixelPainter::new((stage, view), settings, index, (TILE, false));
+    let mut steps = Vec::new();
+    let pixel = painter.pixel((x, y), &mut painter.lists(), &mut Counts::default(), &mut steps);
+    (steps, code_values(painter.backdrop().compositor.encoded(pixel.paint)))
+}
+
 fn row(painter: &PixelPainter, y: usize, width: usize, options: &FrameOptions) -> Row {
     let mut row = Row {
         pixels: Pixels::new(painter.backdrop().compositor, width, options.wants("color")),
@@ -53,13 +69,13 @@ fn row(painter: &PixelPainter, y: usize, width: usize, options: &FrameOptions) -
     };
     let mut lists = painter.lists();
     for x in 0..width {
-        let pixel = painter.pixel((x, y), &mut lists, &mut row.counts);
-        if pixel.class == N {
+        let pixel = painter.pixel((x, y), &mut lists, &mut row.counts, &mut ());
+        if pixel.class == PixelClass::N {
             row.pixels.push_ground(pixel.paint)
         } else {
             row.pixels.push(pixel.paint)
         }
-        row.classes.push(|| pixel.class);
+        row.classes.push(|| pixel.class as u8);
         row.edges.push(|| pixel.edges);
         row.quads.push(|| {
             let [a, b, c, d] = pixel.quad.0;
@@ -97,9 +113,9 @@ fn counts(painter: &PixelPainter, index: &EdgeIndex, rows: &[Row]) -> Vec<(&'sta
     let own = [
         ("areas", index.areas().len() as u64),
         ("edges", index.edge_count() as u64),
-        ("pixels_n", sum(|c| c.classes[N as usize])),
-        ("pixels_p", sum(|c| c.classes[P as usize])),
-        ("pixels_f", sum(|c| c.classes[F as usize])),
+        ("pixels_n", sum(|c| c.classes[PixelClass::N as usize])),
+        ("pixels_p", sum(|c| c.classes[PixelClass::P as usize])),
+        ("pixels_f", sum(|c| c.classes[PixelClass::F as usize])),
         ("refused", sum(|c| c.refused)),
         ("samples", sum(|c| c.samples)),
         ("edge_tests", sum(|c| c.edge_tests)),

@@ -25,8 +25,11 @@ mod frame;
 mod judgment;
 mod pixel;
 mod quadrilateral;
+mod step;
 
-use super::{Frame, FrameOptions, Prepared};
+pub use step::{EdgeOf, PixelClass, Refusal, Step};
+
+use super::{Explanation, Frame, FrameOptions, Prepared};
 use crate::error::{Error, Result};
 use crate::scene::InverseProjection;
 use crate::scene::file::Named;
@@ -59,6 +62,11 @@ impl<'s> Prepare<'s> {
         let index = EdgeIndex::new(areas, &stage.mesh.plan_bounds());
         Ok(Self { stage, settings: stage.scene.technique.inverse_projection, index })
     }
+
+    /// The steps of a pixel (column, row) of a view's picture, and its code values; see [`super::explain`].
+    pub fn steps_of(&self, view: &ViewFrame, pixel: [usize; 2]) -> (Vec<Step>, [u8; 4]) {
+        frame::explain((self.stage, view), &self.settings, &self.index, pixel)
+    }
 }
 
 /// Whether the technique can draw the scene.
@@ -79,6 +87,11 @@ pub fn applies(stage: &Stage) -> Result<()> {
 impl Prepared for Prepare<'_> {
     fn frame(&self, view: &ViewFrame, options: &FrameOptions) -> Result<Frame> {
         Ok(frame::draw((self.stage, view), &self.settings, &self.index, options))
+    }
+
+    fn steps(&self, view: &ViewFrame, pixel: [usize; 2]) -> Result<Explanation> {
+        let (steps, code) = self.steps_of(view, pixel);
+        Ok(Explanation::new(steps, code))
     }
 
     fn structure_bytes(&self) -> usize {

@@ -3,7 +3,8 @@
 use super::edge_index::{EdgeIndex, Winding};
 use super::judgment::{Judge, NearEdge};
 use super::quadrilateral::Quadrilateral;
-use crate::canvas::{Backdrop, GBuffer, LastGround};
+use super::step::{EdgeOf, PixelClass, Refusal, Step};
+use crate::canvas::{Backdrop, GBuffer, LastGround, Record};
 use crate::raster::Lattice;
 use crate::resolve::Paint;
 use crate::scene::{Corners, InverseProjection, Silhouette};
@@ -11,13 +12,6 @@ use crate::space::{Plan, PlanBox, ViewFrame};
 use crate::stage::Stage;
 use crate::visibility::{Hit, hit};
 use std::ops::Range;
-
-/// The classes of pixels (She 3.3), as the `class` buffer holds them.
-pub const N: u8 = 0;
-/// See [`N`].
-pub const P: u8 = 1;
-/// See [`N`].
-pub const F: u8 = 2;
 
 /// Up to so many areas partly in a pixel, samples are told apart by which of them they lie in.
 const FEW: usize = 4;
@@ -51,7 +45,7 @@ pub struct Pixel {
     /// Its colour.
     pub paint: Paint,
     /// Its class.
-    pub class: u8,
+    pub class: PixelClass,
     /// How many edges meet its quadrilateral.
     pub edges: u32,
     /// What it sees of the plan.
@@ -88,6 +82,27 @@ struct Involved {
     area: u32,
     /// Its edges that meet the pixel, as a range of the list of near edges; empty: the whole pixel lies in the area.
     near: Range<usize>,
+}
+
+/// What a pixel's centre sees.
+struct Centre {
+    plan: Plan,
+    /// The terrain's own paint there.
+    ground: Paint,
+}
+
+impl Lists {
+    /// The areas with an edge in the pixel.
+    fn partly(&self) -> impl Iterator<Item = &Involved> {
+        self.involved.iter().filter(|involved| !involved.near.is_empty())
+    }
+
+    /// The areas with a part in the pixel, as a step.
+    fn areas(&self) -> Step {
+        let (whole, partly): (Vec<&Involved>, _) = self.involved.iter().partition(|i| i.near.is_empty());
+        let numbers = |areas: Vec<&Involved>| areas.iter().map(|involved| involved.area).collect();
+        Step::Areas { whole: numbers(whole), partly: numbers(partly) }
+    }
 }
 
 impl<'a> PixelPainter<'a> {
@@ -137,30 +152,43 @@ impl<'a> PixelPainter<'a> {
     }
 
     /// Decides a pixel.
-    pub fn pixel(&self, at: (usize, usize), lists: &mut Lists, counts: &mut Counts) -> Pixel {
+    pub fn pixel<R: Record<Step>>(
+        &self,
+        at: (usize, usize),
+        lists: &mut Lists,
+        counts: &mut Counts,
+        record: &mut R,
+    ) -> Pixel {
         // The lattice of centres starts before the picture.
-        let centre = (at.0 + GUARD, at.1 + GUARD);
-        let plan = self.centres.plan(centre.0, centre.1);
+        let (column, row) = (at.0 + GUARD, at.1 + GUARD);
+        let plan = self.centres.plan(column, row);
         if !plan.is_finite() {
-            return Pixel { paint: self.backdrop.sky, class: N, edges: 0, quad: Quadrilateral::point(plan) };
+            record.step(|| Step::Sky);
+            let quad = Quadrilateral::point(plan);
+            return Pixel { paint: self.backdrop.sky, class: PixelClass::N, edges: 0, quad };
         }
-        let triangle = self.centres.triangle(centre.0, centre.1);
+        let triangle = self.centres.triangle(column, row);
         let ground = self.backdrop.paint_at(&mut lists.ground, triangle, || plan);
+        let centre = Centre { plan, ground };
+        record.step(|| Step::Ground { triangle, plan, paint: ground });
         let Some(quad) = self.range(at) else {
             counts.refused += 1;
-            return self.whole(Quadrilateral::point(plan), plan, ground, lists);
+            record.step(|| Step::Refused(Refusal::Sky));
+            return self.whole(Quadrilateral::point(plan), &centre, lists, record);
         };
+        record.step(|| Step::Range(quad.0));
         // Only where edges may be near does it matter whether the range means anything.
         let bounds = quad.bounds();
         if !self.keeps_quads && lists.empty.contains(&bounds) {
-            return Pixel { paint: ground, class: N, edges: 0, quad };
+            return Pixel { paint: ground, class: PixelClass::N, edges: 0, quad };
         }
         let may_meet_edges = self.judge.index.has_edges_near(&bounds);
         let is_doubtful =
             (may_meet_edges || self.keeps_quads) && self.settings.silhouette == Silhouette::Centre;
         if is_doubtful && self.spans_silhouette(at) {
             counts.refused += u64::from(may_meet_edges);
-            return self.whole(Quadrilateral::point(plan), plan, ground, lists);
+            record.step(|| Step::Refused(Refusal::Silhouette));
+            return self.whole(Quadrilateral::point(plan), &centre, lists, record);
         }
         lists.near.clear();
         if may_meet_edges {
@@ -169,12 +197,15 @@ impl<'a> PixelPainter<'a> {
             lists.empty = empty;
         }
         if lists.near.is_empty() {
-            return self.whole(quad, plan, ground, lists);
+            return self.whole(quad, &centre, lists, record);
         }
-        counts.samples += u64::from(self.settings.samples * self.settings.samples);
-        counts.edge_tests +=
-            u64::from(self.settings.samples * self.settings.samples) * lists.near.len() as u64;
-        Pixel { paint: self.mean(&quad, plan, ground, lists), class: P, edges: lists.near.len() as u32, quad }
+        let (samples, edges) = (u64::from(self.settings.samples * self.settings.samples), lists.near.len());
+        counts.samples += samples;
+        counts.edge_tests += samples * edges as u64;
+        record.step(|| Step::NearEdges(lists.near.iter().map(|&edge| self.edge_of(edge)).collect()));
+        record.step(|| Step::Class(PixelClass::P));
+        let paint = self.mean(&quad, &centre, lists, record);
+        Pixel { paint, class: PixelClass::P, edges: edges as u32, quad }
     }
 
     /// She 3.2, Fig. 6b: the quadrilateral of a pixel from the centres of itself and its right, upper right and upper
@@ -227,46 +258,79 @@ impl<'a> PixelPainter<'a> {
         });
     }
 
+    fn edge_of(&self, edge: u32) -> EdgeOf {
+        let edge = self.judge.index.edge(edge);
+        EdgeOf { area: edge.area, from: edge.a, to: edge.b }
+    }
+
     /// A pixel without edges: N, or F in the areas around its centre.
-    fn whole(&self, quad: Quadrilateral, plan: Plan, ground: Paint, lists: &mut Lists) -> Pixel {
+    fn whole<R: Record<Step>>(
+        &self,
+        quad: Quadrilateral,
+        centre: &Centre,
+        lists: &mut Lists,
+        record: &mut R,
+    ) -> Pixel {
         lists.near.clear();
-        self.involve(plan, lists);
-        if lists.involved.is_empty() {
-            return Pixel { paint: ground, class: N, edges: 0, quad };
-        }
+        self.involve(centre.plan, lists);
         let is_covered = lists.involved.iter().any(|i| self.paints[i.area as usize].is_some());
-        let paint = self.compose(ground, &lists.involved, |_| true);
-        Pixel { paint, class: if is_covered { F } else { N }, edges: 0, quad }
+        let class = if is_covered { PixelClass::F } else { PixelClass::N };
+        record.step(|| Step::Class(class));
+        record.step(|| lists.areas());
+        let paint = self.compose(centre.ground, &lists.involved, |_| true);
+        Pixel { paint, class, edges: 0, quad }
     }
 
     /// She 3.5: the mean of the composed colours of the samples (3.4).
-    fn mean(&self, quad: &Quadrilateral, plan: Plan, ground: Paint, lists: &mut Lists) -> Paint {
-        self.involve(plan, lists);
+    fn mean<R: Record<Step>>(
+        &self,
+        quad: &Quadrilateral,
+        centre: &Centre,
+        lists: &mut Lists,
+        record: &mut R,
+    ) -> Paint {
+        self.involve(centre.plan, lists);
+        record.step(|| lists.areas());
         lists.ready.clear();
         lists.ready.extend(lists.near.iter().map(|&e| NearEdge::new(self.judge.index.edge(e))));
-        let partial = lists.involved.iter().filter(|i| !i.near.is_empty()).count();
         let n = self.settings.samples;
-        let sum = if partial <= FEW {
-            self.sum_of_kinds(quad.samples(n), ground, lists)
+        let sum = if lists.partly().count() <= FEW {
+            self.sum_of_kinds(quad.samples(n), centre.ground, lists, record)
         } else {
-            quad.samples(n).fold(Paint::CLEAR, |sum, sample| {
-                let is_in = |at: usize| self.is_in(&lists.involved[at], sample, lists);
-                sum.plus(self.compose(ground, &lists.involved, is_in))
+            quad.samples(n).fold(Paint::CLEAR, |sum, at| {
+                let is_in = |k: usize| self.is_in(&lists.involved[k], at, lists);
+                record.step(|| {
+                    let within = lists.partly().filter(|involved| self.is_in(involved, at, lists));
+                    Step::Sample { at, within: within.map(|involved| involved.area).collect() }
+                });
+                sum.plus(self.compose(centre.ground, &lists.involved, is_in))
             })
         };
-        sum.divided_by(f64::from(n * n))
+        let mean = sum.divided_by(f64::from(n * n));
+        record.step(|| Step::Mean(mean));
+        mean
     }
 
     /// The sum of the samples' colours where few areas are partly in the pixel: samples in the same areas have the same colour,
     /// which is composed once.
-    fn sum_of_kinds(&self, samples: impl Iterator<Item = Plan>, ground: Paint, lists: &Lists) -> Paint {
+    fn sum_of_kinds<R: Record<Step>>(
+        &self,
+        samples: impl Iterator<Item = Plan>,
+        ground: Paint,
+        lists: &Lists,
+        record: &mut R,
+    ) -> Paint {
         let mut counts = [0u32; 1 << FEW];
-        for sample in samples {
+        for at in samples {
             let mut kind = 0;
-            for (bit, involved) in lists.involved.iter().filter(|i| !i.near.is_empty()).enumerate() {
-                kind |= usize::from(self.is_in(involved, sample, lists)) << bit;
+            for (bit, involved) in lists.partly().enumerate() {
+                kind |= usize::from(self.is_in(involved, at, lists)) << bit;
             }
             counts[kind] += 1;
+            record.step(|| {
+                let within = lists.partly().enumerate().filter(|(bit, _)| kind >> bit & 1 == 1);
+                Step::Sample { at, within: within.map(|(_, involved)| involved.area).collect() }
+            });
         }
         let mut sum = Paint::CLEAR;
         for (kind, count) in counts.into_iter().enumerate().filter(|(_, count)| *count > 0) {

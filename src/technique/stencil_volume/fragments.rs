@@ -4,7 +4,7 @@ use super::block::{BEFORE, BEHIND, COLUMNS, NONE, OPEN, ROWS};
 use super::context::Way;
 use super::face::{Face, Fragment, Outline};
 use super::stencil::Method;
-use super::tile::Tile;
+use super::tile::{Tile, sample_of};
 use super::view::Entry;
 use crate::predicate;
 use crate::raster::device::Window;
@@ -12,11 +12,11 @@ use crate::space::{Lens, Ray};
 use crate::terrain::SKY;
 
 /// Takes the fragments of a face.
-pub type Visit<'v, 'a> = dyn FnMut(&mut Tile<'a>, (usize, usize), Fragment) + 'v;
+pub type Visit<'v, 'a, R> = dyn FnMut(&mut Tile<'a, R>, (usize, usize), Fragment) + 'v;
 
-impl<'a> Tile<'a> {
+impl<'a, R> Tile<'a, R> {
     /// Calls `visit` with each fragment of a face that is no volume's own (a box's).
-    pub fn for_each_fragment(&mut self, outline: &Outline, entry: &Entry, visit: &mut Visit<'_, 'a>) {
+    pub fn for_each_fragment(&mut self, outline: &Outline, entry: &Entry, visit: &mut Visit<'_, 'a, R>) {
         if self.context.way == Way::Machine {
             return self.visit_on_machine(outline, visit);
         }
@@ -27,7 +27,7 @@ impl<'a> Tile<'a> {
     }
 
     /// Calls `visit` with each fragment of a face, exactly.
-    pub fn visit_face(&mut self, face: &Face, visit: &mut Visit<'_, 'a>) {
+    pub fn visit_face(&mut self, face: &Face, visit: &mut Visit<'_, 'a, R>) {
         let mut states = [NONE; COLUMNS];
         for y in face.rows.0 / ROWS..=face.rows.1 / ROWS {
             for x in face.columns.0 / COLUMNS..=face.columns.1 / COLUMNS {
@@ -57,7 +57,7 @@ impl<'a> Tile<'a> {
     #[cold]
     fn decide(&mut self, face: &Face, at: (usize, usize)) -> Option<Fragment> {
         self.counts.exact_decisions += 1;
-        let (c, r) = self.sample(at);
+        let [c, r] = sample_of(&self.blocks, at);
         let ray = self.view.ray(c, r);
         let id = self.context.sight.triangle(self.view.column + c, self.view.row + r);
         let ground = if id == SKY { None } else { self.context.stage.mesh.triangle(id) };
@@ -81,7 +81,7 @@ impl<'a> Tile<'a> {
     }
 
     /// Calls `visit` with each fragment of a face that the imitated machine draws.
-    pub fn visit_on_machine(&mut self, outline: &Outline, visit: &mut Visit<'_, 'a>) {
+    pub fn visit_on_machine(&mut self, outline: &Outline, visit: &mut Visit<'_, 'a, R>) {
         let context = self.context;
         let Some(machine) = context.sight.machine() else { return };
         let (column, row) = (self.view.column, self.view.row);
@@ -113,14 +113,14 @@ impl<'a> Tile<'a> {
 }
 
 /// Counts the faces of a volume in some blocks, compiled for the widest vectors of the machine at hand.
-pub struct Sparse<'t, 'a, 'f> {
-    pub tile: &'t mut Tile<'a>,
+pub struct Sparse<'t, 'a, 'f, R> {
+    pub tile: &'t mut Tile<'a, R>,
     pub faces: &'f [Face],
     pub method: Method,
     pub blocks: &'f [usize],
 }
 
-impl pulp::WithSimd for Sparse<'_, '_, '_> {
+impl<R> pulp::WithSimd for Sparse<'_, '_, '_, R> {
     type Output = ();
 
     #[inline(always)]

@@ -1,19 +1,22 @@
 //! One frame: what the samples see, volumes to tiles, tiles to a picture (Fig. 4).
 
 use super::block::SIZE;
-use super::context::FrameContext;
+use super::context::{FrameContext, Way};
 use super::extrusion::Extrusion;
 use super::stencil::{Method, TRACES, Traces};
+use super::step::Step;
 use super::tile::{Counts, Tile};
 use super::view::Entry;
 use crate::buffer::{Buffer, Plane, Values};
-use crate::canvas::{Frame, FrameOptions, Pixels, mean, picture_plane, sight_counts, surface_plane};
+use crate::canvas::{Frame, FrameOptions, Pixels, Record, mean, picture_plane, sight_counts, surface_plane};
 use crate::index::bins;
 use crate::parallel;
 use crate::raster::TileView;
 use crate::space::ViewFrame;
 use crate::stage::Stage;
+use crate::terrain::SKY;
 use crate::tiling::Tiling;
+use crate::visibility::TILE;
 
 /// The most samples a side of a tile: single precision resolves them (see [`TileView`]).
 const MOST: usize = 512;
@@ -64,28 +67,64 @@ pub fn draw((stage, view): (&Stage, &ViewFrame), extrusion: &Extrusion, options:
     }
 }
 
+/// Decides one pixel of a view as a frame does: its steps and its code values. A tile of this pixel alone is drawn; where a frame counts
+/// in passing, every face is counted here, which makes the same masks.
+pub fn explain(
+    (stage, view): (&Stage, &ViewFrame),
+    extrusion: &Extrusion,
+    [x, y]: [usize; 2],
+) -> (Vec<Step>, [u8; 4]) {
+    let options = FrameOptions { tile: TILE, buffers: &[], progress: &|_| {} };
+    let mut context = FrameContext::new((stage, view), extrusion, &options);
+    if context.way == Way::Sparse {
+        context.way = Way::Full;
+    }
+    let (n, mut entries) = (context.samples(), context.looks.entries(extrusion));
+    let (column, row) = (x * n, y * n);
+    entries.retain(|entry| {
+        let [c0, r0, c1, r1] = entry.window.map(|v| v as usize);
+        c0 < column + n && column <= c1 && r0 < row + n && row <= r1
+    });
+    let pixel = TileView::new(view, context.sight.lattice(), (column, row), n);
+    let mut tile = Tile::new(&context, pixel, &entries, Vec::new());
+    tile.draw(&entries);
+    let pixels = pixels(&mut tile, false);
+    (tile.record, pixels.codes()[0])
+}
+
 fn draw_tile(context: &FrameContext, view: TileView, entries: &[Entry], wants_colors: bool) -> Drawn {
-    let n = context.samples();
-    let (width, height) = (view.width / n, view.height / n);
-    let mut tile = Tile::new(context, view, entries);
+    let mut tile = Tile::new(context, view, entries, ());
     tile.draw(entries);
+    let pixels = pixels(&mut tile, wants_colors);
+    Drawn { pixels, traces: tile.traces.as_ref().map(|traces| planes_of(&tile, traces)), counts: tile.counts }
+}
+
+/// The pixels of a tile that has been drawn.
+fn pixels<R: Record<Step>>(tile: &mut Tile<R>, wants_colors: bool) -> Pixels {
+    let (context, n) = (tile.context, tile.context.samples());
+    let (width, height) = (tile.view.width / n, tile.view.height / n);
     let mut pixels = Pixels::new(context.backdrop.compositor, width * height, wants_colors);
     let mut last = context.backdrop.no_ground();
     for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
-        let mut ground = |c, r| context.ground_paint(&mut last, (tile.view.column + c, tile.view.row + r));
+        let mut is_ground = true;
+        let paint = mean(n, |c, r| {
+            let at = (x * n + c, y * n + r);
+            let seen_at = (tile.view.column + at.0, tile.view.row + at.1);
+            let painted = tile.painted(at.0, at.1);
+            is_ground &= painted.is_none();
+            let paint = painted.unwrap_or_else(|| context.ground_paint(&mut last, seen_at));
+            tile.record.step(|| {
+                let triangle = context.sight.triangle(seen_at.0, seen_at.1);
+                Step::Sample { sample: at.into(), triangle: (triangle != SKY).then_some(triangle), paint }
+            });
+            paint
+        });
         if n > 1 {
-            pixels.push(mean(n, |c, r| {
-                let (c, r) = (x * n + c, y * n + r);
-                tile.painted(c, r).unwrap_or_else(|| ground(c, r))
-            }));
-            continue;
+            tile.record.step(|| Step::Mean(paint));
         }
-        match tile.painted(x, y) {
-            Some(paint) => pixels.push(paint),
-            None => pixels.push_ground(ground(x, y)),
-        }
+        if is_ground { pixels.push_ground(paint) } else { pixels.push(paint) }
     }
-    Drawn { pixels, traces: tile.traces.as_ref().map(|traces| planes_of(&tile, traces)), counts: tile.counts }
+    pixels
 }
 
 /// The planes of a tile, rows from the top.

@@ -23,13 +23,16 @@ mod heights;
 mod passes;
 mod points;
 mod stencil;
+mod step;
 mod stroke;
 #[cfg(test)]
 mod tests;
 mod tile;
 mod view;
 
-use super::{Frame, FrameOptions, Prepared};
+pub use step::Step;
+
+use super::{Explanation, Frame, FrameOptions, Prepared};
 use crate::error::{Error, Result};
 use crate::scene::file::Named;
 use crate::scene::{Layer, OutlineMode};
@@ -70,6 +73,15 @@ impl<'s> Prepare<'s> {
             ));
         }
         Ok(Self { stage, extrusion })
+    }
+
+    /// The steps of a pixel (column, row) of a view's picture, and its code values; see [`super::explain`].
+    ///
+    /// # Errors
+    /// When there is no room for the samples of the picture.
+    pub fn steps_of(&self, view: &ViewFrame, pixel: [usize; 2]) -> Result<(Vec<Step>, [u8; 4])> {
+        has_room((view.width(), view.height()), self.stage.scene.technique.stencil_volume.samples)?;
+        Ok(frame::explain((self.stage, view), &self.extrusion, pixel))
     }
 }
 
@@ -119,6 +131,11 @@ impl Prepared for Prepare<'_> {
         let settings = &self.stage.scene.technique.stencil_volume;
         has_room((view.width(), view.height()), settings.samples)?;
         Ok(frame::draw((self.stage, view), &self.extrusion, options))
+    }
+
+    fn steps(&self, view: &ViewFrame, pixel: [usize; 2]) -> Result<Explanation> {
+        let (steps, code) = self.steps_of(view, pixel)?;
+        Ok(Explanation::new(steps, code))
     }
 
     fn structure_bytes(&self) -> usize {

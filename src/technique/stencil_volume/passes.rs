@@ -14,11 +14,13 @@ use super::context::Way;
 use super::face::{Face, Fragment, Outline};
 use super::fragments::Sparse;
 use super::stencil::{Method, passes};
-use super::tile::Tile;
+use super::step::Step;
+use super::tile::{Tile, sample_of};
 use super::view::Entry;
+use crate::canvas::Record;
 use crate::scene::{Rule, VolumeCaps};
 
-impl Tile<'_> {
+impl<R: Record<Step>> Tile<'_, R> {
     /// Draws volumes in order, each pass's mask once (4.2).
     pub fn draw(&mut self, entries: &[Entry]) {
         for pass in entries.chunk_by(|a, b| a.pass == b.pass) {
@@ -41,8 +43,10 @@ impl Tile<'_> {
     /// The first sub-step of an outline that is cut: what the polygon's mask says is kept in a bit.
     fn cut(&mut self, cutters: &[Entry], rule: Rule) {
         self.for_each_masked(cutters, |tile, at| {
-            let is_inside = passes(tile.stencil.take(at), rule);
+            let value = tile.stencil.take(at);
+            let is_inside = passes(value, rule);
             tile.stencil.inside[at.0][at.1] |= is_inside;
+            tile.record.step(|| Step::Cut { sample: sample_of(&tile.blocks, at), value, is_inside });
         });
     }
 
@@ -73,9 +77,14 @@ impl Tile<'_> {
                 }
             }
             let is_kept = keeps_inside.is_none_or(|keep| tile.stencil.inside[at.0][at.1] == keep);
-            if is_kept && passes(value, rule) {
+            let is_painted = is_kept && passes(value, rule);
+            if is_painted {
                 tile.paint(at, paint);
             }
+            tile.record.step(|| {
+                let sample = sample_of(&tile.blocks, at);
+                Step::Mask { sample, pass: entry.pass, value, paint: is_painted.then_some(paint) }
+            });
         });
     }
 
@@ -169,6 +178,15 @@ impl Tile<'_> {
     fn count_one(&mut self, entry: &Entry, at: (usize, usize), method: Method, fragment: Fragment) {
         self.counts.fragments += 1;
         let step = self.stencil.count(at, method, fragment);
+        self.record.step(|| Step::Crossing {
+            sample: sample_of(&self.blocks, at),
+            pass: entry.pass,
+            volume: entry.volume,
+            is_front: fragment.facing > 0,
+            is_behind: fragment.is_behind,
+            step,
+            count: self.stencil.counts[at.0][at.1],
+        });
         if let (Some(traces), true) = (&mut self.traces, self.context.is_traced(entry.pass)) {
             traces.overdraw[at.0][at.1] += 1;
             if step != 0 && !entry.is_cutter {

@@ -38,7 +38,7 @@ impl Counts {
 }
 
 /// A tile being drawn.
-pub struct Tile<'a> {
+pub struct Tile<'a, R = ()> {
     /// What all tiles are drawn with.
     pub context: &'a FrameContext<'a>,
     /// Which tile.
@@ -59,12 +59,14 @@ pub struct Tile<'a> {
     pub counts: Counts,
     /// Room for the faces of a volume.
     pub faces: Vec<Face>,
+    /// What takes the steps on the way to the samples' colours.
+    pub record: R,
     ground: LastGround,
 }
 
-impl<'a> Tile<'a> {
+impl<'a, R> Tile<'a, R> {
     /// A tile before anything is drawn into it; `entries` are the volumes that will be.
-    pub fn new(context: &'a FrameContext, view: TileView, entries: &[Entry]) -> Self {
+    pub fn new(context: &'a FrameContext, view: TileView, entries: &[Entry], record: R) -> Self {
         let size = (view.width, view.height);
         let (place, blocks) = points::seen(context, &view, entries);
         let count = blocks.len();
@@ -78,6 +80,7 @@ impl<'a> Tile<'a> {
             traces: context.wants_traces.then(|| Traces::new(count)),
             counts: Counts::default(),
             faces: Vec::new(),
+            record,
             ground: context.backdrop.no_ground(),
             view,
         }
@@ -109,13 +112,8 @@ impl<'a> Tile<'a> {
         (block, row % ROWS * COLUMNS + column % COLUMNS)
     }
 
-    /// Column and row in the tile of a block's sample.
-    pub fn sample(&self, (block, at): (usize, usize)) -> (usize, usize) {
-        (self.blocks[block].column + at % COLUMNS, self.blocks[block].row + at / COLUMNS)
-    }
-
     fn ground_at(&mut self, at: (usize, usize)) -> Paint {
-        let (c, r) = self.sample(at);
+        let [c, r] = sample_of(&self.blocks, at);
         self.context.ground_paint(&mut self.ground, (self.view.column + c, self.view.row + r))
     }
 
@@ -124,4 +122,9 @@ impl<'a> Tile<'a> {
         let is_open_above = self.context.settings.caps == VolumeCaps::Bottom;
         Setup { view: &self.view, place: self.place, is_open_above }
     }
+}
+
+/// Column and row in the tile of a block's sample.
+pub fn sample_of(blocks: &[Block], (block, at): (usize, usize)) -> [usize; 2] {
+    [blocks[block].column + at % COLUMNS, blocks[block].row + at / COLUMNS]
 }
