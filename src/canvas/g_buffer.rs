@@ -1,6 +1,6 @@
 //! What samples see, and the buffers that show it.
 
-use super::picture_plane;
+use super::frame::picture_plane;
 use crate::buffer::{Plane, Values};
 use crate::parallel;
 use crate::raster::{Counts, Lattice};

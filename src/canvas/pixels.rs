@@ -1,6 +1,6 @@
 //! Paints of pixels -> code values and, where they are wanted, colours.
 
-use super::Kept;
+use super::frame::Kept;
 use crate::resolve::{Compositor, Paint, code_values};
 
 /// Finished pixels, in the order in which they were pushed.

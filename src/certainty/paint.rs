@@ -1,6 +1,6 @@
 //! Paints that are known between bounds, and what they are over, under and on average.
 
-use super::Known;
+use super::known::Known;
 use crate::resolve::{Compositor, Paint};
 use crate::scene::BlendMode;
 

@@ -1,6 +1,6 @@
 //! A packed tree of boxes: which of many boxes meet one.
 
-use super::morton;
+use super::morton::morton;
 use crate::parallel;
 use crate::space::{Plan, PlanBox, SmallBox};
 
