@@ -99,3 +99,19 @@ pub fn with_threads<U: Send>(threads: usize, f: impl FnOnce() -> U + Send) -> Re
     })?;
     Ok(pool.install(f))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::Mutex;
+
+    #[test]
+    fn progress_is_told_once_a_piece_and_ends_with_all() {
+        let told = Mutex::new(Vec::new());
+        let squares = map_telling(5, &|share| told.lock().unwrap().push(share), |k| k * k);
+        assert_eq!(squares, [0, 1, 4, 9, 16]);
+        let mut told = told.into_inner().unwrap();
+        told.sort_by(f64::total_cmp);
+        assert_eq!(told, [0.2, 0.4, 0.6, 0.8, 1.0]);
+    }
+}

@@ -44,10 +44,41 @@ impl<'a> Backdrop<'a> {
         if triangle == SKY {
             return self.sky;
         }
-        if triangle != last.triangle || !self.ground.is_constant_on_triangles() {
-            let plan = if self.ground.is_constant_on_triangles() { Plan::default() } else { plan() };
-            *last = LastGround { triangle, paint: self.ground.at(triangle, plan) };
+        if !self.ground.is_constant_on_triangles() {
+            return self.ground.at(triangle, plan());
+        }
+        if triangle != last.triangle {
+            *last = LastGround { triangle, paint: self.ground.at(triangle, Plan::default()) };
         }
         last.paint
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::file::SceneFile;
+
+    fn stage(shade: &str) -> Stage {
+        let text = format!(
+            "schema = 1\nimage = {{ width = 8, height = 8, background = \"#0000ff\" }}\n\
+             terrain = {{ generate = {{ kind = \"cone\", posts = [9, 9], cell_m = 10.0, height_m = 40.0 }}, {shade} }}"
+        );
+        let (scene, surface) =
+            crate::source::load::load(&SceneFile::parse(&text, None, &[]).unwrap(), &|_| {}).unwrap();
+        Stage::new(scene, surface).unwrap()
+    }
+
+    #[test]
+    fn each_triangle_has_its_own_paint_whatever_was_asked_before() {
+        let stage = stage("shade = \"hillshade\", color = \"#808080\"");
+        let backdrop = Backdrop::of(&stage);
+        let mut last = backdrop.no_ground();
+        let alone = |triangle| backdrop.paint_at(&mut backdrop.no_ground(), triangle, Plan::default);
+        for triangle in [3, 3, 90, SKY, 90, 3, SKY, SKY, 17] {
+            assert_eq!(backdrop.paint_at(&mut last, triangle, Plan::default), alone(triangle));
+        }
+        assert_ne!(alone(3), alone(90));
+        assert_eq!(alone(SKY), backdrop.sky);
     }
 }

@@ -55,6 +55,12 @@ impl<T> Kept<T> {
     }
 }
 
+/// The values of all parts, one after another.
+pub fn joined<'p, T: Copy + 'p>(parts: impl Iterator<Item = &'p [T]>) -> Vec<T> {
+    let parts: Vec<&[T]> = parts.collect();
+    parts.concat()
+}
+
 /// A buffer with `components` numbers for each pixel of a picture.
 pub fn picture_plane(
     name: &'static str,

@@ -13,6 +13,7 @@ use crate::visibility::{Hit, Sight};
 #[derive(Debug)]
 pub struct GBuffer<'a> {
     sight: Sight<'a>,
+    columns: usize,
     /// Rows from the top; infinite where the sky is seen.
     plan: Vec<Plan>,
 }
@@ -24,7 +25,7 @@ impl<'a> GBuffer<'a> {
         sight.see();
         let mut plan = vec![Plan::default(); lattice.columns * lattice.rows];
         parallel::for_each_chunk(&mut plan, lattice.columns, |row, points| sight.plan_of_row(row, points));
-        Self { sight, plan }
+        Self { sight, columns: lattice.columns, plan }
     }
 
     /// What is seen.
@@ -41,7 +42,7 @@ impl<'a> GBuffer<'a> {
     /// The plan point of a sample, infinite where the sky is seen.
     #[inline(always)]
     pub fn plan(&self, column: usize, row: usize) -> Plan {
-        self.plan[row * self.sight.lattice().columns + column]
+        self.plan[row * self.columns + column]
     }
 }
 
@@ -68,7 +69,7 @@ pub fn surface_plane(name: &str, sight: &Sight, guard: usize) -> Option<Plane> {
 }
 
 /// What each sample within the guard band has, rows from the top.
-fn inner_rows<T: Send, I: IntoIterator<Item = T>>(
+fn inner_rows<T: Copy + Send, I: IntoIterator<Item = T>>(
     sight: &Sight,
     guard: usize,
     of: impl Fn(usize, usize) -> I + Send + Sync,
@@ -77,7 +78,7 @@ fn inner_rows<T: Send, I: IntoIterator<Item = T>>(
     let rows = parallel::map_indices(lattice.rows - 2 * guard, |row| {
         (guard..lattice.columns - guard).flat_map(|column| of(column, row + guard)).collect::<Vec<T>>()
     });
-    rows.into_iter().flatten().collect()
+    rows.concat()
 }
 
 /// What finding out what is seen took, as a frame counts it.
@@ -87,4 +88,60 @@ pub fn sight_counts(counts: &Counts) -> [(&'static str, u64); 3] {
         ("hidden_nodes", counts.hidden_nodes),
         ("exact_decisions", counts.exact_decisions),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Diagonal, Posts, Surface};
+    use crate::space::{Viewpoint, World};
+    use crate::terrain::SKY;
+    use glam::{DVec2, DVec3};
+
+    /// A sloped square of 20 x 20 m, seen from the south over its northern rim.
+    fn scene() -> (Mesh, ViewFrame) {
+        let heights = (0..441).map(|k| f64::from(k % 21)).collect();
+        let posts = Posts::new((21, 21), Plan::default(), (DVec2::X, DVec2::Y), heights).unwrap();
+        let view = Viewpoint {
+            eye: World::new(10.0, -20.0, 15.0),
+            target: World::new(10.0, 15.0, 12.0),
+            up: DVec3::Z,
+            near: 0.1,
+            far: f64::INFINITY,
+        };
+        let frame = ViewFrame::perspective(&view, 50.0, (12, 8)).unwrap();
+        (Mesh::new(Surface::Grid(posts), Diagonal::SwNe).unwrap(), frame)
+    }
+
+    #[test]
+    fn a_guard_band_leaves_the_picture_as_it_is() {
+        let (mesh, view) = scene();
+        let see = |guard| GBuffer::new(&view, &mesh, &Device::default(), Lattice::centres(&view, guard), 5);
+        let (bare, guarded) = (see(0), see(2));
+        for name in ["depth", "triangle", "plan"] {
+            let plane = surface_plane(name, bare.sight(), 0).unwrap();
+            assert_eq!((plane.name, plane.width, plane.height), (name, 12, 8));
+            assert_eq!(surface_plane(name, guarded.sight(), 2).unwrap(), plane);
+        }
+        assert_eq!(surface_plane("color", bare.sight(), 0), None);
+    }
+
+    #[test]
+    fn planes_say_what_the_samples_see_and_are_infinite_in_the_sky() {
+        let (mesh, view) = scene();
+        let seen = GBuffer::new(&view, &mesh, &Device::default(), Lattice::centres(&view, 0), 5);
+        let plane = |name| surface_plane(name, seen.sight(), 0).unwrap();
+        let (Values::F64(depth), Values::U32(triangle), Values::F64(plan)) =
+            (plane("depth").values, plane("triangle").values, plane("plan").values)
+        else {
+            panic!("other kinds of numbers")
+        };
+        let is_sky = |k: usize| triangle[k] == SKY;
+        assert!((0..96).any(is_sky) && !(0..96).all(is_sky));
+        for k in 0..96 {
+            let at = seen.plan(k % 12, k / 12);
+            assert_eq!([plan[2 * k], plan[2 * k + 1]], [at.x, at.y]);
+            assert_eq!((depth[k].is_infinite(), at.is_finite()), (is_sky(k), !is_sky(k)));
+        }
+    }
 }

@@ -11,7 +11,7 @@ mod pixels;
 mod record;
 
 pub use backdrop::{Backdrop, LastGround};
-pub use frame::{Frame, FrameOptions, Kept, picture_plane};
+pub use frame::{Frame, FrameOptions, Kept, joined, picture_plane};
 pub use g_buffer::{GBuffer, sight_counts, surface_plane};
 pub use pixels::{Pixels, mean};
 pub use record::Record;

@@ -27,11 +27,18 @@ impl Coded {
 
     #[inline(always)]
     fn code_of(&mut self, compositor: &Compositor, paint: Paint) -> [u8; 4] {
-        if paint != self.paint {
+        if !has_same_bits(paint, self.paint) {
             *self = Self::new(compositor, paint);
         }
         self.code
     }
+}
+
+/// Whether two paints have the same bits, without a branch a channel.
+#[inline(always)]
+fn has_same_bits(a: Paint, b: Paint) -> bool {
+    let differ = |c: usize| a.0[c].to_bits() ^ b.0[c].to_bits();
+    differ(0) | differ(1) | differ(2) | differ(3) == 0
 }
 
 impl Pixels {
@@ -86,4 +93,42 @@ pub fn mean(n: usize, mut sample: impl FnMut(usize, usize) -> Paint) -> Paint {
         }
     }
     sum.divided_by((n * n) as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Compositing;
+
+    #[test]
+    fn pixels_have_the_code_values_of_their_own_paints_whatever_came_before() {
+        let compositor = Compositor::new(Compositing::default());
+        let paint = |v: f64| Paint([v, 0.5 * v, 0.0, 1.0]);
+        let values = [0.25, 0.25, 0.75, 0.0, 0.75, 0.25];
+        let mut pixels = Pixels::new(compositor, values.len(), true);
+        for (k, v) in values.into_iter().enumerate() {
+            if k % 2 == 0 { pixels.push(paint(v)) } else { pixels.push_ground(paint(v)) }
+        }
+        let colors = values.map(|v| compositor.encoded(paint(v)));
+        assert_eq!(pixels.colors(), colors);
+        assert_eq!(pixels.codes(), colors.map(code_values));
+    }
+
+    #[test]
+    fn colours_that_nobody_wants_are_not_kept() {
+        let mut pixels = Pixels::new(Compositor::new(Compositing::default()), 1, false);
+        pixels.push(Paint::CLEAR);
+        assert_eq!((pixels.codes().len(), pixels.colors().len()), (1, 0));
+    }
+
+    #[test]
+    fn the_mean_asks_for_each_sample_once_row_by_row() {
+        let mut asked = Vec::new();
+        let mean = mean(2, |column, row| {
+            asked.push((column, row));
+            Paint([(column + 4 * row) as f64; 4])
+        });
+        assert_eq!(asked, [(0, 0), (1, 0), (0, 1), (1, 1)]);
+        assert_eq!(mean, Paint([2.5; 4]));
+    }
 }

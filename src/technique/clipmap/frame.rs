@@ -10,7 +10,7 @@ use super::texture::{ClipRegion, TILE, TileKey};
 use super::tile::{Tile, TileCounts, TileMaker, Workbench};
 use crate::buffer::{Buffer, Plane, Values};
 use crate::canvas::{
-    Backdrop, Frame, FrameOptions, Kept, Pixels, picture_plane, sight_counts, surface_plane,
+    Backdrop, Frame, FrameOptions, Kept, Pixels, joined, picture_plane, sight_counts, surface_plane,
 };
 use crate::error::Result;
 use crate::parallel::{self, Progress};
@@ -244,9 +244,9 @@ impl<'a> Drawing<'a> {
 
     fn finish(&self, rows: &[Row], made: &[Made], fallbacks: u64, options: &FrameOptions) -> Result<Frame> {
         let planes = options.buffers.iter().filter_map(|name| self.plane(name, rows, made).transpose());
-        let codes = rows.iter().flat_map(|row| row.pixels.codes()).copied();
+        let codes = joined(rows.iter().map(|row| row.pixels.codes()));
         Ok(Frame {
-            image: Buffer::from_values(self.view.width(), self.view.height(), codes.collect()),
+            image: Buffer::from_values(self.view.width(), self.view.height(), codes),
             planes: planes.collect::<Result<_>>()?,
             counts: self.counts(rows, made, fallbacks),
         })
@@ -276,8 +276,8 @@ impl<'a> Drawing<'a> {
             "vertices" => self.prepared.sequences(self.maker.pixel_m)?.vertices_plane(),
             "strips" => self.prepared.sequences(self.maker.pixel_m)?.strips_plane(),
             "level" => {
-                let levels = rows.iter().flat_map(|row| row.levels.values());
-                picture_plane("level", size, 1, Values::F64(levels.copied().collect()))
+                let levels = joined(rows.iter().map(|row| row.levels.values()));
+                picture_plane("level", size, 1, Values::F64(levels))
             }
             "tile" => {
                 let number = |key: &TileKey| made.binary_search_by_key(key, |tile| tile.key);
@@ -286,8 +286,8 @@ impl<'a> Drawing<'a> {
                 picture_plane("tile", size, 1, Values::U32(numbers.collect()))
             }
             "texels" => {
-                let texels = rows.iter().flat_map(|row| row.texels.values());
-                picture_plane("texels", size, 1, Values::U32(texels.copied().collect()))
+                let texels = joined(rows.iter().map(|row| row.texels.values()));
+                picture_plane("texels", size, 1, Values::U32(texels))
             }
             "tile-keys" => {
                 let keys = made.iter().flat_map(|Made { key, .. }| [key.level, key.column, key.row]);
@@ -295,8 +295,8 @@ impl<'a> Drawing<'a> {
             }
             "tiles" => self.tiles_plane(made),
             "color" => {
-                let colors = rows.iter().flat_map(|row| row.pixels.colors().as_flattened());
-                picture_plane("color", size, 4, Values::F64(colors.copied().collect()))
+                let colors = joined(rows.iter().map(|row| row.pixels.colors().as_flattened()));
+                picture_plane("color", size, 4, Values::F64(colors))
             }
             _ => return Ok(surface_plane(name, &self.painter.sight, 0)),
         }))

@@ -37,6 +37,7 @@ pub(super) type LastPlane<'a> = Option<(u32, Option<FootprintPlane<'a>>)>;
 
 impl<'a> PixelPainter<'a> {
     /// Where a pixel whose centre sees a plan point reads the texture; `None`: it sees the sky.
+    #[inline(always)]
     pub(super) fn reading(
         &self,
         (x, y): (usize, usize),
@@ -122,6 +123,7 @@ impl<'a> PixelPainter<'a> {
     }
 
     /// The texture's paint where a pixel reads it, and how many texels it reads.
+    #[inline(always)]
     fn texture_at(&self, probes: &Probes, table: &Table, record: &mut impl Record<Step>) -> (Paint, u32) {
         let (mut sum, mut texels) = ([0.0; 4], 0);
         let mut add = |tile: TileKey, at: (usize, usize), value: [f32; 4], weight: f64| {

@@ -80,6 +80,7 @@ impl Sampler {
     }
 
     /// The probes of a pixel that sees a plan point; without a footprint it sees the ground edge-on.
+    #[inline(always)]
     pub(super) fn probes(&self, at: Plan, footprint: Option<&PixelFootprint>) -> Probes {
         let center = self.texture.texel(0, at);
         let coarsest = f64::from(self.texture.levels() - 1);

@@ -4,7 +4,7 @@ use super::edge_index::EdgeIndex;
 use super::pixel::{Counts, GUARD, PixelPainter};
 use super::step::{PixelClass, Step};
 use crate::buffer::{Buffer, Plane, Values};
-use crate::canvas::{Frame, FrameOptions, Kept, Pixels, picture_plane, sight_counts, surface_plane};
+use crate::canvas::{Frame, FrameOptions, Kept, Pixels, joined, picture_plane, sight_counts, surface_plane};
 use crate::parallel;
 use crate::resolve::code_values;
 use crate::scene::InverseProjection;
@@ -37,10 +37,10 @@ pub fn draw(
     let (width, height) = (view.width(), view.height());
     let progress = |share: f64| (options.progress)(0.5 + 0.5 * share);
     let rows = parallel::map_telling(height, &progress, |y| row(&painter, y, width, options));
-    let codes = rows.iter().flat_map(|row| row.pixels.codes()).copied();
+    let codes = joined(rows.iter().map(|row| row.pixels.codes()));
     let wanted = ORDER.into_iter().filter(|name| options.wants(name));
     Frame {
-        image: Buffer::from_values(width, height, codes.collect()),
+        image: Buffer::from_values(width, height, codes),
         planes: wanted.filter_map(|name| plane(name, &painter, &rows, [width, height])).collect(),
         counts: counts(&painter, index, &rows),
     }
@@ -89,20 +89,20 @@ fn row(painter: &PixelPainter, y: usize, width: usize, options: &FrameOptions) -
 fn plane(name: &str, painter: &PixelPainter, rows: &[Row], size: [usize; 2]) -> Option<Plane> {
     Some(match name {
         "color" => {
-            let colors = rows.iter().flat_map(|row| row.pixels.colors().as_flattened());
-            picture_plane("color", size, 4, Values::F64(colors.copied().collect()))
+            let colors = joined(rows.iter().map(|row| row.pixels.colors().as_flattened()));
+            picture_plane("color", size, 4, Values::F64(colors))
         }
         "class" => {
-            let classes = rows.iter().flat_map(|row| row.classes.values());
-            picture_plane("class", size, 1, Values::U8(classes.copied().collect()))
+            let classes = joined(rows.iter().map(|row| row.classes.values()));
+            picture_plane("class", size, 1, Values::U8(classes))
         }
         "quad" => {
-            let quads = rows.iter().flat_map(|row| row.quads.values().as_flattened());
-            picture_plane("quad", size, 8, Values::F64(quads.copied().collect()))
+            let quads = joined(rows.iter().map(|row| row.quads.values().as_flattened()));
+            picture_plane("quad", size, 8, Values::F64(quads))
         }
         "edges" => {
-            let edges = rows.iter().flat_map(|row| row.edges.values());
-            picture_plane("edges", size, 1, Values::U32(edges.copied().collect()))
+            let edges = joined(rows.iter().map(|row| row.edges.values()));
+            picture_plane("edges", size, 1, Values::U32(edges))
         }
         _ => return surface_plane(name, painter.centres().sight(), GUARD),
     })

@@ -152,6 +152,7 @@ impl<'a> PixelPainter<'a> {
     }
 
     /// Decides a pixel.
+    #[inline(always)]
     pub fn pixel<R: Record<Step>>(
         &self,
         at: (usize, usize),

@@ -8,10 +8,13 @@ use super::step::Step;
 use super::tile::{Counts, Tile};
 use super::view::Entry;
 use crate::buffer::{Buffer, Plane, Values};
-use crate::canvas::{Frame, FrameOptions, Pixels, Record, mean, picture_plane, sight_counts, surface_plane};
+use crate::canvas::{
+    Frame, FrameOptions, LastGround, Pixels, Record, mean, picture_plane, sight_counts, surface_plane,
+};
 use crate::index::bins;
 use crate::parallel;
 use crate::raster::TileView;
+use crate::resolve::Paint;
 use crate::space::ViewFrame;
 use crate::stage::Stage;
 use crate::terrain::SKY;
@@ -105,26 +108,38 @@ fn pixels<R: Record<Step>>(tile: &mut Tile<R>, wants_colors: bool) -> Pixels {
     let (width, height) = (tile.view.width / n, tile.view.height / n);
     let mut pixels = Pixels::new(context.backdrop.compositor, width * height, wants_colors);
     let mut last = context.backdrop.no_ground();
-    for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
-        let mut is_ground = true;
-        let paint = mean(n, |c, r| {
-            let at = (x * n + c, y * n + r);
-            let seen_at = (tile.view.column + at.0, tile.view.row + at.1);
-            let painted = tile.painted(at.0, at.1);
-            is_ground &= painted.is_none();
-            let paint = painted.unwrap_or_else(|| context.ground_paint(&mut last, seen_at));
-            tile.record.step(|| {
-                let triangle = context.sight.triangle(seen_at.0, seen_at.1);
-                Step::Sample { sample: at.into(), triangle: (triangle != SKY).then_some(triangle), paint }
-            });
-            paint
-        });
-        if n > 1 {
-            tile.record.step(|| Step::Mean(paint));
+    for y in 0..height {
+        for x in 0..width {
+            if n > 1 {
+                let paint = mean(n, |c, r| sample(tile, (x * n + c, y * n + r), &mut last).0);
+                tile.record.step(|| Step::Mean(paint));
+                pixels.push(paint);
+                continue;
+            }
+            match sample(tile, (x, y), &mut last) {
+                (paint, true) => pixels.push(paint),
+                (paint, false) => pixels.push_ground(paint),
+            }
         }
-        if is_ground { pixels.push_ground(paint) } else { pixels.push(paint) }
     }
     pixels
+}
+
+/// The paint of a tile's sample, and whether features have been drawn on it; `last` is the ground of the sample before.
+#[inline(always)]
+fn sample<R: Record<Step>>(
+    tile: &mut Tile<R>,
+    (c, r): (usize, usize),
+    last: &mut LastGround,
+) -> (Paint, bool) {
+    let (context, seen_at) = (tile.context, (tile.view.column + c, tile.view.row + r));
+    let painted = tile.painted(c, r);
+    let paint = painted.unwrap_or_else(|| context.ground_paint(last, seen_at));
+    tile.record.step(|| {
+        let triangle = context.sight.triangle(seen_at.0, seen_at.1);
+        Step::Sample { sample: [c, r], triangle: (triangle != SKY).then_some(triangle), paint }
+    });
+    (paint, painted.is_some())
 }
 
 /// The planes of a tile, rows from the top.

@@ -87,6 +87,7 @@ impl<'a, R> Tile<'a, R> {
     }
 
     /// Paints a sample.
+    #[inline]
     pub fn paint(&mut self, (block, at): (usize, usize), paint: Paint) {
         let below = match self.painted[block].get(at) {
             Some(Some(below)) => *below,
@@ -125,6 +126,7 @@ impl<'a, R> Tile<'a, R> {
 }
 
 /// Column and row in the tile of a block's sample.
+#[inline(always)]
 pub fn sample_of(blocks: &[Block], (block, at): (usize, usize)) -> [usize; 2] {
     [blocks[block].column + at % COLUMNS, blocks[block].row + at / COLUMNS]
 }
