@@ -214,7 +214,8 @@ impl<'a> PixelPainter<'a> {
     fn range(&self, at: (usize, usize)) -> Option<Quadrilateral> {
         let seen = self.corners.as_ref().unwrap_or(&self.centres);
         let [a, b, c, d] = self.corner_samples(at);
-        let quad = Quadrilateral([a, b, c, d].map(|(column, row)| seen.plan(column, row)));
+        let plan = |(column, row)| seen.plan(column, row);
+        let quad = Quadrilateral([plan(a), plan(b), plan(c), plan(d)]);
         quad.0.iter().all(|p| p.is_finite()).then_some(quad)
     }
 
@@ -296,16 +297,18 @@ impl<'a> PixelPainter<'a> {
         lists.ready.extend(lists.near.iter().map(|&e| NearEdge::new(self.judge.index.edge(e))));
         let n = self.settings.samples;
         let sum = if lists.partly().count() <= FEW {
-            self.sum_of_kinds(quad.samples(n), centre.ground, lists, record)
+            self.sum_of_kinds(quad, centre.ground, lists, record)
         } else {
-            quad.samples(n).fold(Paint::CLEAR, |sum, at| {
+            let mut sum = Paint::CLEAR;
+            quad.for_each_sample(n, |at| {
                 let is_in = |k: usize| self.is_in(&lists.involved[k], at, lists);
                 record.step(|| {
                     let within = lists.partly().filter(|involved| self.is_in(involved, at, lists));
                     Step::Sample { at, within: within.map(|involved| involved.area).collect() }
                 });
-                sum.plus(self.compose(centre.ground, &lists.involved, is_in))
-            })
+                sum = sum.plus(self.compose(centre.ground, &lists.involved, is_in));
+            });
+            sum
         };
         let mean = sum.divided_by(f64::from(n * n));
         record.step(|| Step::Mean(mean));
@@ -316,13 +319,13 @@ impl<'a> PixelPainter<'a> {
     /// which is composed once.
     fn sum_of_kinds<R: Record<Step>>(
         &self,
-        samples: impl Iterator<Item = Plan>,
+        quad: &Quadrilateral,
         ground: Paint,
         lists: &Lists,
         record: &mut R,
     ) -> Paint {
         let mut counts = [0u32; 1 << FEW];
-        for at in samples {
+        quad.for_each_sample(self.settings.samples, |at| {
             let mut kind = 0;
             for (bit, involved) in lists.partly().enumerate() {
                 kind |= usize::from(self.is_in(involved, at, lists)) << bit;
@@ -332,7 +335,7 @@ impl<'a> PixelPainter<'a> {
                 let within = lists.partly().enumerate().filter(|(bit, _)| kind >> bit & 1 == 1);
                 Step::Sample { at, within: within.map(|(_, involved)| involved.area).collect() }
             });
-        }
+        });
         let mut sum = Paint::CLEAR;
         for (kind, count) in counts.into_iter().enumerate().filter(|(_, count)| *count > 0) {
             let partial_before =
