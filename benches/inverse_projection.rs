@@ -4,8 +4,9 @@
 //! `cargo bench --bench inverse_projection`
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
-use drapery::scene::file::SceneFile;
+use drapery::scene_file::SceneFile;
 use drapery::stage::Stage;
+use drapery::technique::inverse_projection::Settings;
 use drapery::technique::{self, FrameOptions, Kind};
 use std::hint::black_box;
 
@@ -42,7 +43,7 @@ fn inverse_projection(c: &mut Criterion) {
     group.sample_size(10);
     for segments in [1_000, 10_000, 100_000, 1_250_000] {
         let mut stage = stage(segments);
-        stage.scene.technique.inverse_projection.samples = 5;
+        stage.scene.technique.set(Settings { samples: 5, ..Settings::default() });
         group.bench_function(BenchmarkId::new("prepare", segments), |b| {
             b.iter(|| {
                 black_box(technique::prepare(Kind::InverseProjection, &stage).expect("widths in metres"))

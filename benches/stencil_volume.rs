@@ -4,11 +4,12 @@
 //! `cargo bench --bench stencil_volume`
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
-use drapery::scene::file::SceneFile;
-use drapery::scene::{Cap, Color, Diagonal, Feature, Grouping, Join, Layer, Line, Posts, Shape, Style};
+use drapery::scene::{Cap, Color, Diagonal, Feature, Join, Layer, Line, Posts, Shape, Style};
 use drapery::scene::{Surface, Width};
+use drapery::scene_file::SceneFile;
 use drapery::space::Plan;
 use drapery::stage::Stage;
+use drapery::technique::stencil_volume::{Grouping, Settings};
 use drapery::technique::{self, FrameOptions, Kind};
 use glam::DVec2;
 use std::hint::black_box;
@@ -102,7 +103,7 @@ terrain = { generate = { kind = "plane", posts = [2, 2], cell_m = 1.0, height_m 
     let (mut scene, _) = drapery::source::load::load(&file, &|_| {}).expect("a plane");
     scene.diagonal = Diagonal::NwSe;
     scene.layers = layers(roads, colors);
-    scene.technique.stencil_volume.grouping = Grouping::Color;
+    scene.technique.set(Settings { grouping: Grouping::Color, ..Settings::default() });
     Stage::new(scene, hills()).expect("few triangles")
 }
 

@@ -6,10 +6,11 @@
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use drapery::math;
 use drapery::resolve::Paint;
-use drapery::scene::{BlendMode, LineFilter, LinePrimitives, Overlaps, PolygonRaster, Rule, TexelFormat};
+use drapery::scene::{BlendMode, Rule};
 use drapery::space::Texel;
 use drapery::technique::clipmap::raster::{Area, Folded, Ink, RasterSettings, TilePlace, TileRaster};
 use drapery::technique::clipmap::tessellation::Pair;
+use drapery::technique::clipmap::{LineFilter, LinePrimitives, Overlaps, PolygonRaster, TexelFormat};
 use std::hint::black_box;
 
 /// Tiles a side.

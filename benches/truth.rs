@@ -8,7 +8,7 @@ use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use drapery::compare::Difference;
 use drapery::report;
 use drapery::sampling::sample;
-use drapery::scene::file::SceneFile;
+use drapery::scene_file::SceneFile;
 use drapery::stage::Stage;
 use drapery::truth::{Budget, Truth, certify};
 use std::hint::black_box;

@@ -5,8 +5,8 @@
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use drapery::raster::Lattice;
-use drapery::scene::file::{TerrainGenerator, TerrainKind};
 use drapery::scene::{Diagonal, Posts, Surface};
+use drapery::scene_file::{TerrainGenerator, TerrainKind};
 use drapery::source::generate;
 use drapery::space::{Plan, Screen, ViewFrame, Viewpoint, World};
 use drapery::terrain::{Mesh, SKY};

@@ -1,5 +1,9 @@
 //! Row-major images of anything, and the hash of their pixels.
 
+mod kind;
+
+pub use kind::{Look, PlaneKind};
+
 /// An image: `width x height` values, rows from the top.
 ///
 /// # Guarantees

@@ -2,9 +2,9 @@
 //!
 //! Data walks through the rooms in this order; `docs/architecture.md` has the picture.
 //!
-//! 1. [`source`] reads what a scene file ([`scene::file`]) names: terrain and vectors, brought to one plan by [`crs`];
+//! 1. [`source`] reads what a scene file ([`scene_file`]) names: terrain and vectors, brought to one plan by [`crs`];
 //! 2. [`scene`] is what is drawn, in memory, in scene-local coordinates ([`space`]);
-//! 3. [`terrain`] makes a mesh with bounding boxes of the heights; both together are a [`stage`];
+//! 3. [`draw_list`] decides what is painted; [`terrain`] makes a mesh with bounding boxes of the heights; together they are a [`stage`];
 //! 4. [`raster`] and [`visibility`] find, exactly, which triangle each sample sees, and where;
 //! 5. [`technique`] draws, each beside its paper, on a [`canvas`]; [`resolve`] composes colours;
 //! 6. [`output`] writes pictures, buffers and numbers;
@@ -13,7 +13,7 @@
 //! 9. [`export`] makes the files with which a program on a graphics processor draws the same.
 //!
 //! ```
-//! use drapery::scene::file::SceneFile;
+//! use drapery::scene_file::SceneFile;
 //! use drapery::stage::Stage;
 //! use drapery::technique::{self, FrameOptions, Kind};
 //!
@@ -40,6 +40,7 @@ pub mod canvas;
 pub mod certainty;
 pub mod compare;
 pub mod crs;
+pub mod draw_list;
 mod error;
 pub mod export;
 pub mod footprint;
@@ -49,12 +50,14 @@ pub mod interval;
 pub mod math;
 pub mod output;
 pub mod parallel;
+pub mod parameter;
 pub mod predicate;
 pub mod raster;
 pub mod report;
 pub mod resolve;
 pub mod sampling;
 pub mod scene;
+pub mod scene_file;
 pub mod source;
 pub mod space;
 pub mod stage;

@@ -109,6 +109,17 @@ pub fn hit_parameter(ray: &Ray, triangle: &[World; 3]) -> f64 {
     TrianglePlane::new(triangle).hit_parameter(ray)
 }
 
+/// The weights of a triangle's second and third corner in the point where a ray meets its plane, good to a few roundings however thin the
+/// triangle and grazing the ray; 0 for a plane that holds the ray's direction.
+#[cold]
+pub fn hit_weights(ray: &Ray, [a, b, c]: &[World; 3]) -> [f64; 2] {
+    let (u, v, start) = (Difference::new(*b, *a), Difference::new(*c, *a), Difference::new(ray.from, *a));
+    let along = Difference::new(ray.through, ray.from);
+    let whole = exact_det(&[along, u, v]);
+    let share = |part: Expansion| if whole.0.is_empty() { 0.0 } else { part.rounded() / whole.rounded() };
+    [share(exact_det(&[along, start, v])), share(exact_det(&[along, u, start]))]
+}
+
 /// A triangle's plane, for many rays.
 #[derive(Debug, Clone, Copy)]
 pub struct TrianglePlane {
@@ -378,6 +389,20 @@ mod tests {
             };
             if let (Some(first), Some(second)) = (parameter(&t1), parameter(&t2)) {
                 prop_assert_eq!(compare_along_ray(&ray, &t1, &t2), first.partial_cmp(&second).unwrap());
+            }
+        }
+
+        #[test]
+        fn the_weights_of_a_hit_are_those_of_rational_arithmetic(p in prop::array::uniform5(point())) {
+            let (ray, t) = (Ray { from: p[0], through: p[1] }, [p[2], p[3], p[4]]);
+            let (u, v) = (Difference::new(t[1], t[0]), Difference::new(t[2], t[0]));
+            let along = Difference::new(ray.through, ray.from);
+            let d = rational_det(&[along, u, v]);
+            prop_assume!(d != RBig::ZERO);
+            let start = Difference::new(ray.from, t[0]);
+            let exact = [[along, start, v], [along, u, start]].map(|rows| rational_det(&rows) / d.clone());
+            for (weight, exact) in hit_weights(&ray, &t).into_iter().zip(exact) {
+                prop_assert!((weight - exact.to_f64().value()).abs() <= 1e-14 * weight.abs());
             }
         }
 

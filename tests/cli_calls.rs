@@ -163,7 +163,7 @@ fn a_starter_scene_names_the_files_as_given_and_loads() {
     assert!(text.contains("source = \"dem.asc\"") && text.starts_with("# A scene for drapery."), "{text}");
     let path = folder.path().join("scene.toml");
     std::fs::write(&path, &text).unwrap();
-    let scene = drapery::scene::file::SceneFile::read(&path, &[]).unwrap();
+    let scene = drapery::scene_file::SceneFile::read(&path, &[]).unwrap();
     let (scene, _) = drapery::source::load::load(&scene, &|_| ()).unwrap();
     assert_eq!((scene.layers.len(), scene.layers[0].features.len()), (1, 1));
     assert!(done(called_in(&folder, &["info", "scene.toml"])).contains("layer       road (road.geojson)"));

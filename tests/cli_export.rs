@@ -7,14 +7,14 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-/// Moved by 5000 km, with an outlined lake, a road, and a post without data.
+/// Moved by 5000 km and raised by 6400 km, with an outlined lake, a road, and a post without data.
 const SCENE: &str = r##"
 schema = 1
 image = { width = 48, height = 32 }
-camera = { eye = [5000000, 3998200, 1500], target = [5000000, 4000000, 100] }
+camera = { eye = [5000000, 3998200, 6401500], target = [5000000, 4000000, 6400100] }
 [terrain]
 generate = { kind = "fbm", seed = 3, posts = [17, 17], cell_m = 120.0, height_m = 200.0 }
-offset = [5000000, 4000000]
+offset = [5000000, 4000000, 6400000]
 [[layer]]
 name = "lake"
 offset = [5000000, 4000000]
@@ -74,6 +74,9 @@ fn the_mesh_and_the_matrix_put_every_visible_point_on_its_pixel() {
     let folder = bundle("clipmap", &[]);
     let parameters = json(&folder, "parameters.json");
     let origin = numbers(&parameters["origin"]);
+    assert_eq!((&origin[..], &parameters["origin_height"]), (&[5e6, 4e6][..], &Value::from(6.4e6)));
+    assert_eq!(json(&folder, "result.json")["scene"]["origin_height"], 6.4e6);
+    assert_eq!(numbers(&parameters["camera"]["eye"]), [0.0, -1800.0, 1500.0], "the camera is local too");
     let rows: Vec<Vec<f64>> =
         parameters["camera"]["clip_from_world"].as_array().unwrap().iter().map(numbers).collect();
     let (vertices, triangles) = (table(&folder, "mesh.vertices.npy"), table(&folder, "mesh.triangles.npy"));

@@ -122,7 +122,7 @@ fn a_report_has_all_its_files_and_a_row_for_every_setting() {
     assert_eq!((of("truth"), of("supersampling")), (3, 7), "the truth at its own and two narrower widths");
     for kind in Kind::ALL {
         // The scene's own settings are on a line, and in one row.
-        let tried = sweep::of(kind).variations().len();
+        let tried = sweep::variations(&kind.declaration().sweep).len();
         assert!(of(kind.name()) + 1 >= tried, "{} of {tried}", of(kind.name()));
         let own = runs.iter().filter(|run| run["technique"] == kind.name() && run["is_own"] == true);
         assert_eq!(own.count(), 1);

@@ -2,13 +2,14 @@
 
 mod drawing;
 
-use drapery::buffer::Values;
+use drapery::buffer::{Look, Values};
 use drapery::compare::{Image, Metrics};
 use drapery::math;
-use drapery::scene::file::{Override, SceneFile};
+use drapery::scene_file::{Override, SceneFile};
 use drapery::space::ViewFrame;
 use drapery::stage::Stage;
-use drapery::technique::{Frame, FrameOptions, Kind, clipmap::Prepare};
+use drapery::technique::clipmap::{Prepare, Settings};
+use drapery::technique::{Frame, FrameOptions, Kind};
 use drawing::{count, errors, scene, stage, truth_of};
 
 fn frame(text: &str, changes: &[&str], buffers: &[&str]) -> Frame {
@@ -287,7 +288,7 @@ fn a_view_without_ground_has_all_buffers_and_no_tiles() {
     let drawn = frame(&text, &away, &["tiles", "tile", "tile-keys", "level"]);
     assert_eq!(count(&drawn, "tiles"), 0);
     let tiles = drawn.planes.iter().find(|p| p.name == "tiles").unwrap();
-    assert!(drapery::output::look(drapery::output::Npy::new(tiles).unwrap()).is_none());
+    assert!(drapery::output::look(drapery::output::Npy::new(tiles).unwrap(), Look::CodeValues).is_none());
 }
 
 #[test]
@@ -451,7 +452,7 @@ fn every_buffer_keeps_its_bits_for_any_number_of_threads_and_any_tiles() {
         let run = |tile, threads| {
             let draw = || {
                 let prepared = drapery::technique::prepare(Kind::Clipmap, &stage).unwrap();
-                let buffers: Vec<String> = prepared.buffer_names().iter().map(|n| (*n).to_owned()).collect();
+                let buffers = Kind::Clipmap.buffer_names();
                 hash(
                     &prepared
                         .frame(
@@ -686,7 +687,11 @@ fn settings_that_make_no_texture_are_refused_with_what_they_may_be() {
     let refusal = SceneFile::parse(&text, None, &[wide]).unwrap_err().to_string();
     assert!(refusal.contains("must be a finite number greater than 0; found NaN"), "{refusal}");
     let smaller = stage(&text, &["technique.clipmap.texel=\"unorm8\"", "technique.clipmap.cache_mib=0.25"]);
-    assert_eq!(smaller.scene.technique.clipmap.tile_bytes(), 1 << 18, "a tile of 8-bit texels is enough");
+    assert_eq!(
+        smaller.scene.technique.get::<Settings>().tile_bytes(),
+        1 << 18,
+        "a tile of 8-bit texels is enough"
+    );
 }
 
 #[test]

@@ -4,20 +4,21 @@
 //! then said in the commit. (Goldens hold those of all techniques.)
 
 use drapery::buffer::Plane;
-use drapery::scene::file::SceneFile;
+use drapery::scene_file::{Override, SceneFile};
 use drapery::stage::Stage;
 use drapery::technique::{self, FrameOptions, Kind};
+use drapery::truth::{self, Budget, Truth};
 
 /// Mountains, land use, an outlined lake, a road with a sharp turn; seen in perspective over the horizon.
 const MOUNTAINS: &str = r##"
 schema = 1
 image = { width = 150, height = 100, background = "#dde8f0" }
 [camera]
-eye = [EX, EY, 700.0]
-target = [TX, TY, 150.0]
+eye = [EX, EY, EZ]
+target = [TX, TY, TZ]
 [terrain]
 generate = { kind = "fbm", seed = 11, posts = [65, 57], cell_m = 32.0, height_m = 600.0 }
-offset = [OX, OY]
+offset = [OX, OY, OZ]
 shade = "hillshade"
 [[layer]]
 name = "land use"
@@ -44,15 +45,18 @@ corners = "true"
 point_in_polygon = "winding"
 "##;
 
-fn mountains(at: (i64, i64), more: &str) -> String {
+fn mountains(at: [i64; 3], more: &str) -> String {
     let place = |value: i64, by: i64| format!("{}.0", value + by);
     MOUNTAINS
-        .replace("EX", &place(-300, at.0))
-        .replace("EY", &place(-1500, at.1))
-        .replace("TX", &place(0, at.0))
-        .replace("TY", &place(0, at.1))
-        .replace("OX", &place(0, at.0))
-        .replace("OY", &place(0, at.1))
+        .replace("EX", &place(-300, at[0]))
+        .replace("EY", &place(-1500, at[1]))
+        .replace("EZ", &place(700, at[2]))
+        .replace("TX", &place(0, at[0]))
+        .replace("TY", &place(0, at[1]))
+        .replace("TZ", &place(150, at[2]))
+        .replace("OX", &place(0, at[0]))
+        .replace("OY", &place(0, at[1]))
+        .replace("OZ", &place(0, at[2]))
         + more
 }
 
@@ -63,7 +67,7 @@ fn hashes(kind: Kind, text: &str, tile: usize, threads: usize) -> Vec<String> {
         let (scene, surface) = drapery::source::load::load(&file, &|_| {}).unwrap();
         let stage = Stage::new(scene, surface).unwrap();
         let prepared = technique::prepare(kind, &stage).unwrap();
-        let buffers: Vec<String> = prepared.buffer_names().iter().map(|n| (*n).to_owned()).collect();
+        let buffers = kind.buffer_names();
         let frame = prepared
             .frame(&stage.view().unwrap(), &FrameOptions { tile, buffers: &buffers, progress: &|_| {} })
             .unwrap();
@@ -86,7 +90,7 @@ fn every_technique() -> impl Iterator<Item = (Kind, &'static str)> {
 #[test]
 fn every_buffer_keeps_its_bits_for_any_number_of_threads_and_any_tiles() {
     for (kind, more) in every_technique() {
-        let text = mountains((0, 0), more);
+        let text = mountains([0; 3], more);
         let one = hashes(kind, &text, 128, 1);
         for (tile, threads) in [(128, 2), (32, 3), (50, 7), (128, 16)] {
             assert_eq!(
@@ -99,21 +103,37 @@ fn every_buffer_keeps_its_bits_for_any_number_of_threads_and_any_tiles() {
 }
 
 #[test]
-fn every_buffer_keeps_its_bits_when_the_scene_is_moved_by_5000_km() {
+fn every_buffer_keeps_its_bits_when_the_scene_is_moved_along_the_ground_and_up() {
     for (kind, more) in every_technique() {
-        let here = hashes(kind, &mountains((0, 0), more), 128, 2);
-        assert_eq!(hashes(kind, &mountains((5_000_000, -5_000_000), more), 128, 2), here, "{kind:?}");
+        let here = hashes(kind, &mountains([0; 3], more), 128, 2);
+        for by in [[5_000_000, -5_000_000, 0], [6_400_000; 3], [-6_400_000, 6_400_000, -6_400_000]] {
+            assert_eq!(hashes(kind, &mountains(by, more), 128, 2), here, "{kind:?}, moved by {by:?}");
+        }
     }
+}
+
+#[test]
+fn the_truth_keeps_its_bits_when_the_scene_is_moved_along_the_ground_and_up() {
+    let truth_of = |by| {
+        let changes =
+            [Override::parse("image.width=48").unwrap(), Override::parse("image.height=32").unwrap()];
+        let file = SceneFile::parse(&mountains(by, ""), None, &changes).unwrap();
+        let (scene, surface) = drapery::source::load::load(&file, &|_| {}).unwrap();
+        let stage = Stage::new(scene, surface).unwrap();
+        let truth = truth::certify(&stage, &stage.view().unwrap(), &Budget::default(), &|_| {});
+        Truth::PLANES.map(|kind| truth.plane(kind.name).unwrap().hash())
+    };
+    assert_eq!(truth_of([6_400_000; 3]), truth_of([0; 3]));
 }
 
 #[test]
 fn every_buffer_has_the_bits_of_the_last_version_in_every_build() {
     assert_eq!(
-        together(&hashes(Kind::InverseProjection, &mountains((0, 0), ""), 128, 2)),
+        together(&hashes(Kind::InverseProjection, &mountains([0; 3], ""), 128, 2)),
         "3186dd76f49f0c05"
     );
     assert_eq!(
-        together(&hashes(Kind::InverseProjection, &mountains((0, 0), IMITATED), 128, 2)),
+        together(&hashes(Kind::InverseProjection, &mountains([0; 3], IMITATED), 128, 2)),
         "465ff6b2a46a921b"
     );
 }

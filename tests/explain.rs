@@ -4,7 +4,7 @@ mod drawing;
 
 use drapery::canvas::mean;
 use drapery::resolve::Paint;
-use drapery::scene::file::{Override, SceneFile};
+use drapery::scene_file::{Override, SceneFile};
 use drapery::stage::Stage;
 use drapery::technique::{self, Kind, clipmap, inverse_projection, stencil_volume};
 use std::path::Path;
@@ -79,7 +79,7 @@ fn half_black(more: &str) -> Stage {
 
 #[test]
 fn inverse_projection_tells_class_edges_and_each_sample() {
-    use inverse_projection::{PixelClass, Prepare, Step};
+    use inverse_projection::{AreaId, PixelClass, Prepare, Step};
     let stage = half_black("[technique.inverse-projection]\nsamples = 4\ncorners = \"true\"");
     let prepared = Prepare::new(&stage).unwrap();
     let steps = |x| prepared.steps_of(&stage.view().unwrap(), [x, 30]).0;
@@ -92,7 +92,7 @@ fn inverse_projection_tells_class_edges_and_each_sample() {
         _ => None,
     });
     assert_eq!(edges, Some(1));
-    let within: Vec<&Vec<u32>> = mixed
+    let within: Vec<&Vec<AreaId>> = mixed
         .iter()
         .filter_map(|step| match step {
             Step::Sample { within, .. } => Some(within),
@@ -100,7 +100,7 @@ fn inverse_projection_tells_class_edges_and_each_sample() {
         })
         .collect();
     assert_eq!(within.len(), 16);
-    assert_eq!(within.iter().filter(|areas| **areas == &[0]).count(), 8);
+    assert_eq!(within.iter().filter(|areas| **areas == &[AreaId::polygon_of(0)]).count(), 8);
     assert_eq!(mixed.last(), Some(&Step::Mean(Paint([0.5, 0.5, 0.5, 1.0]))));
 }
 

@@ -5,7 +5,7 @@ use drapery::raster::device::{Pipeline, Real, Window};
 use drapery::raster::{Lattice, Samples};
 use drapery::scene::{DepthFormat, Device, Diagonal, Posts, Precision, Surface};
 use drapery::space::{Plan, Screen, View, ViewFrame, Viewpoint, World};
-use drapery::terrain::{Mesh, SKY};
+use drapery::terrain::{Mesh, SKY, SurfaceVertex};
 use drapery::visibility::{Hit, Sight, Visible, see_on_device};
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
@@ -281,7 +281,7 @@ fn assert_sound(frame: &ViewFrame, mesh: &Mesh, what: &str) {
             let id = sight.triangle(c, r);
             assert!(id == SKY || id < mesh.triangle_ids(), "{what}: {device:?}");
             if let Some(hit) = sight.hit(c, r) {
-                let is_sound = hit.plan.is_finite() && hit.height.is_finite() && hit.depth > 0.0;
+                let is_sound = hit.plan.is_finite() && hit.world.is_finite() && hit.depth > 0.0;
                 assert!(is_sound && id != SKY, "{what}: {device:?} {hit:?}");
             }
         }
@@ -347,9 +347,9 @@ fn worst_plan_point(frame: &ViewFrame, mesh: &Mesh, device: &Device) -> f64 {
         let (Some(truth), true) = (exact.hit(c, r), exact.triangle(c, r) == *id) else {
             continue;
         };
-        let hit: Hit = machine.hit(lattice.at(c, r), keys[k]).unwrap();
+        let hit: Hit = machine.hit(lattice.at(c, r), keys[k], &mesh.surface_triangle(*id).unwrap()).unwrap();
         let off = ((hit.plan - truth.plan).length()
-            + (hit.height - truth.height).abs()
+            + (hit.world.z - truth.world.z).abs()
             + (hit.depth - truth.depth).abs())
             / truth.depth;
         worst = if off > worst { off } else { worst };
@@ -365,10 +365,17 @@ fn plan_points_are_as_good_as_the_precision() {
         ViewFrame::perspective(&view, 50.0, (96, 96)).unwrap(),
         ViewFrame::orthographic(&view, 700.0, (96, 96)).unwrap(),
     ];
-    for frame in frames {
-        let double = worst_plan_point(&frame, &mesh, &DOUBLE);
+    // The same with a plan that is turned: its points are interpolated.
+    let turned = mesh.vertices().map(|vertex| {
+        let Plan { x, y } = vertex.plan;
+        SurfaceVertex { plan: Plan::new(0.8 * x - 0.6 * y, 0.6 * x + 0.8 * y), ..vertex }
+    });
+    let triangles = (0..mesh.triangle_ids()).filter_map(|id| mesh.corners(id)).collect();
+    let draped = Mesh::of_surface(turned.collect(), triangles).unwrap();
+    for (frame, mesh) in frames.into_iter().flat_map(|frame| [&mesh, &draped].map(|mesh| (frame, mesh))) {
+        let double = worst_plan_point(&frame, mesh, &DOUBLE);
         assert!(double < 1e-6, "double: {double}");
-        let single = worst_plan_point(&frame, &mesh, &device(Precision::F32, 0, DepthFormat::F32Reversed));
+        let single = worst_plan_point(&frame, mesh, &device(Precision::F32, 0, DepthFormat::F32Reversed));
         assert!(single > double && single < 2e-5, "single: {single}");
     }
 }

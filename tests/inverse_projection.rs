@@ -2,12 +2,12 @@
 
 use drapery::buffer::{Plane, Values};
 use drapery::scene::{
-    Camera, Cap, Color, Compositing, Corners, Device, Diagonal, Feature, Fill, Ground, ImageSettings,
-    InverseProjection, Join, Layer, Line, PointInPolygon, Posts, Projection, Rule, Scene, Shape, Style,
-    Surface, TechniqueSettings, Width,
+    Camera, Cap, Color, Compositing, Device, Diagonal, Feature, Fill, Ground, ImageSettings, Join, Layer,
+    Line, Posts, Projection, Rule, Scene, Shape, Style, Surface, Width,
 };
 use drapery::space::{Plan, World};
 use drapery::stage::Stage;
+use drapery::technique::inverse_projection::{Corners, PointInPolygon, Settings, Silhouette};
 use drapery::technique::{self, Frame, FrameOptions, Kind};
 use glam::{DVec2, DVec3};
 
@@ -28,10 +28,10 @@ fn camera(eye: [f64; 3], target: [f64; 3], projection: Projection) -> Camera {
     Camera { eye: point(eye), target: point(target), up, projection, near_m: 0.1, far_m: None }
 }
 
-fn scene(size: (usize, usize), camera: Camera, layers: Vec<Layer>, settings: InverseProjection) -> Scene {
+fn scene(size: (usize, usize), camera: Camera, layers: Vec<Layer>, settings: Settings) -> Scene {
     Scene {
         name: "test".into(),
-        origin: DVec2::ZERO,
+        origin: DVec3::ZERO,
         plan_space: "metres".into(),
         image: ImageSettings { width: size.0, height: size.1, background: Color([0.0, 0.0, 1.0, 1.0]) },
         camera,
@@ -40,7 +40,7 @@ fn scene(size: (usize, usize), camera: Camera, layers: Vec<Layer>, settings: Inv
         layers,
         compositing: Compositing::default(),
         device: Device::default(),
-        technique: TechniqueSettings { inverse_projection: settings, ..TechniqueSettings::default() },
+        technique: settings.into(),
         notes: Vec::new(),
     }
 }
@@ -67,7 +67,7 @@ fn plan(points: &[(f64, f64)]) -> Vec<Plan> {
 fn draw(scene: Scene, surface: Surface, tile: usize) -> Frame {
     let stage = Stage::new(scene, surface).unwrap();
     let prepared = technique::prepare(Kind::InverseProjection, &stage).unwrap();
-    let buffers: Vec<String> = prepared.buffer_names().iter().map(|s| (*s).to_owned()).collect();
+    let buffers = Kind::InverseProjection.buffer_names();
     prepared
         .frame(&stage.view().unwrap(), &FrameOptions { tile, buffers: &buffers, progress: &|_| {} })
         .unwrap()
@@ -92,17 +92,17 @@ fn classes(frame: &Frame) -> &[u8] {
 }
 
 /// Straight down on the plan, one pixel a metre; pixel (0, 0) is the north-west corner.
-fn nadir(size: usize, layers: Vec<Layer>, settings: InverseProjection) -> Frame {
+fn nadir(size: usize, layers: Vec<Layer>, settings: Settings) -> Frame {
     let camera = camera([0.0, 0.0, 100.0], [0.0; 3], Projection::Orthographic { height_m: size as f64 });
     draw(scene((size, size), camera, layers, settings), posts(9, 4.0, |_, _| 0.0), 16)
 }
 
-fn exact() -> InverseProjection {
-    InverseProjection {
+fn exact() -> Settings {
+    Settings {
         corners: Corners::True,
         point_in_polygon: PointInPolygon::Winding,
         samples: 4,
-        ..InverseProjection::default()
+        ..Settings::default()
     }
 }
 
@@ -137,7 +137,7 @@ fn the_papers_quadrilateral_shifts_the_picture_half_a_pixel_to_the_lower_left() 
     // Fig. 6b: the pixel takes the plan from its own centre to that of its upper right neighbour, so an edge
     // on a pixel's border lies in the middle of a quadrilateral.
     let half = [(-9.0, -9.0), (0.0, -9.0), (0.0, 9.0), (-9.0, 9.0)];
-    let settings = InverseProjection { corners: Corners::Centres, ..exact() };
+    let settings = Settings { corners: Corners::Centres, ..exact() };
     assert_eq!(ascii(&nadir(4, vec![polygon(&[&half])], settings))[2], "0499");
     assert_eq!(ascii(&nadir(4, vec![polygon(&[&half])], exact()))[2], "0099");
 }
@@ -145,7 +145,7 @@ fn the_papers_quadrilateral_shifts_the_picture_half_a_pixel_to_the_lower_left() 
 #[test]
 fn edge_normals_with_the_pedal_rule_agree_with_the_winding_number_along_a_straight_line() {
     let road = || vec![line(&[(-20.0, -3.0), (20.0, 5.0)], 1.7)];
-    let by = |point_in_polygon| nadir(16, road(), InverseProjection { point_in_polygon, ..exact() });
+    let by = |point_in_polygon| nadir(16, road(), Settings { point_in_polygon, ..exact() });
     assert_eq!(by(PointInPolygon::EdgeNormals).image, by(PointInPolygon::Winding).image);
 }
 
@@ -155,7 +155,7 @@ fn plan_points_on_a_plane_and_a_ramp_are_those_of_the_closed_form() {
     for slope in [0.0, 0.5] {
         let camera = camera([3.0, -60.0, 40.0], [1.0, 2.0, 0.5], perspective);
         let frame = draw(
-            scene((48, 32), camera, Vec::new(), InverseProjection::default()),
+            scene((48, 32), camera, Vec::new(), Settings::default()),
             posts(65, 8.0, |_, y| slope * y),
             32,
         );
@@ -183,11 +183,8 @@ fn the_sky_and_pixels_whose_quadrilateral_reaches_it_are_told_apart() {
     // A level view over a plain: the horizon's pixels have upper neighbours in the sky.
     let camera = camera([0.0, -30.0, 5.0], [0.0, 30.0, 5.0], Projection::Perspective { fov_y_deg: 60.0 });
     let road = line(&[(0.0, -100.0), (0.0, 100.0)], 4.0);
-    let frame = draw(
-        scene((32, 32), camera, vec![road], InverseProjection::default()),
-        posts(33, 8.0, |_, _| 0.0),
-        32,
-    );
+    let frame =
+        draw(scene((32, 32), camera, vec![road], Settings::default()), posts(33, 8.0, |_, _| 0.0), 32);
     assert_eq!(*frame.image.at(16, 0), [0, 0, 255, 255], "sky");
     let refused = frame.counts.iter().find(|(name, _)| *name == "refused").unwrap().1;
     assert!(refused > 0, "the last row of terrain under the sky has no quadrilateral");
@@ -206,7 +203,7 @@ fn a_silhouette_is_refused_and_not_smeared() {
     let cliff = |y: f64| if y < 0.0 { 40.0 } else { 0.0 };
     let camera = camera([0.0, -60.0, 70.0], [0.0, 300.0, 0.0], Projection::Perspective { fov_y_deg: 50.0 });
     let across = line(&[(-500.0, 40.0), (500.0, 40.0)], 16.0);
-    let settings = |silhouette| InverseProjection { samples: 5, silhouette, ..InverseProjection::default() };
+    let settings = |silhouette| Settings { samples: 5, silhouette, ..Settings::default() };
     let by = |silhouette| {
         draw(
             scene((64, 64), camera, vec![across.clone()], settings(silhouette)),
@@ -214,7 +211,7 @@ fn a_silhouette_is_refused_and_not_smeared() {
             32,
         )
     };
-    let (centre, smear) = (by(drapery::scene::Silhouette::Centre), by(drapery::scene::Silhouette::Smear));
+    let (centre, smear) = (by(Silhouette::Centre), by(Silhouette::Smear));
     // The line lies hidden behind the cliff's edge.
     assert!(centre.image.values().iter().all(|p| p[0] == 255 || p[2] == 255), "nothing of it is seen");
     assert!(smear.image.values().iter().any(|p| p[0] < 255 && p[2] < 255), "the paper's smear shows it");
@@ -227,7 +224,7 @@ fn every_buffer_has_the_same_bits_for_any_tiles_and_threads() {
     let lake = polygon(&[&[(-30.0, 0.0), (30.0, -10.0), (20.0, 40.0)]]);
     let camera = camera([20.0, -120.0, 80.0], [0.0; 3], Projection::Perspective { fov_y_deg: 45.0 });
     let run = |tile, threads| {
-        let scene = scene((120, 90), camera, vec![lake.clone(), road.clone()], InverseProjection::default());
+        let scene = scene((120, 90), camera, vec![lake.clone(), road.clone()], Settings::default());
         let surface = posts(41, 4.0, bumps);
         drapery::parallel::with_threads(threads, || {
             let frame = draw(scene, surface, tile);
@@ -247,6 +244,6 @@ fn every_buffer_has_the_same_bits_for_any_tiles_and_threads() {
 fn an_edge_that_begins_far_outside_the_terrain_keeps_its_inside() {
     // The middle of the polygon's long western edge lies beyond the terrain (which ends at 16 m).
     let polygon = || polygon(&[&[(-3.3, -900.0), (2.1, 30.0), (400.0, 30.0), (400.0, -900.0)]]);
-    let by = |point_in_polygon| nadir(16, vec![polygon()], InverseProjection { point_in_polygon, ..exact() });
+    let by = |point_in_polygon| nadir(16, vec![polygon()], Settings { point_in_polygon, ..exact() });
     assert_eq!(by(PointInPolygon::EdgeNormals).image, by(PointInPolygon::Winding).image);
 }

@@ -15,10 +15,14 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("predicate", &["space"]),
     ("index", &["space", "parallel", "tiling"]),
     ("crs", &["space"]),
-    ("scene", &["space", "buffer"]),
-    ("source", &["scene", "space", "crs", "buffer", "parallel"]),
+    ("parameter", &[]),
+    ("scene", &["space", "parameter", "buffer"]),
+    // The techniques for their declarations.
+    ("scene_file", &["technique", "scene", "space", "parameter"]),
+    ("source", &["scene_file", "scene", "space", "crs", "buffer", "parallel"]),
     ("terrain", &["scene", "space", "index", "parallel"]),
-    ("stage", &["terrain", "scene", "space"]),
+    ("draw_list", &["scene", "space", "parallel"]),
+    ("stage", &["draw_list", "terrain", "scene", "space"]),
     ("raster", &["terrain", "scene", "space", "predicate", "parallel"]),
     (
         "visibility",
@@ -27,10 +31,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("resolve", &["terrain", "scene", "space", "buffer"]),
     // How uncertainty composes, not who decides: judges and what they judge may share it.
     ("certainty", &["resolve", "scene"]),
-    (
-        "canvas",
-        &["visibility", "resolve", "raster", "stage", "terrain", "scene", "space", "parallel", "buffer"],
-    ),
+    ("canvas", &["visibility", "resolve", "raster", "terrain", "scene", "space", "parallel", "buffer"]),
     (
         "technique",
         &[
@@ -39,6 +40,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "resolve",
             "raster",
             "stage",
+            "draw_list",
             "terrain",
             "scene",
             "space",
@@ -46,12 +48,13 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "index",
             "tiling",
             "parallel",
+            "parameter",
             "buffer",
         ],
     ),
     ("output", &["buffer"]),
     ("interval", &[]),
-    ("footprint", &["scene", "space", "interval", "predicate", "index", "parallel"]),
+    ("footprint", &["draw_list", "terrain", "scene", "space", "interval", "predicate", "index", "parallel"]),
     // No technique, and nothing that decides for one: neither `raster`, `visibility` nor `canvas`.
     (
         "truth",
@@ -61,10 +64,12 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "certainty",
             "resolve",
             "stage",
+            "draw_list",
             "terrain",
             "scene",
             "space",
             "predicate",
+            "index",
             "tiling",
             "parallel",
             "buffer",
@@ -78,6 +83,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "truth",
             "visibility",
             "source",
+            "scene_file",
             "stage",
             "scene",
             "space",
@@ -96,6 +102,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "resolve",
             "raster",
             "stage",
+            "draw_list",
             "terrain",
             "scene",
             "space",
@@ -104,7 +111,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "buffer",
         ],
     ),
-    ("export", &["raster", "terrain", "scene", "space", "output", "buffer"]),
+    ("export", &["draw_list", "raster", "terrain", "scene", "space", "output", "buffer"]),
     ("report", &["truth", "technique", "compare", "output", "buffer"]),
 ];
 const ANYONE: &[&str] = &["error", "math", "Error", "Result", "Position"];

@@ -8,8 +8,8 @@
     reason = "a test says why it skips, and fails by panicking"
 )]
 
-use drapery::scene::file::SceneFile;
 use drapery::scene::{Layer, Scene, Shape, Surface};
+use drapery::scene_file::SceneFile;
 use drapery::source::load::load;
 use drapery::space::Plan;
 use drapery::stage::Stage;
@@ -102,7 +102,7 @@ fn vertices(layer: &Layer) -> usize {
 fn start(scene: &Scene, layer: usize, index: usize) -> Plan {
     let feature = scene.layers[layer].features.iter().find(|f| f.index == index).unwrap();
     match &feature.shape {
-        Shape::Polygon(parts) | Shape::Line(parts) => parts[0][0] + scene.origin,
+        Shape::Polygon(parts) | Shape::Line(parts) => parts[0][0] + scene.origin.truncate(),
     }
 }
 
@@ -138,9 +138,9 @@ fn swellendam_is_one_place_in_its_own_projection() {
     assert_eq!(scene.layers.iter().map(|l| l.features.len()).collect::<Vec<_>>(), [345, 2008, 6]);
     assert_eq!(vertices(&scene.layers[0]), 9093);
     near(start(&scene, 0, 0), (971_207.485_331_881_3, 6_232_683.923_680_245), 1e-8);
-    assert_eq!(scene.origin.fract(), DVec2::ZERO);
+    assert_eq!(scene.origin.truncate().fract(), DVec2::ZERO);
     let Surface::Grid(posts) = surface else { panic!("points") };
-    let corner = posts.plan(0, 0) + scene.origin;
+    let corner = posts.plan(0, 0) + scene.origin.truncate();
     near(corner, (969_491.3 + 41.0, 6_196_099.3 + 41.0), 0.1);
     assert!(!noted(&scene, "reprojected"), "{:?}", scene.notes);
     let (starter, _) = starts(&folder, &[&["srtm_41_19.tif"], &files[..]].concat());
@@ -192,7 +192,7 @@ fn a_terrain_in_degrees_can_be_resampled_to_the_plan_of_another() {
     for j in (0..a.rows()).step_by(3) {
         for i in (0..a.columns()).step_by(3) {
             let p = a.world(i, j);
-            let off = (a.plan(i, j) + scene_a.origin) - (b.first + scene_b.origin);
+            let off = (a.plan(i, j) + scene_a.origin.truncate()) - (b.first + scene_b.origin.truncate());
             let (c, r) = ((off.x / b.east().x).round(), (off.y / b.north().y).round());
             if !p.z.is_nan() {
                 seen += 1;
@@ -292,7 +292,7 @@ fn an_srtm_tile_is_drawn_in_its_local_plane() {
         return;
     };
     let (scene, surface) = starts(&folder, &["N43E006.hgt"]);
-    assert_eq!(scene.origin, DVec2::ZERO);
+    assert_eq!(scene.origin.truncate(), DVec2::ZERO);
     assert!(scene.plan_space.starts_with("local plane at longitude 6.5, latitude 43.5 of EPSG:4326"));
     let Surface::Grid(posts) = surface else { panic!("points") };
     assert_eq!((posts.columns(), posts.rows()), (1201, 1201));
@@ -309,7 +309,7 @@ fn posts_written_as_points_make_the_same_place() {
     let mut text = String::new();
     for k in 0..posts.heights().len() {
         let p = posts.world(k % posts.columns(), k / posts.columns());
-        let q = p.plan() + grid_scene.origin;
+        let q = p.plan() + grid_scene.origin.truncate();
         text += &format!("{} {} {}\n", q.x, q.y, p.z);
     }
     std::fs::write(folder.path("p.xyz"), text).unwrap();

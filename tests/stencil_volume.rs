@@ -341,7 +341,7 @@ fn hashes(text: &str, changes: &[&str], tile: usize, threads: usize) -> Vec<Stri
     let run = || {
         let stage = stage(text, changes);
         let prepared = technique::prepare(Kind::StencilVolume, &stage).unwrap();
-        let buffers: Vec<String> = prepared.buffer_names().iter().map(|n| (*n).to_owned()).collect();
+        let buffers = Kind::StencilVolume.buffer_names();
         let none = prepared
             .frame(&stage.view().unwrap(), &FrameOptions { tile, buffers: &[], progress: &|_| {} })
             .unwrap();

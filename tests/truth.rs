@@ -35,7 +35,7 @@ fn camera(eye: [f64; 3], target: [f64; 3], projection: Projection) -> Camera {
 fn scene(size: (usize, usize), camera: Camera, layers: Vec<Layer>) -> Scene {
     Scene {
         name: "test".into(),
-        origin: DVec2::ZERO,
+        origin: DVec3::ZERO,
         plan_space: "metres".into(),
         image: ImageSettings { width: size.0, height: size.1, background: WHITE },
         camera,
@@ -317,7 +317,7 @@ fn the_coverage_of_each_feature_is_known_below_an_opaque_one_too() {
             "{item}: [{low}, {high}]"
         );
     }
-    assert_eq!(truth.items()[1].layer, 1);
+    assert_eq!(stage.draw_list.items()[1].layer, 1);
     // A corner of the small square: a quarter of a quarter pixel is in it, all of the pixel in the large one.
     let corner = coverage.at(1, 1);
     let small = corner.items.iter().find(|c| c.item == 0).unwrap();
@@ -688,6 +688,36 @@ fn overlapping_duplicates_are_composed_one_after_the_other() {
     assert_area(&assert_sound(&map(8, vec![twice]), flat()), 0.0, 1e-3);
     let twice = polygon(&[square, square], Rule::NonZero, BLACK);
     assert_area(&truth_of(map(8, vec![twice])), 4.6 * 4.6, 1e-3);
+}
+
+#[test]
+fn a_crowd_of_many_colours_is_bounded_by_all_of_them() {
+    // White first, so that one colour alone would not do.
+    let color = |k: u32| match k % 4 {
+        0 => WHITE,
+        1 => Color([0.1, 0.9, 0.9, 0.9]),
+        2 => Color([0.9, 0.1, 0.9, 0.9]),
+        _ => Color([0.9, 0.9, 0.1, 0.9]),
+    };
+    let style = |k| Style { line: Some(Line { color: color(k), ..stroke(0.05) }), ..Style::default() };
+    let across = |k: u32| {
+        let y = f64::from(k) * 0.9 / 400.0 - 0.45;
+        Feature {
+            index: k as usize,
+            style: k % 8,
+            shape: Shape::Line(vec![plan(&[(-4.0, y), (4.0, y + 0.01)])]),
+        }
+    };
+    let features = (0..400).map(across).collect();
+    let crowd = Layer { name: "crowd".into(), styles: (0..8).map(style).collect(), features };
+    let stage = Stage::new(map(1, vec![crowd]), flat()).unwrap();
+    let by = |depth| certify(&stage, &stage.view().unwrap(), &Budget::new(1e-4, depth).unwrap(), &|_| {});
+    let (coarse, fine) = (by(0), by(16));
+    let [wide, narrow] = [&coarse, &fine].map(|truth| (truth.low.at(0, 0), truth.high.at(0, 0)));
+    for c in 0..3 {
+        assert!(wide.1[c] - wide.0[c] > 0.5, "nothing has been looked at: {wide:?}");
+        assert!(wide.0[c] <= narrow.0[c] && narrow.1[c] <= wide.1[c], "{narrow:?} is not in {wide:?}");
+    }
 }
 
 fn truth_of(scene: Scene) -> Truth {

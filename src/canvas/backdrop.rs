@@ -1,9 +1,9 @@
 //! What lies below the features: the terrain's own paint, and the sky.
 
 use crate::resolve::{Compositor, GroundPaint, Paint};
+use crate::scene::Scene;
 use crate::space::Plan;
-use crate::stage::Stage;
-use crate::terrain::SKY;
+use crate::terrain::{Mesh, SKY};
 
 /// How a scene composes colours, and what features are composed over.
 #[derive(Debug)]
@@ -23,13 +23,13 @@ pub struct LastGround {
 }
 
 impl<'a> Backdrop<'a> {
-    /// The backdrop of a stage.
-    pub fn of(stage: &'a Stage) -> Self {
-        let compositor = Compositor::new(stage.scene.compositing);
+    /// The backdrop of a scene over the terrain that a view shows.
+    pub fn of(scene: &'a Scene, mesh: &'a Mesh) -> Self {
+        let compositor = Compositor::new(scene.compositing);
         Self {
             compositor,
-            sky: compositor.paint(stage.scene.image.background),
-            ground: GroundPaint::new(&stage.scene.ground, &stage.mesh, compositor),
+            sky: compositor.paint(scene.image.background),
+            ground: GroundPaint::new(&scene.ground, mesh, compositor),
         }
     }
 
@@ -57,7 +57,8 @@ impl<'a> Backdrop<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::file::SceneFile;
+    use crate::scene_file::SceneFile;
+    use crate::stage::Stage;
 
     fn stage(shade: &str) -> Stage {
         let text = format!(
@@ -72,7 +73,7 @@ mod tests {
     #[test]
     fn each_triangle_has_its_own_paint_whatever_was_asked_before() {
         let stage = stage("shade = \"hillshade\", color = \"#808080\"");
-        let backdrop = Backdrop::of(&stage);
+        let backdrop = Backdrop::of(&stage.scene, &stage.mesh);
         let mut last = backdrop.no_ground();
         let alone = |triangle| backdrop.paint_at(&mut backdrop.no_ground(), triangle, Plan::default);
         for triangle in [3, 3, 90, SKY, 90, 3, SKY, SKY, 17] {

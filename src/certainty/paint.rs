@@ -59,12 +59,12 @@ impl PaintRange {
         }
     }
 
-    /// With `source` drawn over it any number of times, or not at all. `straight`: the source's colour at full alpha, which
-    /// many layers of it tend to.
+    /// With any number of sources drawn over it in any order, or none. `straight`: around the sources' colours at full alpha,
+    /// between which and what is below all that is drawn stays.
     #[must_use]
-    pub fn under_any_number(&self, straight: Paint, mode: BlendMode) -> Self {
+    pub fn under_any_of(&self, straight: &Self, mode: BlendMode) -> Self {
         match mode {
-            BlendMode::Over => self.hull(&Self::exact(straight)),
+            BlendMode::Over => self.hull(straight),
             BlendMode::Additive => Self { low: self.low, high: [1.0; 4] },
         }
     }

@@ -7,11 +7,15 @@ use super::render::techniques::{self, Buffers, Name};
 use super::scene_input::SceneInput;
 use super::stop::{Outcome, Status};
 use drapery::buffer::Buffer;
-use drapery::export::{LAYOUT, Parameters, TilePicture, tiles, triangles, vertices, write_features};
+use drapery::export::{
+    LAYOUT, Parameters, TilePicture, plan_points, tiles, triangles, vertices, write_features,
+};
 use drapery::output::{Batch, Npy, RESULT_SCHEMA, RenderResult, write_png};
-use drapery::scene::{Ground, Imagery, TILE_TEXELS};
+use drapery::scene::{Ground, Imagery};
 use drapery::stage::Stage;
-use drapery::technique::{self, Frame, Kind};
+use drapery::technique::clipmap::TILE_TEXELS;
+use drapery::technique::{self, Frame, Kind, clipmap};
+use drapery::terrain::Mesh;
 use drapery::truth::Budget;
 use drapery::{Error, Result, parallel};
 use std::path::PathBuf;
@@ -75,9 +79,10 @@ fn export(input: &SceneInput, (kind, budget): (Kind, &Budget), mut batch: Batch,
     for TilePicture { name, picture } in tiles_of(&frame, &stage) {
         batch.stage(&format!("tiles/{name}.png"), |to| write_png(&picture, to))?;
     }
-    stage_scene(&stage, &mut batch)?;
+    let mesh = stage.mesh_for(&view);
+    stage_scene(&stage, &mesh, &mut batch)?;
     let settings = (kind.name(), run.parameters.clone(), run.device.clone());
-    let parameters = Parameters::new((&stage.scene, &stage.mesh, &view), settings).to_json()?;
+    let parameters = Parameters::new((&stage.scene, &mesh, &view), settings).to_json()?;
     let scene = scene_result(&stage, &input.file);
     let notes = stage.scene.notes.clone();
     let result = RenderResult { schema: RESULT_SCHEMA, scene, notes, runs: vec![truth, run] }.to_json()?;
@@ -90,14 +95,16 @@ fn export(input: &SceneInput, (kind, budget): (Kind, &Budget), mut batch: Batch,
 }
 
 /// What is drawn: mesh, features, imagery.
-fn stage_scene(stage: &Stage, batch: &mut Batch) -> Result<()> {
-    let scene = &stage.scene;
-    for table in [vertices(&stage.mesh), triangles(&stage.mesh)] {
+fn stage_scene(stage: &Stage, mesh: &Mesh, batch: &mut Batch) -> Result<()> {
+    let Stage { scene, draw_list, .. } = stage;
+    for table in [vertices(mesh), triangles(mesh)].into_iter().chain(plan_points(mesh)) {
         let name = format!("mesh.{}.npy", table.name);
         let table = Npy::new(&table)?;
         batch.stage(&name, |to| table.write(to))?;
     }
-    batch.stage("features.geojson", |to| write_features(&scene.layers, scene.origin, to))?;
+    batch.stage("features.geojson", |to| {
+        write_features((&scene.layers, draw_list), scene.origin.truncate(), to)
+    })?;
     if let Ground::Imagery(Imagery { texels, .. }) = &scene.ground {
         let codes = texels.values().iter().map(|color| color.0.map(|v| (v * 255.0 + 0.5) as u8));
         let picture = Buffer::from_values(texels.width(), texels.height(), codes.collect());
@@ -109,7 +116,7 @@ fn stage_scene(stage: &Stage, batch: &mut Batch) -> Result<()> {
 /// The tiles of a frame that has such.
 fn tiles_of(frame: &Frame, stage: &Stage) -> Vec<TilePicture> {
     let plane = |name: &str| frame.planes.iter().find(|plane| plane.name == name);
-    let size = stage.scene.technique.clipmap.virtual_size;
+    let size = stage.scene.technique.get::<clipmap::Settings>().virtual_size;
     match (plane("tiles"), plane("tile-keys")) {
         (Some(pictures), Some(keys)) => tiles(pictures, keys, size, TILE_TEXELS),
         _ => Vec::new(),

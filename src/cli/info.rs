@@ -3,7 +3,7 @@
 use super::stop::Outcome;
 use clap::ValueEnum;
 use drapery::crs::PlanSpace;
-use drapery::scene::file::{CameraSpec, GroundSpec, LayerSource, SceneFile, Spot, TerrainSource, ViewSpec};
+use drapery::scene_file::{CameraSpec, GroundSpec, LayerSource, SceneFile, Spot, TerrainSource, ViewSpec};
 use drapery::source::dem::{self, DemOptions, DemSummary, PngEncoding};
 use drapery::source::load;
 use drapery::source::vector::{self, VectorSummary};

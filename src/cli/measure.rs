@@ -4,16 +4,17 @@ use super::bar::Bar;
 use drapery::buffer::Buffer;
 use drapery::compare::{Difference, Expected, Image, Metrics};
 use drapery::output::{ByName, SceneResult};
+use drapery::parameter::{Settings, Value};
 use drapery::report::{self, TRUTH, Times};
 use drapery::scene::Device;
-use drapery::scene::file::{Named, SceneFile};
+use drapery::scene_file::SceneFile;
 use drapery::space::ViewFrame;
 use drapery::stage::Stage;
 use drapery::technique::{self, Frame, FrameOptions, Kind, Prepared};
 use drapery::truth::{self, Budget, Truth};
 use drapery::visibility::TILE;
 use drapery::{Error, Result};
-use serde_json::Value;
+use serde_json::Value as Json;
 use std::time::Instant;
 
 /// How exact the truth is; every run's error is its distance from it.
@@ -78,7 +79,7 @@ impl Certified {
     /// The budget by the names of [`TruthArguments`].
     pub(super) fn parameters(&self) -> ByName {
         let Budget { width, depth, .. } = self.budget;
-        ByName::from_pairs([("width", Value::from(width)), ("depth", Value::from(depth))])
+        ByName::from_pairs([("width", Json::from(width)), ("depth", Json::from(depth))])
     }
 
     /// What was done.
@@ -134,7 +135,7 @@ impl Drawn {
             if drawn.as_ref().is_some_and(|before| before.frame.image != frame.image) {
                 return Err(unequal(kind.name()));
             }
-            let buffers = buffers_of(&*prepared, wants_buffer);
+            let buffers = buffers_of(kind, wants_buffer);
             if turn == repeat && !buffers.is_empty() {
                 let with_buffers = self::frame((&*prepared, view), &buffers, bar)?;
                 if with_buffers.image != frame.image {
@@ -144,7 +145,7 @@ impl Drawn {
             }
             drawn = Some(Self {
                 frame,
-                parameters: ByName::from_texts(prepared.parameters()),
+                parameters: ByName::from_pairs(kind.parameters(&stage.scene.technique)),
                 structure_bytes: prepared.structure_bytes(),
                 prepare: Times::of(Vec::new()),
                 draw: Times::of(Vec::new()),
@@ -160,21 +161,15 @@ fn frame((prepared, view): (&dyn Prepared, &ViewFrame), buffers: &[String], bar:
 }
 
 /// The names to ask a technique for.
-fn buffers_of(prepared: &dyn Prepared, wants: &dyn Fn(&str) -> bool) -> Vec<String> {
-    let names = prepared.buffer_names().iter().filter(|name| wants(name));
-    names.map(|name| (*name).to_owned()).collect()
+fn buffers_of(kind: Kind, wants: &dyn Fn(&str) -> bool) -> Vec<String> {
+    kind.buffer_names().into_iter().filter(|name| wants(name)).collect()
 }
 
 /// A device as a scene file writes it under `[device]`.
 pub(super) fn device_words(device: &Device) -> ByName {
-    ByName::from_pairs([
-        ("precision", Value::from(device.precision.word())),
-        ("subpixel_bits", device.subpixel_bits.into()),
-        ("depth", device.depth.word().into()),
-        ("stencil_bits", device.stencil_bits.into()),
-        ("max_line_width_px", device.max_line_width_px.into()),
-        ("filter_bits", device.filter_bits.into()),
-    ])
+    // Its numbers have always had a point in files.
+    let spelt = |value| if let Value::Number(number) = value { number.into() } else { Json::from(value) };
+    ByName::from_pairs(device.values().into_iter().map(|(name, value)| (name, spelt(value))))
 }
 
 /// What is told of a scene.
@@ -184,7 +179,8 @@ pub(super) fn scene_result(stage: &Stage, file: &SceneFile) -> SceneResult {
         name: scene.name.clone(),
         hash: file.hash.clone(),
         plan_space: scene.plan_space.clone(),
-        origin: scene.origin.to_array(),
+        origin: scene.origin.truncate().to_array(),
+        origin_height: scene.origin.z,
     }
 }
 

@@ -272,7 +272,7 @@ fn quoted_text(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use drapery::scene::file::{LayerSource, SceneFile};
+    use drapery::scene_file::{LayerSource, SceneFile};
 
     const GRID: &str = "ncols 3\nnrows 2\nxllcenter 0\nyllcenter 0\ncellsize 100\n1 2 3\n4 5 6\n";
     const BOTH: &str = r#"{"type":"FeatureCollection","features":[

@@ -3,7 +3,7 @@
 use super::bar::Bar;
 use super::refusal::harmless;
 use super::stop::Stop;
-use drapery::scene::file::{DEFAULT_SCENE, Override, SceneFile, TerrainSource, decode, text_of};
+use drapery::scene_file::{DEFAULT_SCENE, Override, SceneFile, TerrainSource, decode, text_of};
 use drapery::stage::Stage;
 use drapery::{Error, Result, source};
 use std::io::Read;

@@ -3,5 +3,5 @@
 use super::stop::Outcome;
 
 pub(super) fn run() -> Outcome {
-    super::print(&format!("{:#}\n", drapery::scene::file::schema()))
+    super::print(&format!("{:#}\n", drapery::scene_file::schema()))
 }

@@ -1,72 +1,83 @@
 //! Features as GeoJSON (RFC 7946, but in the scene's plan coordinates), styled in the words of the simplestyle specification and
 //! of the scene file.
 
-use crate::scene::file::Named;
-use crate::scene::{Color, Feature, Join, Layer, Line, Shape, Width};
+use crate::draw_list::{Chain, DrawList, Item, ItemStyle, Role, Side};
+use crate::parameter::Named;
+use crate::scene::{Color, Join, Layer, Line, OutlineMode, Width};
 use crate::space::Plan;
 use glam::DVec2;
 use serde_json::{Map, Value, json};
 use std::io::{self, Write};
 
-/// Writes all features in draw order, each in a line, in absolute plan coordinates.
+/// Writes all features that are painted, in draw order, each in a line, in absolute plan coordinates.
 ///
 /// # Errors
 /// Those of the writer.
-pub fn write_features(layers: &[Layer], origin: DVec2, to: &mut dyn Write) -> io::Result<()> {
+pub fn write_features(
+    (layers, list): (&[Layer], &DrawList),
+    origin: DVec2,
+    to: &mut dyn Write,
+) -> io::Result<()> {
     write!(to, "{{\"type\":\"FeatureCollection\",\"features\":[")?;
     let mut separator = "\n";
-    for layer in layers {
-        for feature in &layer.features {
-            to.write_all(separator.as_bytes())?;
-            separator = ",\n";
-            let properties = Value::Object(properties(layer, feature));
-            write!(to, "{{\"type\":\"Feature\",\"properties\":{properties},\"geometry\":")?;
-            write_shape(&feature.shape, origin, to)?;
-            write!(to, "}}")?;
-        }
+    for items in list.items().chunk_by(|a, b| (a.layer, a.feature) == (b.layer, b.feature)) {
+        to.write_all(separator.as_bytes())?;
+        separator = ",\n";
+        let properties = Value::Object(properties((layers, list), items));
+        write!(to, "{{\"type\":\"Feature\",\"properties\":{properties},\"geometry\":")?;
+        write_geometry(list, items, origin, to)?;
+        write!(to, "}}")?;
     }
     write!(to, "\n]}}\n")
 }
 
-fn properties(layer: &Layer, feature: &Feature) -> Map<String, Value> {
+/// The properties of a feature, by its items.
+fn properties((layers, list): (&[Layer], &DrawList), items: &[Item]) -> Map<String, Value> {
     let mut all = Map::new();
-    let mut put = |name: &str, value: Value| all.insert(name.into(), value);
-    put("layer", layer.name.clone().into());
-    put("number", feature.index.into());
-    let style = layer.style_of(feature);
-    let mut stroke = |line: &Line| {
-        put("stroke", hex(line.color).into());
-        put("stroke-opacity", line.color.0[3].into());
-        match line.width {
-            Width::Metres(width) => put("stroke-width-m", width.into()),
-            Width::Pixels(width) => put("stroke-width-px", width.into()),
-        };
-        let (join, limit) = match line.join {
-            Join::Round => ("round", None),
-            Join::Bevel => ("bevel", None),
-            Join::Miter { limit } => ("miter", Some(limit)),
-        };
-        put("join", join.into());
-        if let Some(limit) = limit {
-            put("miter-limit", limit.into());
-        }
-        put("cap", line.cap.word().into());
-    };
-    match &feature.shape {
-        Shape::Line(_) => style.line.iter().for_each(stroke),
-        Shape::Polygon(_) => {
-            style.outline.iter().for_each(|outline| stroke(&outline.line));
-            if let Some(outline) = &style.outline {
-                put("outline-mode", outline.mode.word().into());
-            }
-            if let Some(fill) = &style.fill {
-                put("fill", hex(fill.color).into());
-                put("fill-opacity", fill.color.0[3].into());
-                put("fill-rule", fill.rule.word().into());
-            }
+    for item in items {
+        all.insert("layer".into(), layers[item.layer as usize].name.clone().into());
+        all.insert("number".into(), item.number.into());
+        let style = &list.styles()[item.style as usize];
+        match &style.stroke {
+            Some(line) => put_stroke(style, line, &mut all),
+            None => put_fill(style, &mut all),
         }
     }
     all
+}
+
+fn put_fill(style: &ItemStyle, all: &mut Map<String, Value>) {
+    all.insert("fill".into(), hex(style.paint).into());
+    all.insert("fill-opacity".into(), style.paint.0[3].into());
+    all.insert("fill-rule".into(), style.rule.word().into());
+}
+
+fn put_stroke(style: &ItemStyle, line: &Line, all: &mut Map<String, Value>) {
+    let mut put = |name: &str, value: Value| all.insert(name.into(), value);
+    put("stroke", hex(style.paint).into());
+    put("stroke-opacity", style.paint.0[3].into());
+    match line.width {
+        Width::Metres(width) => put("stroke-width-m", width.into()),
+        Width::Pixels(width) => put("stroke-width-px", width.into()),
+    };
+    let (join, limit) = match line.join {
+        Join::Round => ("round", None),
+        Join::Bevel => ("bevel", None),
+        Join::Miter { limit } => ("miter", Some(limit)),
+    };
+    put("join", join.into());
+    if let Some(limit) = limit {
+        put("miter-limit", limit.into());
+    }
+    put("cap", line.cap.word().into());
+    if style.role == Role::Outline {
+        let mode = match style.cut {
+            Some(Side::Inside) => OutlineMode::Inset,
+            None => OutlineMode::Normal,
+            Some(Side::Outside) => OutlineMode::Offset,
+        };
+        put("outline-mode", mode.word().into());
+    }
 }
 
 /// A colour without its alpha, as the web writes it.
@@ -76,20 +87,83 @@ fn hex(color: Color) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-fn write_shape(shape: &Shape, origin: DVec2, to: &mut dyn Write) -> io::Result<()> {
-    let (kind, parts, closes) = match shape {
-        Shape::Line(parts) => ("MultiLineString", parts, false),
-        Shape::Polygon(rings) => ("Polygon", rings, true),
-    };
+fn write_geometry(list: &DrawList, items: &[Item], origin: DVec2, to: &mut dyn Write) -> io::Result<()> {
+    let is_line = items.iter().any(|item| list.styles()[item.style as usize].role == Role::Line);
+    let kind = if is_line { "MultiLineString" } else { "Polygon" };
     write!(to, "{{\"type\":\"{kind}\",\"coordinates\":[")?;
-    for (k, part) in parts.iter().enumerate() {
-        let first = part.first().filter(|_| closes);
+    for (k, part) in parts(list, items).iter().enumerate() {
         write!(to, "{}[", if k == 0 { "" } else { "," })?;
-        for (k, Plan { x, y, .. }) in part.iter().chain(first).enumerate() {
+        // Rings of a polygon are closed, even those of a single vertex.
+        let path = list.path_of(part);
+        let closing = path.first().filter(|_| !is_line && !part.is_closed);
+        for (k, Plan { x, y, .. }) in path.iter().chain(closing).enumerate() {
             let place = json!([origin.x + x, origin.y + y]);
             write!(to, "{}{place}", if k == 0 { "" } else { "," })?;
         }
         write!(to, "]")?;
     }
     write!(to, "]}}")
+}
+
+/// The lines or rings of a feature in their order: borders where it has an area; what only its outline has by the outline's stroke.
+fn parts(list: &DrawList, items: &[Item]) -> Vec<Chain> {
+    let borders = items.iter().flat_map(|item| list.area(item));
+    let strokes = items.iter().flat_map(|item| list.strokes(item));
+    let mut parts: Vec<Chain> = borders.chain(strokes).copied().collect();
+    // Borders are before strokes: the sort keeps them there.
+    parts.sort_by_key(|chain| chain.part);
+    parts.dedup_by_key(|chain| chain.part);
+    parts
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Cap, Feature, Fill, Outline, Rule, Shape, Style};
+
+    fn written(style: Style, shapes: Vec<Shape>) -> Value {
+        let features = shapes.into_iter().enumerate();
+        let features = features.map(|(index, shape)| Feature { index, style: 0, shape }).collect();
+        let mut layers = [Layer::uniform("layer", style, features)];
+        let list = DrawList::new(&mut layers).unwrap();
+        let mut text = Vec::new();
+        write_features((&layers, &list), DVec2::new(100.0, 0.0), &mut text).unwrap();
+        serde_json::from_slice(&text).unwrap()
+    }
+
+    fn plan(points: &[(f64, f64)]) -> Vec<Plan> {
+        points.iter().map(|&(x, y)| Plan::new(x, y)).collect()
+    }
+
+    fn style(mode: OutlineMode, has_fill: bool) -> Style {
+        let color = Color([0.0, 0.0, 0.0, 1.0]);
+        let line = Line { color, width: Width::Metres(1.0), join: Join::Round, cap: Cap::Butt };
+        let fill = has_fill.then_some(Fill { color, rule: Rule::EvenOdd });
+        Style { fill, outline: Some(Outline { line, mode }), line: None }
+    }
+
+    #[test]
+    fn a_polygon_has_all_rings_that_its_fill_and_its_outline_have_closed_and_in_their_order() {
+        let rings =
+            [&[(0.0, 0.0)][..], &[(0.0, 0.0), (4.0, 0.0), (4.0, 0.0), (0.0, 4.0)], &[(1.0, 1.0), (2.0, 1.0)]];
+        let polygon = || vec![Shape::Polygon(rings.map(plan).to_vec())];
+        let rings = |style| written(style, polygon())["features"][0]["geometry"]["coordinates"].to_string();
+        let with =
+            |big: &str| format!("[[[100.0,0.0],[100.0,0.0]],{big},[[101.0,1.0],[102.0,1.0],[101.0,1.0]]]");
+        let as_is = with("[[100.0,0.0],[104.0,0.0],[104.0,0.0],[100.0,4.0],[100.0,0.0]]");
+        assert_eq!(rings(style(OutlineMode::Normal, true)), as_is);
+        assert_eq!(rings(style(OutlineMode::Inset, false)), as_is);
+        let distinct = with("[[100.0,0.0],[104.0,0.0],[100.0,4.0],[100.0,0.0]]");
+        assert_eq!(rings(style(OutlineMode::Normal, false)), distinct, "nothing but the stroke is drawn");
+    }
+
+    #[test]
+    fn what_nothing_paints_is_left_out_and_the_others_keep_their_numbers() {
+        let line = || Shape::Line(vec![plan(&[(0.0, 0.0), (1.0, 0.0)])]);
+        let polygon = || Shape::Polygon(vec![plan(&[(0.0, 0.0), (4.0, 0.0), (0.0, 4.0)])]);
+        let all = written(style(OutlineMode::Offset, true), vec![line(), polygon()]);
+        let [feature] = &all["features"].as_array().unwrap()[..] else { panic!("{all}") };
+        assert_eq!(feature["properties"]["number"], 1);
+        assert_eq!(feature["properties"]["outline-mode"], "offset");
+    }
 }

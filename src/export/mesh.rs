@@ -1,39 +1,31 @@
 //! The terrain as tables of vertices and triangles.
 
 use crate::buffer::{Plane, Values};
-use crate::terrain::{Mesh, SKY};
+use crate::terrain::{Drape, Mesh, SKY};
 
 /// The vertices, a row each: x, y, z in scene-local metres; those of posts without data are as high as 0.
 pub fn vertices(mesh: &Mesh) -> Plane {
-    let values: Vec<f64> = match mesh {
-        Mesh::Grid(grid) => {
-            let posts = grid.posts();
-            let numbers = (0..posts.rows()).flat_map(|j| (0..posts.columns()).map(move |i| (i, j)));
-            let height = |z: f64| if z.is_nan() { 0.0 } else { z };
-            numbers.map(|(i, j)| posts.world(i, j)).flat_map(|p| [p.x, p.y, height(p.z)]).collect()
-        }
-        Mesh::Tin(tin) => tin.vertices().iter().flat_map(|p| [p.x, p.y, p.z]).collect(),
-    };
+    let height = |z: f64| if z.is_nan() { 0.0 } else { z };
+    let places = mesh.vertices().map(|vertex| vertex.world);
+    let values: Vec<f64> = places.flat_map(|p| [p.x, p.y, height(p.z)]).collect();
     Plane { name: "vertices", width: 3, height: values.len() / 3, components: 1, values: Values::F64(values) }
+}
+
+/// The vertices' places in the plan, a row each: x, y, scene-local; `None` where each vertex lies straight over its own.
+pub fn plan_points(mesh: &Mesh) -> Option<Plane> {
+    if mesh.drape() == Drape::Vertical {
+        return None;
+    }
+    let values: Vec<f64> = mesh.vertices().flat_map(|vertex| [vertex.plan.x, vertex.plan.y]).collect();
+    let height = values.len() / 2;
+    Some(Plane { name: "plan", width: 2, height, components: 1, values: Values::F64(values) })
 }
 
 /// The triangles, a row each in the order of their numbers: three vertices' numbers, counter-clockwise in plan; three times
 /// [`SKY`] where there is a hole.
 pub fn triangles(mesh: &Mesh) -> Plane {
-    let values: Vec<u32> = match mesh {
-        Mesh::Grid(grid) => {
-            let columns = grid.posts().columns();
-            let numbers = |id: u32| {
-                let cell = (id / 2) as usize;
-                let (i, j) = (cell % (columns - 1), cell / (columns - 1));
-                let corners = grid.half_corners(i, j, id % 2 == 1);
-                corners.map(|(di, dj)| ((j + dj) * columns + i + di) as u32)
-            };
-            let exists = |id: u32| mesh.triangle(id).is_some();
-            (0..mesh.triangle_ids()).flat_map(|id| if exists(id) { numbers(id) } else { [SKY; 3] }).collect()
-        }
-        Mesh::Tin(tin) => tin.triangles().as_flattened().to_vec(),
-    };
+    let values: Vec<u32> =
+        (0..mesh.triangle_ids()).flat_map(|id| mesh.corners(id).unwrap_or([SKY; 3])).collect();
     Plane {
         name: "triangles",
         width: 3,
@@ -48,6 +40,7 @@ mod tests {
     use super::*;
     use crate::scene::{Diagonal, Posts, Surface};
     use crate::space::{Plan, World};
+    use crate::terrain::SurfaceVertex;
     use glam::DVec2;
 
     fn with_hole() -> Mesh {
@@ -61,6 +54,20 @@ mod tests {
         let points = [(0.0, 0.0), (9.0, 1.0), (4.0, 8.0), (5.0, 3.0), (-2.0, 6.0)];
         let points = points.iter().enumerate().map(|(k, &(x, y))| World::new(x, y, k as f64)).collect();
         Mesh::new(Surface::Points(points), Diagonal::default()).unwrap()
+    }
+
+    #[test]
+    fn vertices_that_do_not_lie_over_their_plan_points_have_a_table_of_these() {
+        let mesh = scattered();
+        assert!(plan_points(&mesh).is_none());
+        let triangles = (0..mesh.triangle_ids()).filter_map(|id| mesh.corners(id)).collect();
+        let leaning = mesh.vertices().map(|vertex| SurfaceVertex {
+            plan: Plan::new(vertex.world.x + vertex.world.z, vertex.world.y),
+            ..vertex
+        });
+        let plan = plan_points(&Mesh::of_surface(leaning.collect(), triangles).unwrap()).unwrap();
+        assert_eq!((plan.width, plan.height), (2, 5));
+        assert_eq!(plan.values, Values::F64(vec![0.0, 0.0, 10.0, 1.0, 6.0, 8.0, 8.0, 3.0, 2.0, 6.0]));
     }
 
     #[test]

@@ -9,7 +9,7 @@ mod parameters;
 mod tiles;
 
 pub use features::write_features;
-pub use mesh::{triangles, vertices};
+pub use mesh::{plan_points, triangles, vertices};
 pub use parameters::{Camera, Canvas, Ground, Parameters};
 pub use tiles::{TilePicture, tiles};
 

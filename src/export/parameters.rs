@@ -2,8 +2,8 @@
 
 use crate::error::{Error, Result};
 use crate::output::ByName;
+use crate::parameter::Named;
 use crate::raster::device;
-use crate::scene::file::Named;
 use crate::scene::{self, Scene};
 use crate::space::{Lens, PlanBox, ViewFrame};
 use crate::terrain::Mesh;
@@ -21,6 +21,8 @@ pub struct Parameters {
     pub plan_space: String,
     /// Absolute plan coordinates of the zero point.
     pub origin: [f64; 2],
+    /// Its absolute height.
+    pub origin_height: f64,
     /// The picture.
     pub image: Canvas,
     /// From where it is seen.
@@ -110,7 +112,8 @@ impl Parameters {
             technique,
             settings,
             plan_space: scene.plan_space.clone(),
-            origin: scene.origin.to_array(),
+            origin: scene.origin.truncate().to_array(),
+            origin_height: scene.origin.z,
             image: Canvas {
                 width: view.width(),
                 height: view.height(),

@@ -1,5 +1,6 @@
 //! Exact winding numbers of a polygon, by buckets of its height.
 
+use crate::draw_list::{DrawList, Item};
 use crate::index::CellLists;
 use crate::predicate::orient2d;
 use crate::space::{Plan, PlanBox};
@@ -11,7 +12,6 @@ const EDGES_A_BUCKET: usize = 4;
 /// A polygon's edges, sorted into buckets of y.
 #[derive(Debug)]
 pub(super) struct Area {
-    item: u32,
     heights: Heights,
     bounds: PlanBox,
     /// The first points of edges, by bucket.
@@ -42,9 +42,10 @@ impl Heights {
 }
 
 impl Area {
-    /// The edges from each point of some ranges to the next point.
-    pub(super) fn new(points: &[Plan], ranges: impl Iterator<Item = Range<u32>> + Clone, item: u32) -> Self {
-        let vertices = || ranges.clone().flatten();
+    /// The edges of an item's border: from each vertex of its rings to the one behind it.
+    pub(super) fn new(list: &DrawList, item: &Item) -> Self {
+        let points = list.vertices();
+        let vertices = || list.area(item).iter().flat_map(|ring| ring.first..ring.first + ring.count);
         let bounds = PlanBox::around(vertices().map(|k| points[k as usize]));
         let count = vertices().count();
         let buckets = (count / EDGES_A_BUCKET).max(1);
@@ -59,12 +60,7 @@ impl Area {
                 heights.buckets_of(points, k).for_each(|bucket| edges.put(bucket, k));
             }
         });
-        Self { item, heights, bounds, edges }
-    }
-
-    /// The item it bounds.
-    pub(super) fn item(&self) -> u32 {
-        self.item
+        Self { heights, bounds, edges }
     }
 
     /// The box around it.

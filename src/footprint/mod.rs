@@ -1,9 +1,8 @@
-//! Features as sets of plan points, for the truth.
+//! The items of the draw list as sets of plan points, for the truth and for supersampling.
 //!
-//! Input: the layers of a scene, the view (widths in pixels depend on it) and which boxes of the plan can be seen. Output:
-//! [`Footprints`]: [`Item`]s in draw order, each a set of plan points of one colour, their boundaries as small [`Part`]s in a
-//! tree of boxes, and exact winding numbers. Refuses: nothing; degenerate rings and segments of no length have no points, or
-//! those that `docs/semantics.md` says.
+//! Input: the draw list, the view and the terrain (widths in pixels depend on them) and which boxes of the plan can be seen. Output:
+//! [`Footprints`]: each item's boundary as small [`Part`]s in a tree of boxes, and exact winding numbers. It borrows the list's
+//! vertices. Refuses: nothing; degenerate rings and segments of no length have no points, or those that `docs/semantics.md` says.
 
 mod area;
 mod primitive;
@@ -11,49 +10,14 @@ mod stroke;
 
 pub use primitive::{Convex, HalfPlane, MOST_SIDES, Primitive, Sides};
 
+use crate::draw_list::{Chain, DrawList, Role, Side};
 use crate::index::BoxTree;
-use crate::scene::{Color, Feature, Layer, Line, OutlineMode, Rule, SAME_VERTEX, Shape, Style, Width};
-use crate::space::{Lens, Plan, PlanBox, ViewFrame};
+use crate::parallel;
+use crate::scene::{Line, Width};
+use crate::space::{Lens, Plan, PlanBox, ViewFrame, World};
+use crate::terrain::Mesh;
 use area::Area;
-
-/// A set of plan points of one colour.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Item {
-    /// The layer's number in the scene.
-    pub layer: u32,
-    /// The feature's number in the layer.
-    pub feature: u32,
-    /// Whether it is a fill, an outline or a line.
-    pub role: Role,
-    /// Its colour.
-    pub color: Color,
-    /// The polygon that bounds it, if one does.
-    area: Option<u32>,
-    rule: Rule,
-    stroke: Option<Line>,
-}
-
-/// What an item is of its feature.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Role {
-    /// The inside of a polygon.
-    Fill,
-    /// The border of a polygon, or the part of it on one side.
-    Outline(OutlineSide),
-    /// A line.
-    Line,
-}
-
-/// Which part of an outline's stroke counts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum OutlineSide {
-    /// The part in the polygon.
-    Inside,
-    /// All of it.
-    Both,
-    /// The part out of the polygon.
-    Outside,
-}
+use std::ops::Range;
 
 /// A piece of an item's boundary: an edge of its polygon, or a segment of its stroke with the join at its start and the
 /// caps at its ends.
@@ -61,18 +25,9 @@ pub enum OutlineSide {
 pub struct Part {
     /// The item that it bounds.
     pub item: u32,
+    /// The place of its chain among the item's: first those of its area, then those of its stroke.
     chain: u32,
     vertex: u32,
-}
-
-/// Consecutive vertices of [`Footprints::points`]; the first stands again at the end of a closed one.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Chain {
-    first: u32,
-    /// Points, the repeated one too.
-    count: u32,
-    is_closed: bool,
-    is_stroke: bool,
 }
 
 /// How widths in pixels become metres: what the view says.
@@ -81,53 +36,82 @@ pub struct PixelSize {
     /// A pixel's size at distance 1 (perspective) or everywhere (orthographic).
     pub pixel: f64,
     /// The eye, when a pixel's size grows with the distance from it.
-    pub eye: Option<crate::space::World>,
-    /// The farthest that terrain lies above or below the eye, metres.
-    pub height_span: f64,
+    pub eye: Option<World>,
+    /// How far from the eye the surface may be over a point of the plan.
+    pub away: Away,
+}
+
+/// How far from an eye the surface may be over a point of the plan.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Away {
+    /// It is draped vertically: as far as the point is in the plan, and at most so far above or below, metres.
+    Over(f64),
+    /// At most so far wherever the point is, metres.
+    Within(f64),
 }
 
 impl PixelSize {
-    /// The size in a view of a terrain whose heights lie between two.
-    pub fn of(view: &ViewFrame, (low, high): (f64, f64)) -> Self {
+    /// The size in a view of a terrain.
+    pub fn of(view: &ViewFrame, mesh: &Mesh) -> Self {
         let eye = view.eye();
-        let height_span = crate::math::max((high - eye.z).abs(), (low - eye.z).abs());
+        let above = |(low, high): (f64, f64)| crate::math::max((high - eye.z).abs(), (low - eye.z).abs());
+        let away = match mesh.heights() {
+            Some(heights) => Away::Over(above(heights)),
+            None => Away::Within(mesh.farthest_from(eye)),
+        };
         match view.lens() {
-            Lens::Central { pixel } => Self { pixel, eye: Some(eye), height_span },
-            Lens::Parallel { pixel } => Self { pixel, eye: None, height_span },
+            Lens::Central { pixel } => Self { pixel, eye: Some(eye), away },
+            Lens::Parallel { pixel } => Self { pixel, eye: None, away },
         }
     }
 }
 
-/// The items of a scene.
+/// The items of a draw list as sets of plan points.
 #[derive(Debug)]
-pub struct Footprints {
-    items: Vec<Item>,
-    points: Vec<Plan>,
-    chains: Vec<Chain>,
+pub struct Footprints<'l> {
+    list: &'l DrawList,
+    pixel: PixelSize,
     areas: Vec<Area>,
+    /// The number of each item's area; [`NO_AREA`]: it has none.
+    area_of: Vec<u32>,
     /// The item of each entry of `area_boxes`.
     area_items: Vec<u32>,
     area_boxes: BoxTree,
     parts: Vec<Part>,
     part_boxes: BoxTree,
-    pixel: PixelSize,
 }
 
-impl Footprints {
-    /// The items of all layers; parts and polygons whose box `is_seen` denies are left out.
-    pub fn new(layers: &[Layer], pixel: PixelSize, is_seen: &(dyn Fn(&PlanBox) -> bool + Sync)) -> Self {
-        let mut all = Building { pixel, ..Building::default() };
-        for (l, layer) in layers.iter().enumerate() {
-            for (f, feature) in layer.features.iter().enumerate() {
-                all.add_feature((l as u32, f as u32), layer.style_of(feature), feature);
-            }
+/// Tells whether a box of the plan can be seen.
+pub type IsSeen<'s> = dyn Fn(&PlanBox) -> bool + Sync + 's;
+
+/// No number of an area.
+const NO_AREA: u32 = u32::MAX;
+
+impl<'l> Footprints<'l> {
+    /// The items of a list; parts and polygons whose box `is_seen` denies are left out.
+    pub fn new(list: &'l DrawList, pixel: PixelSize, is_seen: &IsSeen) -> Self {
+        let with_area =
+            || list.numbered().filter(|(_, item)| !item.area.is_empty()).map(|(number, _)| number);
+        let owners: Vec<u32> = with_area().filter(|item| list.area_owner(*item) == *item).collect();
+        let areas = parallel::map(&owners, |owner| Area::new(list, &list.items()[*owner as usize]));
+        let mut area_of = vec![NO_AREA; list.items().len()];
+        for (area, owner) in (0..).zip(owners) {
+            area_of[owner as usize] = area;
         }
-        all.finish(is_seen)
+        for item in with_area() {
+            area_of[item as usize] = area_of[list.area_owner(item) as usize];
+        }
+        let bounds = |item: u32| areas[area_of[item as usize] as usize].bounds();
+        let seen = with_area().map(|item| (item, bounds(item))).filter(|(_, plan)| is_seen(plan));
+        let (area_items, area_boxes): (Vec<u32>, Vec<PlanBox>) = seen.unzip();
+        let (parts, part_boxes) = Parts { list, pixel: &pixel, is_seen }.all();
+        let (area_boxes, part_boxes) = (BoxTree::new(&area_boxes), BoxTree::new(&part_boxes));
+        Self { list, pixel, areas, area_of, area_items, area_boxes, parts, part_boxes }
     }
 
-    /// The items in draw order.
-    pub fn items(&self) -> &[Item] {
-        &self.items
+    /// The draw list.
+    pub fn list(&self) -> &'l DrawList {
+        self.list
     }
 
     /// Calls `visit` with each part whose box meets `plan`, until it returns false. Returns whether it saw all.
@@ -145,243 +129,137 @@ impl Footprints {
         });
     }
 
+    /// Whether a point of an item must lie in (or out of) its polygon; `None`: no matter.
+    #[inline]
+    pub fn wants_polygon(&self, item: u32) -> Option<bool> {
+        let style = self.list.style_of(item);
+        match (style.role, style.cut) {
+            (Role::Fill, _) | (_, Some(Side::Inside)) => Some(true),
+            (_, Some(Side::Outside)) => Some(false),
+            (Role::Outline | Role::Line, None) => None,
+        }
+    }
+
+    /// Whether a point of an item must lie in its stroke.
+    #[inline]
+    pub fn wants_stroke(&self, item: u32) -> bool {
+        self.list.style_of(item).stroke.is_some()
+    }
+
     /// Whether an item's polygon holds a point that lies on none of its edges, exactly; false for an item without one.
     pub fn polygon_holds(&self, item: u32, at: Plan) -> bool {
-        let item = &self.items[item as usize];
-        item.area.is_some_and(|area| item.rule.contains(self.areas[area as usize].winding(&self.points, at)))
+        let area = self.areas.get(self.area_of[item as usize] as usize);
+        let turns = |area: &Area| area.winding(self.list.vertices(), at);
+        area.is_some_and(|area| self.list.style_of(item).rule.contains(turns(area)))
     }
 
     /// What a part is made of.
     pub fn primitives(&self, part: Part, out: &mut Vec<Primitive>) {
-        let (item, chain) = (&self.items[part.item as usize], &self.chains[part.chain as usize]);
-        let at = part.vertex as usize;
-        match item.stroke.filter(|_| chain.is_stroke) {
-            Some(line) => stroke::primitives(&self.stroke_segment(chain, at), &line, &self.pixel, out),
-            None => out.push(Primitive::Edge { from: self.points[at], to: self.points[at + 1] }),
+        let (vertices, at) = (self.list.vertices(), part.vertex as usize);
+        match stroke_of(self.list, part.item, part.chain) {
+            Some((chain, line)) => {
+                stroke::primitives(&segment_of(vertices, chain, at), line, &self.pixel, out);
+            }
+            None => out.push(Primitive::Edge { from: vertices[at], to: vertices[at + 1] }),
         }
     }
 
-    /// Bytes held.
+    /// Bytes held, without the draw list.
     pub fn bytes(&self) -> usize {
-        size_of_val(&self.items[..])
-            + size_of_val(&self.points[..])
-            + size_of_val(&self.chains[..])
+        size_of_val(&self.area_of[..])
+            + size_of_val(&self.area_items[..])
             + size_of_val(&self.parts[..])
             + self.areas.iter().map(Area::bytes).sum::<usize>()
             + self.part_boxes.bytes()
             + self.area_boxes.bytes()
     }
-
-    /// A stroke's segment that starts at a point, with what is before and after it.
-    fn stroke_segment(&self, chain: &Chain, at: usize) -> stroke::Segment {
-        segment_of(&self.points, chain, at)
-    }
 }
 
-impl Item {
-    /// Whether a point of this item must lie in (or out of) its polygon; `None`: no matter.
-    pub fn wants_polygon(&self) -> Option<bool> {
-        match self.role {
-            Role::Fill | Role::Outline(OutlineSide::Inside) => Some(true),
-            Role::Outline(OutlineSide::Outside) => Some(false),
-            Role::Outline(OutlineSide::Both) | Role::Line => None,
-        }
-    }
-
-    /// Whether a point of this item must lie in its stroke.
-    pub fn wants_stroke(&self) -> bool {
-        self.stroke.is_some()
-    }
+/// A chain of an item by its place among them and how it is drawn, if it is one of the item's stroke.
+#[inline]
+fn stroke_of(list: &DrawList, item: u32, place: u32) -> Option<(&Chain, &Line)> {
+    let of = &list.items()[item as usize];
+    let place = place.checked_sub(of.area.len() as u32)?;
+    Some((&list.strokes(of)[place as usize], list.style_of(item).stroke.as_ref()?))
 }
 
-fn segment_of(points: &[Plan], chain: &Chain, at: usize) -> stroke::Segment {
+/// The segment of a stroke that starts at a vertex, with what is before and after it.
+fn segment_of(vertices: &[Plan], chain: &Chain, at: usize) -> stroke::Segment {
     let (first, last) = (chain.first as usize, (chain.first + chain.count - 1) as usize);
     let before = match at > first {
-        true => Some(points[at - 1]),
-        false => chain.is_closed.then(|| points[last - 1]),
+        true => Some(vertices[at - 1]),
+        false => chain.is_closed.then(|| vertices[last]),
     };
-    let is_dot = first == last;
-    let is_last = is_dot || (at + 1 == last && !chain.is_closed);
-    stroke::Segment { before, from: points[at], to: points[if is_dot { at } else { at + 1 }], is_last }
-}
-
-/// Footprints being collected.
-#[derive(Default)]
-struct Building {
-    items: Vec<Item>,
-    points: Vec<Plan>,
-    chains: Vec<Chain>,
-    /// The item of each chain.
-    chain_items: Vec<u32>,
-    areas: Vec<Area>,
-    pixel: PixelSize,
-}
-
-impl Default for PixelSize {
-    fn default() -> Self {
-        Self { pixel: 1.0, eye: None, height_span: 0.0 }
-    }
-}
-
-impl Building {
-    fn add_feature(&mut self, (layer, feature): (u32, u32), style: &Style, what: &Feature) {
-        let none = Color([0.0; 4]);
-        let mut item = Item {
-            layer,
-            feature,
-            role: Role::Line,
-            color: none,
-            area: None,
-            rule: Rule::EvenOdd,
-            stroke: None,
-        };
-        match &what.shape {
-            Shape::Line(parts) => {
-                let Some(line) = style.line else { return };
-                (item.color, item.stroke) = (line.color, Some(line));
-                self.items.push(item);
-                parts.iter().for_each(|part| self.add_stroke(part, StrokeEnds::AsWritten));
-            }
-            Shape::Polygon(rings) => {
-                item.rule = style.fill.map_or(Rule::EvenOdd, |fill| fill.rule);
-                if let Some(fill) = style.fill {
-                    item.area = Some(self.areas.len() as u32);
-                    (item.role, item.color) = (Role::Fill, fill.color);
-                    self.items.push(item);
-                    self.add_borders(rings);
-                }
-                let Some(outline) = style.outline else { return };
-                (item.role, item.area) = (Role::Outline(side_of(outline.mode)), None);
-                (item.color, item.stroke) = (outline.line.color, Some(outline.line));
-                item.area = item.wants_polygon().map(|_| self.areas.len() as u32);
-                self.items.push(item);
-                if item.area.is_some() {
-                    self.add_borders(rings);
-                }
-                rings.iter().for_each(|ring| self.add_stroke(ring, StrokeEnds::Closed));
-            }
-        }
-    }
-
-    /// Adds the edges of a polygon's rings to the last item, and its area.
-    fn add_borders(&mut self, rings: &[Vec<Plan>]) {
-        let (start, item) = (self.chains.len(), self.items.len() as u32 - 1);
-        for ring in rings.iter().filter(|ring| ring.len() > 1) {
-            let first = self.points.len() as u32;
-            self.points.extend(ring);
-            self.points.push(ring[0]);
-            let count = ring.len() as u32 + 1;
-            self.push_chain(Chain { first, count, is_closed: true, is_stroke: false }, item);
-        }
-        let ranges = self.chains[start..].iter().map(|c| c.first..c.first + c.count - 1);
-        self.areas.push(Area::new(&self.points, ranges, item));
-    }
-
-    /// Adds a polyline's stroke to the last item.
-    fn add_stroke(&mut self, points: &[Plan], ends: StrokeEnds) {
-        let (first, item) = (self.points.len(), self.items.len() as u32 - 1);
-        let Some(&start) = points.first() else { return };
-        self.points.push(start);
-        let mut last = start;
-        for &p in points {
-            if !is_same_vertex(p, last) {
-                self.points.push(p);
-                last = p;
-            }
-        }
-        let distinct = self.points.len() - first;
-        let returns = distinct > 1 && is_same_vertex(start, last);
-        let is_closed = match ends {
-            // A line that ends where it begins is a ring (a loop of Taibo 4.2): joined there, without caps.
-            StrokeEnds::AsWritten => returns && distinct > 3,
-            StrokeEnds::Closed => distinct > 1,
-        };
-        if is_closed && returns {
-            self.points.pop();
-        }
-        if is_closed {
-            self.points.push(start);
-        }
-        let count = (self.points.len() - first) as u32;
-        self.push_chain(Chain { first: first as u32, count, is_closed, is_stroke: true }, item);
-    }
-
-    fn push_chain(&mut self, chain: Chain, item: u32) {
-        self.chains.push(chain);
-        self.chain_items.push(item);
-    }
-
-    fn finish(self, is_seen: &(dyn Fn(&PlanBox) -> bool + Sync)) -> Footprints {
-        let found = crate::parallel::map_indices(self.chains.len().div_ceil(CHAINS_AT_A_TIME), |k| {
-            let end = ((k + 1) * CHAINS_AT_A_TIME).min(self.chains.len());
-            let mut found = Vec::new();
-            (k * CHAINS_AT_A_TIME..end).for_each(|chain| self.find_parts(chain, is_seen, &mut found));
-            found
-        });
-        let (parts, boxes): (Vec<Part>, Vec<PlanBox>) = found.into_iter().flatten().unzip();
-        let seen: Vec<(u32, PlanBox)> =
-            self.areas.iter().map(|a| (a.item(), a.bounds())).filter(|(_, plan)| is_seen(plan)).collect();
-        let (area_items, area_boxes): (Vec<u32>, Vec<PlanBox>) = seen.into_iter().unzip();
-        Footprints {
-            items: self.items,
-            points: self.points,
-            chains: self.chains,
-            areas: self.areas,
-            area_items,
-            area_boxes: BoxTree::new(&area_boxes),
-            parts,
-            part_boxes: BoxTree::new(&boxes),
-            pixel: self.pixel,
-        }
-    }
-
-    /// The seen parts of a chain and their boxes.
-    fn find_parts(
-        &self,
-        chain: usize,
-        is_seen: &(dyn Fn(&PlanBox) -> bool + Sync),
-        found: &mut Vec<(Part, PlanBox)>,
-    ) {
-        let (item, index, chain) = (self.chain_items[chain], chain as u32, &self.chains[chain]);
-        let line = self.items[item as usize].stroke.filter(|_| chain.is_stroke);
-        let vertices = chain.first..chain.first + (chain.count - 1).max(u32::from(chain.is_stroke));
-        for vertex in vertices {
-            let at = vertex as usize;
-            if line.is_none() && self.points[at] == self.points[at + 1] {
-                continue;
-            }
-            let plan = match line {
-                Some(line) => stroke::bounds(&segment_of(&self.points, chain, at), &line, &self.pixel),
-                None => PlanBox::around([self.points[at], self.points[at + 1]]),
-            };
-            if !plan.is_empty() && is_seen(&plan) {
-                found.push((Part { item, chain: index, vertex }, plan));
-            }
-        }
-    }
+    // A closed chain's first vertex stands behind its last one; a dot has no other.
+    let is_end = at == last && !chain.is_closed;
+    let to = if is_end { vertices[at] } else { vertices[at + 1] };
+    let is_last = !chain.is_closed && at + 1 >= last;
+    stroke::Segment { before, from: vertices[at], to, is_last }
 }
 
 /// Chains that one piece of parallel work looks at.
 const CHAINS_AT_A_TIME: usize = 256;
 
-/// How a stroke ends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum StrokeEnds {
-    /// With caps, unless it ends where it begins.
-    AsWritten,
-    /// It runs back to its start.
-    Closed,
+/// The parts of a draw list being found.
+struct Parts<'a> {
+    list: &'a DrawList,
+    pixel: &'a PixelSize,
+    is_seen: &'a IsSeen<'a>,
 }
 
-fn is_same_vertex(a: Plan, b: Plan) -> bool {
-    (a - b).length() <= SAME_VERTEX
-}
+impl Parts<'_> {
+    /// All that are seen, and their boxes. The work is cut by chains: one item may have most of them.
+    fn all(&self) -> (Vec<Part>, Vec<PlanBox>) {
+        let mut ends = Vec::with_capacity(self.list.items().len());
+        let mut count = 0;
+        for item in self.list.items() {
+            count += item.area.len() + item.strokes.len();
+            ends.push(count);
+        }
+        let found = parallel::map_indices(count.div_ceil(CHAINS_AT_A_TIME), |k| {
+            let first = k * CHAINS_AT_A_TIME;
+            self.of_chains(first..count.min(first + CHAINS_AT_A_TIME), &ends)
+        });
+        found.into_iter().flatten().unzip()
+    }
 
-fn side_of(mode: OutlineMode) -> OutlineSide {
-    match mode {
-        OutlineMode::Inset => OutlineSide::Inside,
-        OutlineMode::Normal => OutlineSide::Both,
-        OutlineMode::Offset => OutlineSide::Outside,
+    /// Those of some of all items' chains; `ends` counts the chains up to each item's last one.
+    fn of_chains(&self, chains: Range<usize>, ends: &[usize]) -> Vec<(Part, PlanBox)> {
+        let mut found = Vec::new();
+        let mut item = ends.partition_point(|end| *end <= chains.start);
+        for chain in chains {
+            while ends[item] <= chain {
+                item += 1;
+            }
+            let start = if item == 0 { 0 } else { ends[item - 1] };
+            self.of_chain(item as u32, (chain - start) as u32, &mut found);
+        }
+        found
+    }
+
+    /// Those of the chain at a place among an item's.
+    fn of_chain(&self, item: u32, place: u32, found: &mut Vec<(Part, PlanBox)>) {
+        let vertices = self.list.vertices();
+        let mut add = |vertex: u32, plan: PlanBox| {
+            if !plan.is_empty() && (self.is_seen)(&plan) {
+                found.push((Part { item, chain: place, vertex }, plan));
+            }
+        };
+        if let Some((chain, line)) = stroke_of(self.list, item, place) {
+            // A dot is a part too.
+            for vertex in chain.first..chain.first + chain.segments().max(1) {
+                let segment = segment_of(vertices, chain, vertex as usize);
+                add(vertex, stroke::bounds(&segment, line, self.pixel));
+            }
+            return;
+        }
+        let border = &self.list.area(&self.list.items()[item as usize])[place as usize];
+        for vertex in border.first..border.first + border.count {
+            let (from, to) = (vertices[vertex as usize], vertices[vertex as usize + 1]);
+            if from != to {
+                add(vertex, PlanBox::around([from, to]));
+            }
+        }
     }
 }
 

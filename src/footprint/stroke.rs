@@ -1,7 +1,7 @@
 //! A stroke's segment as convex shapes and discs: its rectangle, the join at its start, its caps.
 
 use super::primitive::{Convex, HalfPlane, Primitive};
-use super::{PixelSize, grows_with_distance};
+use super::{Away, PixelSize, grows_with_distance};
 use crate::interval::Ball;
 use crate::math;
 use crate::predicate::orient2d;
@@ -35,18 +35,26 @@ pub(super) fn bounds(segment: &Segment, line: &Line, pixel: &PixelSize) -> PlanB
     let bare = PlanBox::around([segment.from, segment.to]);
     let (half, growth) = half_width(line, pixel);
     let reach = match (line.join, line.width) {
-        (_, Width::Pixels(_)) if grows_with_distance(line, pixel) => {
-            // r <= distance of the segment + reach + height, and reach = growth * r.
-            let eye = pixel.eye.unwrap_or_default().plan();
-            let farthest = math::max((segment.from - eye).length(), (segment.to - eye).length());
-            let reach = growth * (farthest + pixel.height_span) / (1.0 - growth);
-            if growth < 1.0 { reach } else { f64::INFINITY }
-        }
+        (_, Width::Pixels(_)) if grows_with_distance(line, pixel) => dynamic_reach(segment, growth, pixel),
         (Join::Miter { limit }, Width::Metres(_)) => half * math::max(limit, std::f64::consts::SQRT_2),
         _ => half * std::f64::consts::SQRT_2,
     };
     // The rounding of these few operations is far below this share.
     bare.grown(reach * (1.0 + 1e-9) + 1e-9)
+}
+
+/// How far a stroke reaches whose half width is `growth` times the distance r of the surface point from the eye.
+fn dynamic_reach(segment: &Segment, growth: f64, pixel: &PixelSize) -> f64 {
+    match pixel.away {
+        Away::Within(farthest) => growth * farthest,
+        Away::Over(height) => {
+            // r <= distance of the segment + reach + height, and reach = growth * r.
+            let eye = pixel.eye.unwrap_or_default().plan();
+            let farthest = math::max((segment.from - eye).length(), (segment.to - eye).length());
+            let reach = growth * (farthest + height) / (1.0 - growth);
+            if growth < 1.0 { reach } else { f64::INFINITY }
+        }
+    }
 }
 
 /// What a segment's stroke is made of.

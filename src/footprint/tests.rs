@@ -1,15 +1,20 @@
 use super::*;
-use crate::scene::{Cap, Fill, Join, Outline, Style};
+use crate::scene::{Cap, Color, Feature, Fill, Join, Layer, Outline, OutlineMode, Rule, Shape, Style};
 use proptest::prelude::*;
+
+const PIXEL: PixelSize = PixelSize { pixel: 1.0, eye: None, away: Away::Over(0.0) };
 
 fn line_style(width: f64, join: Join, cap: Cap) -> Style {
     let color = Color([1.0, 0.0, 0.0, 1.0]);
     Style { line: Some(Line { color, width: Width::Metres(width), join, cap }), ..Style::default() }
 }
 
-fn footprints(style: Style, shape: Shape) -> Footprints {
-    let layer = Layer::uniform("l", style, vec![Feature { index: 0, style: 0, shape }]);
-    Footprints::new(&[layer], PixelSize::default(), &|_| true)
+fn list(style: Style, shape: Shape) -> DrawList {
+    DrawList::new(&mut [Layer::uniform("l", style, vec![Feature { index: 0, style: 0, shape }])]).unwrap()
+}
+
+fn footprints(list: &DrawList) -> Footprints<'_> {
+    Footprints::new(list, PIXEL, &|_| true)
 }
 
 /// Whether a point lies in a part's stroke, in plain doubles.
@@ -49,11 +54,11 @@ fn polyline(points: &[(f64, f64)]) -> Shape {
 #[test]
 fn a_miter_reaches_its_tip_and_falls_to_a_bevel_over_its_limit() {
     let corner = [(-10.0, 0.0), (0.0, 0.0), (0.0, 10.0)];
-    let with = |join| footprints(line_style(2.0, join, Cap::Butt), polyline(&corner));
+    let with = |join| list(line_style(2.0, join, Cap::Butt), polyline(&corner));
     let (tip, middle) = (Plan::new(0.99, -0.99), Plan::new(0.49, -0.49));
-    let sharp = with(Join::Miter { limit: 4.0 });
+    let [sharp, blunt] = [4.0, 1.2].map(|limit| with(Join::Miter { limit }));
+    let (sharp, blunt) = (footprints(&sharp), footprints(&blunt));
     assert!(stroke_holds(&sharp, tip) && stroke_holds(&sharp, middle));
-    let blunt = with(Join::Miter { limit: 1.2 });
     assert!(!stroke_holds(&blunt, tip) && stroke_holds(&blunt, middle));
     assert!(!stroke_holds(&blunt, Plan::new(0.51, -0.51)));
 }
@@ -61,8 +66,8 @@ fn a_miter_reaches_its_tip_and_falls_to_a_bevel_over_its_limit() {
 #[test]
 fn a_line_that_turns_back_has_no_join_beyond_its_end() {
     for join in [Join::Miter { limit: 100.0 }, Join::Bevel] {
-        let all =
-            footprints(line_style(2.0, join, Cap::Butt), polyline(&[(0.0, 0.0), (10.0, 0.0), (2.0, 0.0)]));
+        let list = list(line_style(2.0, join, Cap::Butt), polyline(&[(0.0, 0.0), (10.0, 0.0), (2.0, 0.0)]));
+        let all = footprints(&list);
         assert!(!stroke_holds(&all, Plan::new(10.01, 0.0)) && stroke_holds(&all, Plan::new(9.99, 0.99)));
     }
 }
@@ -70,28 +75,21 @@ fn a_line_that_turns_back_has_no_join_beyond_its_end() {
 #[test]
 fn a_dot_has_the_shape_of_its_cap() {
     let same = [(3.0, 4.0); 3];
-    let dot = |cap| footprints(line_style(2.0, Join::Round, cap), polyline(&same));
-    assert!(!stroke_holds(&dot(Cap::Butt), Plan::new(3.0, 4.0)));
-    assert!(stroke_holds(&dot(Cap::Square), Plan::new(3.9, 4.9)));
-    assert!(!stroke_holds(&dot(Cap::Round), Plan::new(3.9, 4.9)));
-    assert!(stroke_holds(&dot(Cap::Round), Plan::new(3.6, 4.6)));
-}
-
-#[test]
-fn repeated_vertices_change_nothing() {
-    let plain = [(0.0, 0.0), (5.0, 0.0), (5.0, 5.0)];
-    let doubled = [(0.0, 0.0), (0.0, 1e-12), (5.0, 0.0), (5.0 + 1e-12, 0.0), (5.0, 5.0), (5.0, 5.0)];
-    let style = line_style(2.0, Join::Miter { limit: 4.0 }, Cap::Square);
-    let (a, b) = (footprints(style, polyline(&plain)), footprints(style, polyline(&doubled)));
-    assert_eq!(a.points, b.points);
-    assert_eq!(a.parts, b.parts);
+    let dot = |cap, x, y| {
+        let list = list(line_style(2.0, Join::Round, cap), polyline(&same));
+        stroke_holds(&footprints(&list), Plan::new(x, y))
+    };
+    assert!(!dot(Cap::Butt, 3.0, 4.0));
+    assert!(dot(Cap::Square, 3.9, 4.9));
+    assert!(!dot(Cap::Round, 3.9, 4.9) && dot(Cap::Round, 3.6, 4.6));
 }
 
 #[test]
 fn a_line_that_ends_where_it_begins_is_a_ring() {
     let square = [(0.0, 0.0), (9.0, 0.0), (9.0, 9.0), (0.0, 9.0), (0.0, 0.0)];
     let style = line_style(2.0, Join::Miter { limit: 4.0 }, Cap::Butt);
-    let all = footprints(style, polyline(&square));
+    let list = list(style, polyline(&square));
+    let all = footprints(&list);
     assert_eq!(all.parts.len(), 4);
     assert!(stroke_holds(&all, Plan::new(-0.9, -0.9)), "the corner where it closes is mitred");
 }
@@ -102,30 +100,33 @@ fn a_pentagram_is_hollow_by_one_rule_and_full_by_the_other() {
         .map(|k| f64::from(k) * 0.8 * std::f64::consts::PI)
         .map(|a| Plan::new(100.0 * crate::math::cos(a), 100.0 * crate::math::sin(a)))
         .collect();
-    let with = |rule| {
+    let holds = |rule, x, y| {
         let fill = Some(Fill { color: Color([0.0, 0.0, 1.0, 1.0]), rule });
-        footprints(Style { fill, ..Style::default() }, Shape::Polygon(vec![star.clone()]))
+        let list = list(Style { fill, ..Style::default() }, Shape::Polygon(vec![star.clone()]));
+        footprints(&list).polygon_holds(0, Plan::new(x, y))
     };
-    let centre = Plan::new(1.0, 2.0);
-    assert!(!with(Rule::EvenOdd).polygon_holds(0, centre) && with(Rule::NonZero).polygon_holds(0, centre));
-    let tip = Plan::new(95.0, 0.5);
-    assert!(with(Rule::EvenOdd).polygon_holds(0, tip) && with(Rule::NonZero).polygon_holds(0, tip));
+    assert!(!holds(Rule::EvenOdd, 1.0, 2.0) && holds(Rule::NonZero, 1.0, 2.0), "its middle");
+    assert!(holds(Rule::EvenOdd, 95.0, 0.5) && holds(Rule::NonZero, 95.0, 0.5), "a tip");
 }
 
 #[test]
-fn fill_and_outline_of_a_feature_follow_one_another() {
+fn a_cut_outline_is_bounded_by_the_polygon_of_its_fill_which_is_there_once() {
     let color = Color([0.0, 0.0, 0.0, 1.0]);
     let line = Line { color, width: Width::Metres(1.0), join: Join::Bevel, cap: Cap::Butt };
+    let ring = vec![Plan::new(0.0, 0.0), Plan::new(4.0, 0.0), Plan::new(0.0, 4.0)];
     let style = Style {
         fill: Some(Fill { color, rule: Rule::EvenOdd }),
         outline: Some(Outline { line, mode: OutlineMode::Inset }),
         line: None,
     };
-    let ring = vec![Plan::new(0.0, 0.0), Plan::new(4.0, 0.0), Plan::new(0.0, 4.0)];
-    let all = footprints(style, Shape::Polygon(vec![ring]));
-    let roles: Vec<Role> = all.items().iter().map(|item| item.role).collect();
-    assert_eq!(roles, [Role::Fill, Role::Outline(OutlineSide::Inside)]);
+    let list = list(style, Shape::Polygon(vec![ring]));
+    let all = footprints(&list);
+    assert_eq!(all.areas.len(), 1);
     assert!(all.polygon_holds(1, Plan::new(1.0, 1.0)) && !all.polygon_holds(1, Plan::new(3.0, 3.0)));
+    assert_eq!((all.wants_polygon(1), all.wants_stroke(1)), (Some(true), true));
+    let of_outline: Vec<u32> =
+        all.parts.iter().filter(|part| part.item == 1).map(|part| part.chain).collect();
+    assert_eq!(of_outline, [0, 0, 0, 1, 1, 1], "its polygon's edges, then its stroke's segments");
 }
 
 /// The winding number by the sum of the angles that edges are seen under.
@@ -151,7 +152,8 @@ proptest! {
             .map(|ring| ring.iter().map(|&(x, y)| Plan::new(f64::from(x), f64::from(y))).collect())
             .collect();
         let fill = Some(Fill { color: Color([0.0, 0.0, 1.0, 1.0]), rule: Rule::NonZero });
-        let all = footprints(Style { fill, ..Style::default() }, Shape::Polygon(rings.clone()));
+        let list = list(Style { fill, ..Style::default() }, Shape::Polygon(rings.clone()));
+        let all = footprints(&list);
         let at = Plan::new(x, y);
         let turns = turns_by_angles(&rings, at);
         prop_assume!((turns - turns.round()).abs() < 1e-6);
@@ -165,7 +167,8 @@ proptest! {
         probes in prop::collection::vec((-30.0..30.0f64, -30.0..30.0f64), 60),
     ) {
         let style = line_style(width, Join::Miter { limit }, Cap::Square);
-        let all = footprints(style, polyline(&points));
+        let list = list(style, polyline(&points));
+        let all = footprints(&list);
         for p in probes {
             let p = Plan::new(p.0, p.1);
             let mut near = false;

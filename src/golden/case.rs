@@ -2,7 +2,7 @@
 
 use super::selection::Selection;
 use crate::error::{Error, Result};
-use crate::scene::file::Override;
+use crate::scene_file::Override;
 use std::fs;
 use std::path::{Path, PathBuf};
 

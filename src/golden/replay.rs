@@ -4,7 +4,7 @@ use super::case::Case;
 use super::manifest::{BufferHash, Entry};
 use crate::buffer::{Buffer, Plane};
 use crate::error::Result;
-use crate::scene::file::{Override, SceneFile};
+use crate::scene_file::{Override, SceneFile};
 use crate::source::load;
 use crate::space::ViewFrame;
 use crate::stage::Stage;
@@ -68,7 +68,7 @@ pub(super) fn replay(case: &Case, more: &[Override], cut: Cut) -> Result<Vec<Rep
 /// The truth of a stage; it is always cut alike, and only threads can differ.
 fn certified(stage: &Stage, view: &ViewFrame) -> Replay {
     let truth = truth::certify(stage, view, &Budget::default(), &|_| {});
-    let planes = Truth::BUFFERS.iter().filter_map(|name| truth.plane(name));
+    let planes = Truth::PLANES.iter().filter_map(|kind| truth.plane(kind.name));
     let mut hashes: Vec<BufferHash> =
         planes.map(|plane| BufferHash { buffer: plane.name.to_owned(), blake3: plane.hash() }).collect();
     let image = truth.image();
@@ -78,7 +78,7 @@ fn certified(stage: &Stage, view: &ViewFrame) -> Replay {
 
 fn draw(kind: Kind, (stage, view): (&Stage, &ViewFrame), cut: Cut) -> Result<Replay> {
     let prepared = technique::prepare(kind, stage)?;
-    let names: Vec<String> = prepared.buffer_names().iter().map(|name| (*name).to_owned()).collect();
+    let names = kind.buffer_names();
     let tile = match cut {
         Cut::Usual => TILE,
         Cut::Small => 24,

@@ -1,7 +1,7 @@
-//! Planes as pictures to look at: false colours, chosen by what a buffer's name says of its values.
+//! Planes as pictures to look at: false colours, chosen by what is said of a buffer.
 
 use super::npy::Npy;
-use crate::buffer::{Buffer, Plane, Values};
+use crate::buffer::{Buffer, Look, Plane, Values};
 use crate::math;
 
 /// Where nothing is seen.
@@ -27,28 +27,23 @@ const RAMP: [[u8; 3]; 9] = [
 const LEVELS: [[u8; 3]; 6] =
     [[228, 66, 60], [245, 148, 49], [244, 220, 75], [92, 180, 86], [66, 135, 205], [150, 95, 190]];
 
-/// The picture of a plane; `None` where there is nothing to look at.
+/// The picture of a plane; `None` where there is nothing to look at, or its numbers are not what such a look is of.
 ///
-/// Depth is grey, dark where near, by its logarithm. Classes and numbers of things have a colour each; counts run from
-/// dark to light by the logarithm of count + 1, up to the largest; a texture's levels have a hue each, mixed between two of them;
-/// plan coordinates repeat in red (x) and green (y); colours are themselves. Tables have no picture, nor has what is empty. Where nothing is seen it is light blue.
-pub fn look(plane: Npy<'_>) -> Option<Buffer<[u8; 4]>> {
+/// Where nothing is seen it is light blue.
+pub fn look(plane: Npy<'_>, look: Look) -> Option<Buffer<[u8; 4]>> {
     let plane = plane.plane();
     if plane.width * plane.height == 0 {
         return None;
     }
-    let pixels = match (plane.name, plane.components) {
-        ("class", 1) => integers(plane)?.map(class).collect(),
-        ("triangle" | "tile" | "cell", 1) => integers(plane)?.map(number).collect(),
-        ("vertices" | "strips" | "tile-keys", _) => return None,
-        ("level", 1) => reals(plane)?.map(level).collect(),
-        ("tiles", 4) => code_values(plane)?,
-        (_, 1) => match integers(plane) {
-            Some(values) => counts(&values.collect::<Vec<_>>()),
-            None => grey(&reals(plane)?.collect::<Vec<_>>()),
-        },
-        (_, 4) => colors(&reals(plane)?.collect::<Vec<_>>()),
-        (_, 2 | 8) => places(&reals(plane)?.collect::<Vec<_>>(), plane.components),
+    let pixels = match (look, plane.components) {
+        (Look::Class, 1) => integers(plane)?.map(class).collect(),
+        (Look::Number, 1) => integers(plane)?.map(number).collect(),
+        (Look::Count, 1) => counts(&integers(plane)?.collect::<Vec<_>>()),
+        (Look::Level, 1) => reals(plane)?.map(level).collect(),
+        (Look::Grey, 1) => grey(&reals(plane)?.collect::<Vec<_>>()),
+        (Look::CodeValues, 4) => code_values(plane)?,
+        (Look::Color, 4) => colors(&reals(plane)?.collect::<Vec<_>>()),
+        (Look::Place, 2 | 8) => places(&reals(plane)?.collect::<Vec<_>>(), plane.components),
         _ => return None,
     };
     Some(Buffer::from_values(plane.width, plane.height, pixels))
@@ -208,7 +203,7 @@ fn code(v: f64) -> u8 {
 mod tests {
     use super::*;
 
-    fn looked(name: &'static str, components: usize, values: Values) -> Option<Vec<[u8; 4]>> {
+    fn looked(seen: Look, components: usize, values: Values) -> Option<Vec<[u8; 4]>> {
         let length = match &values {
             Values::F64(v) => v.len(),
             Values::F32(v) => v.len(),
@@ -216,42 +211,42 @@ mod tests {
             Values::U16(v) => v.len(),
             Values::U8(v) => v.len(),
         };
-        let plane = Plane { name, width: length / components, height: 1, components, values };
-        look(Npy::new(&plane).unwrap()).map(|picture| picture.values().to_vec())
+        let plane = Plane { name: "any", width: length / components, height: 1, components, values };
+        look(Npy::new(&plane).unwrap(), seen).map(|picture| picture.values().to_vec())
     }
 
     #[test]
     fn depth_is_dark_near_and_light_far_with_equal_steps_for_equal_ratios() {
-        let seen = looked("depth", 1, Values::F64(vec![1.0, 10.0, 100.0, f64::INFINITY])).unwrap();
+        let seen = looked(Look::Grey, 1, Values::F64(vec![1.0, 10.0, 100.0, f64::INFINITY])).unwrap();
         let grey = |v: u8| [v, v, v, 255];
         assert_eq!(seen, [grey(24), grey(130), grey(235), NOTHING]);
     }
 
     #[test]
     fn classes_have_the_colours_of_the_paper() {
-        let seen = looked("class", 1, Values::U8(vec![0, 1, 2, 3])).unwrap();
+        let seen = looked(Look::Class, 1, Values::U8(vec![0, 1, 2, 3])).unwrap();
         assert_eq!(seen, [CLASSES[0], CLASSES[1], CLASSES[2], STRANGE]);
     }
 
     #[test]
     fn neighbouring_triangles_differ_and_the_sky_is_no_triangle() {
-        let seen = looked("triangle", 1, Values::U32(vec![0, 1, 2, u32::MAX])).unwrap();
+        let seen = looked(Look::Number, 1, Values::U32(vec![0, 1, 2, u32::MAX])).unwrap();
         assert!(seen[0] != seen[1] && seen[1] != seen[2] && seen[3] == NOTHING);
         assert!(seen.iter().all(|p| p[..3].iter().all(|v| *v >= 48)));
     }
 
     #[test]
     fn counts_run_from_dark_to_light() {
-        let seen = looked("overdraw", 1, Values::U16(vec![0, 3, 15])).unwrap();
+        let seen = looked(Look::Count, 1, Values::U16(vec![0, 3, 15])).unwrap();
         assert_eq!(seen, [[68, 1, 84, 255], [33, 144, 141, 255], [253, 231, 37, 255]]);
-        let none = looked("edges", 1, Values::U16(vec![0, 0])).unwrap();
+        let none = looked(Look::Count, 1, Values::U16(vec![0, 0])).unwrap();
         assert_eq!(none, [[68, 1, 84, 255]; 2]);
     }
 
     #[test]
     fn plan_coordinates_repeat() {
         let seen = looked(
-            "plan",
+            Look::Place,
             2,
             Values::F64(vec![0.0, 0.0, 50.0, 0.0, 100.0, 0.0, 600.0, 0.0, f64::INFINITY, 0.0]),
         )
@@ -265,19 +260,19 @@ mod tests {
     fn a_quad_is_seen_at_its_middle() {
         let quad = vec![-1.0, -1.0, 1.0, -1.0, 1.0, 1.0, -1.0, 1.0];
         let point = vec![0.0, 0.0, -1.0, -1.0, 1.0, 1.0];
-        let quads = looked("quad", 8, Values::F64(quad)).unwrap();
-        assert_eq!(quads[0], looked("plan", 2, Values::F64(point)).unwrap()[0]);
+        let quads = looked(Look::Place, 8, Values::F64(quad)).unwrap();
+        assert_eq!(quads[0], looked(Look::Place, 2, Values::F64(point)).unwrap()[0]);
     }
 
     #[test]
     fn colours_are_themselves_and_clamped() {
-        let seen = looked("lo", 4, Values::F64(vec![0.0, 0.5, 1.0, 2.0])).unwrap();
+        let seen = looked(Look::Color, 4, Values::F64(vec![0.0, 0.5, 1.0, 2.0])).unwrap();
         assert_eq!(seen, [[0, 128, 255, 255]]);
     }
 
     #[test]
     fn levels_have_hues_and_between_two_of_them_a_mixture() {
-        let seen = looked("level", 1, Values::F64(vec![0.0, 0.5, 1.0, 6.0, f64::INFINITY])).unwrap();
+        let seen = looked(Look::Level, 1, Values::F64(vec![0.0, 0.5, 1.0, 6.0, f64::INFINITY])).unwrap();
         assert_eq!((seen[0], seen[2]), ([228, 66, 60, 255], [245, 148, 49, 255]));
         assert_eq!(seen[1], [237, 107, 55, 255]);
         assert!(seen[3][0] < seen[0][0] && seen[3][0] > seen[3][1], "the next round is darker");
@@ -286,24 +281,25 @@ mod tests {
 
     #[test]
     fn a_picture_of_tiles_shows_their_code_values_and_tables_have_none() {
-        assert_eq!(looked("tiles", 4, Values::U8(vec![1, 2, 3, 4])), Some(vec![[1, 2, 3, 4]]));
-        assert_eq!(looked("tile-keys", 1, Values::U32(vec![1, 2, 3])), None);
-        assert_eq!(looked("vertices", 1, Values::F64(vec![1.0, 2.0])), None);
+        assert_eq!(looked(Look::CodeValues, 4, Values::U8(vec![1, 2, 3, 4])), Some(vec![[1, 2, 3, 4]]));
+        assert_eq!(looked(Look::Table, 1, Values::U32(vec![1, 2, 3])), None);
+        assert_eq!(looked(Look::Table, 1, Values::F64(vec![1.0, 2.0])), None);
     }
 
     #[test]
     fn what_has_no_picture_has_none() {
-        assert_eq!(looked("nodes", 3, Values::U32(vec![1, 2, 3])), None);
-        assert_eq!(looked("quad", 8, Values::U32(vec![0; 8])), None);
+        assert_eq!(looked(Look::Count, 3, Values::U32(vec![1, 2, 3])), None);
+        assert_eq!(looked(Look::Place, 8, Values::U32(vec![0; 8])), None);
     }
 
     #[test]
     fn extremes_make_no_panic() {
         for v in [0.0, -0.0, 1e308, -1e308, f64::INFINITY, f64::NEG_INFINITY, 5e-324] {
-            for (name, components) in [("depth", 1), ("plan", 2), ("quad", 8), ("color", 4)] {
-                looked(name, components, Values::F64(vec![v; 8])).unwrap();
+            for (seen, components) in [(Look::Grey, 1), (Look::Place, 2), (Look::Place, 8), (Look::Color, 4)]
+            {
+                looked(seen, components, Values::F64(vec![v; 8])).unwrap();
                 let mixed = [v, 1.0, -1e308, v, 0.0, v, 1e308, 5e-324];
-                looked(name, components, Values::F64(mixed.to_vec())).unwrap();
+                looked(seen, components, Values::F64(mixed.to_vec())).unwrap();
             }
         }
     }

@@ -34,6 +34,8 @@ pub struct SceneResult {
     pub plan_space: String,
     /// Absolute plan coordinates of the local zero point.
     pub origin: [f64; 2],
+    /// Its absolute height.
+    pub origin_height: f64,
 }
 
 /// One technique's run.
@@ -108,15 +110,6 @@ pub struct BufferResult {
 pub struct ByName(pub Vec<(String, Value)>);
 
 impl ByName {
-    /// Texts; those that are numbers become numbers.
-    pub fn from_texts<'a>(texts: impl IntoIterator<Item = (&'a str, String)>) -> Self {
-        let value = |text: String| match serde_json::from_str(&text) {
-            Ok(number @ Value::Number(_)) => number,
-            _ => Value::String(text),
-        };
-        Self::from_pairs(texts.into_iter().map(|(name, text)| (name, value(text))))
-    }
-
     /// Values.
     pub fn from_pairs<'a, V: Into<Value>>(pairs: impl IntoIterator<Item = (&'a str, V)>) -> Self {
         let pairs = pairs.into_iter();
@@ -158,11 +151,12 @@ mod tests {
                 hash: "00".into(),
                 plan_space: "EPSG:32733".into(),
                 origin: [500_000.1, 0.0],
+                origin_height: 120.0,
             },
             notes: vec!["a \"note\"".into()],
             runs: vec![RunResult {
                 technique: "inverse-projection".into(),
-                parameters: ByName::from_texts([("samples", "3".into()), ("corners", "true".into())]),
+                parameters: ByName::from_pairs([("samples", Value::from(3)), ("corners", "true".into())]),
                 device: ByName::from_pairs([("precision", "f64")]),
                 image: ImageResult {
                     path: "inverse-projection.png".into(),
@@ -192,7 +186,8 @@ mod tests {
             "origin": [
               500000.1,
               0.0
-            ]
+            ],
+            "origin_height": 120.0
           },
           "notes": [
             "a \"note\""

@@ -9,7 +9,7 @@ use super::tile::Tile;
 use super::{KEY_ERROR, TileView};
 use crate::math::{max_f32, min_f32};
 use crate::scene::Diagonal;
-use crate::terrain::{Grid, Node, Tin};
+use crate::terrain::{Grid, Node};
 use glam::DVec3;
 
 /// Triangles handled together.
@@ -180,13 +180,14 @@ impl Patch {
         }
     }
 
-    /// Draws triangles of a TIN, sixteen at a time.
-    pub fn draw_tin(&self, tile: &mut Tile, tin: &Tin, ids: std::ops::Range<u32>) {
+    /// Draws numbered triangles of the tile's mesh, sixteen at a time.
+    pub fn draw_triangles(&self, tile: &mut Tile, ids: std::ops::Range<u32>) {
         let (arch, mut sorted) = (tile.arch, Sorted::NOTHING);
         for start in ids.clone().step_by(LANES) {
             let mut corners = [Points::NONE; 3];
             for id in start..ids.end.min(start + LANES as u32) {
-                for (points, corner) in corners.iter_mut().zip(tin.triangle(id)) {
+                let Some(triangle) = tile.mesh.triangle(id) else { continue };
+                for (points, corner) in corners.iter_mut().zip(triangle) {
                     let h = tile.view.map_point(corner);
                     let key = tile.key_of_depth(tile.view.frame.depth(corner));
                     points.set((id - start) as usize, ((h.x / h.z) as f32, (h.y / h.z) as f32, key as f32));

@@ -3,7 +3,7 @@
 use super::{Compositor, Paint};
 use crate::scene::{Color, Ground};
 use crate::space::Plan;
-use crate::terrain::{Mesh, upward_normal};
+use crate::terrain::Mesh;
 use glam::DVec3;
 
 /// The paint of the terrain's surface.
@@ -36,7 +36,7 @@ impl<'a> GroundPaint<'a> {
         match self.ground {
             Ground::Color(_) => self.flat,
             Ground::Hillshade(color) => {
-                let light = self.mesh.triangle(triangle).map_or(1.0, |t| lambert(upward_normal(&t)));
+                let light = self.mesh.surface_triangle(triangle).map_or(1.0, |t| lambert(t.normal()));
                 let [r, g, b, a] = color.0;
                 self.compositor.paint(Color([r * light, g * light, b * light, a]))
             }
@@ -54,7 +54,8 @@ impl<'a> GroundPaint<'a> {
     }
 }
 
-/// Lambert's cosine for light from the north-west at 45 degrees above the horizon; 0 in the attached shadow.
+/// Lambert's cosine of a normal's components east, north and up, for light from the north-west at 45 degrees above the horizon; 0 in
+/// the attached shadow.
 fn lambert(normal: DVec3) -> f64 {
     let to_light = DVec3::new(-0.5, 0.5, std::f64::consts::FRAC_1_SQRT_2);
     crate::math::max(normal.dot(to_light), 0.0)

@@ -15,7 +15,7 @@ use crate::parallel;
 use crate::raster::Lattice;
 use crate::resolve::Paint;
 use crate::scene::Device;
-use crate::space::{ViewFrame, World};
+use crate::space::ViewFrame;
 use crate::stage::Stage;
 use crate::terrain::{Mesh, SKY};
 use crate::tiling::{TilePlace, Tiling};
@@ -36,11 +36,11 @@ pub struct Sampled {
 /// Draws a view of a scene with `n` x `n` samples a pixel, at the middles of as many equal squares. `progress` is told the share that is done
 /// (0..=1), from any thread.
 pub fn sample(stage: &Stage, view: &ViewFrame, n: usize, progress: &(dyn Fn(f64) + Sync)) -> Sampled {
-    let Stage { scene, mesh } = stage;
-    let size = PixelSize::of(view, mesh.heights());
+    let (draw_list, mesh) = (&stage.draw_list, &*stage.mesh_for(view));
+    let size = PixelSize::of(view, mesh);
     let bounds = mesh.plan_bounds();
-    let footprints = Footprints::new(&scene.layers, size, &|plan| plan.meets(&bounds));
-    let sampler = Sampler::new(stage, view, &footprints, n.max(1));
+    let footprints = Footprints::new(draw_list, size, &|plan| plan.meets(&bounds));
+    let sampler = Sampler::new((stage, mesh), view, &footprints, n.max(1));
     let (width, height) = (view.width(), view.height());
     let tiling = Tiling::new(width, height, BLOCK / n.max(1));
     let blocks = parallel::map_telling(tiling.count(), progress, |k| sampler.block(&tiling.place(k)));
@@ -52,18 +52,24 @@ pub fn sample(stage: &Stage, view: &ViewFrame, n: usize, progress: &(dyn Fn(f64)
 struct Sampler<'a> {
     mesh: &'a Mesh,
     view: &'a ViewFrame,
-    footprints: &'a Footprints,
+    footprints: &'a Footprints<'a>,
     n: usize,
     backdrop: Backdrop<'a>,
-    /// The paint of each item.
+    /// The paint of each style of items.
     paints: Vec<Paint>,
 }
 
 impl<'a> Sampler<'a> {
-    fn new(stage: &'a Stage, view: &'a ViewFrame, footprints: &'a Footprints, n: usize) -> Self {
-        let backdrop = Backdrop::of(stage);
-        let paints = footprints.items().iter().map(|item| backdrop.compositor.paint(item.color)).collect();
-        Self { mesh: &stage.mesh, view, footprints, n, paints, backdrop }
+    fn new(
+        (stage, mesh): (&'a Stage, &'a Mesh),
+        view: &'a ViewFrame,
+        footprints: &'a Footprints<'a>,
+        n: usize,
+    ) -> Self {
+        let backdrop = Backdrop::of(&stage.scene, mesh);
+        let styles = stage.draw_list.styles().iter();
+        let paints = styles.map(|style| backdrop.compositor.paint(style.paint)).collect();
+        Self { mesh, view, footprints, n, paints, backdrop }
     }
 
     /// The colours of a rectangle of pixels, rows from the top.
@@ -110,14 +116,13 @@ impl<'a> Sampler<'a> {
         if id == SKY || !plan.is_finite() {
             return self.backdrop.sky;
         }
-        let from_eye = || {
-            let height = seen.sight().hit(column, row).map_or(0.0, |hit| hit.height);
-            (World::new(plan.x, plan.y, height) - self.view.eye()).length()
-        };
+        let from_eye =
+            || seen.sight().hit(column, row).map_or(0.0, |hit| (hit.world - self.view.eye()).length());
         let holding =
             nearby.items().iter().filter(|item| nearby.holds(self.footprints, item, (plan, &from_eye)));
         holding.fold(self.backdrop.paint_at(last, id, || plan), |below, item| {
-            self.backdrop.compositor.over(below, self.paints[item.number as usize])
+            let style = self.footprints.list().items()[item.number as usize].style;
+            self.backdrop.compositor.over(below, self.paints[style as usize])
         })
     }
 }

@@ -96,14 +96,13 @@ impl Nearby {
                 }
             }
             self.strokes.truncate(end);
-            let item = &footprints.items()[number as usize];
-            let polygon = match item.wants_polygon() {
+            let polygon = match footprints.wants_polygon(number) {
                 None => Polygon::Right,
                 Some(_) if has_edge => Polygon::Open,
                 Some(wanted) if footprints.polygon_holds(number, inside) == wanted => Polygon::Right,
                 Some(_) => Polygon::Wrong,
             };
-            if polygon != Polygon::Wrong && (end > start || !item.wants_stroke()) {
+            if polygon != Polygon::Wrong && (end > start || !footprints.wants_stroke(number)) {
                 self.items.push(NearItem { number, polygon, strokes: start..end });
             }
         }
@@ -120,7 +119,7 @@ impl Nearby {
         if !item.strokes.is_empty() && !is_stroked() {
             return false;
         }
-        let wanted = || footprints.items()[item.number as usize].wants_polygon();
+        let wanted = || footprints.wants_polygon(item.number);
         item.polygon == Polygon::Right
             || wanted().is_none_or(|wanted| footprints.polygon_holds(item.number, at) == wanted)
     }

@@ -1,6 +1,6 @@
 use super::*;
 use crate::compare::{Difference, Image};
-use crate::scene::file::SceneFile;
+use crate::scene_file::SceneFile;
 use crate::stage::Stage;
 use crate::truth::{self, Budget};
 
@@ -53,10 +53,10 @@ fn a_sample_alone_is_judged_as_one_among_many() {
     let stage = stage();
     // Blocks of one pixel hold other samples together than blocks of 256.
     let whole = sampled(&stage, 2);
-    let size = PixelSize::of(&stage.view().unwrap(), stage.mesh.heights());
-    let footprints = Footprints::new(&stage.scene.layers, size, &|_| true);
+    let size = PixelSize::of(&stage.view().unwrap(), &stage.mesh);
+    let footprints = Footprints::new(&stage.draw_list, size, &|_| true);
     let view = stage.view().unwrap();
-    let sampler = Sampler::new(&stage, &view, &footprints, 2);
+    let sampler = Sampler::new((&stage, &stage.mesh), &view, &footprints, 2);
     let mut nearby = Nearby::default();
     for [x, y] in [[0, 0], [20, 16], [24, 17], [30, 20], [11, 19]] {
         let seen = sampler.see(&TilePlace { corner: [x, y], size: [1, 1] });

@@ -1,6 +1,7 @@
 //! Vector layers and their styles.
 
 use super::Color;
+use crate::parameter::words;
 use crate::space::Plan;
 
 /// Features of one source, drawn together.
@@ -80,14 +81,16 @@ pub struct Fill {
     pub rule: Rule,
 }
 
-/// Which points rings enclose.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Rule {
-    /// Points enclosed an odd number of times.
-    #[default]
-    EvenOdd,
-    /// Points with a winding number other than zero.
-    NonZero,
+words! {
+    /// Which points rings enclose.
+    #[derive(Default)]
+    pub enum Rule {
+        /// Points enclosed an odd number of times.
+        #[default]
+        EvenOdd = "even-odd",
+        /// Points with a winding number other than zero.
+        NonZero = "nonzero",
+    }
 }
 
 impl Rule {
@@ -110,16 +113,18 @@ pub struct Outline {
     pub mode: OutlineMode,
 }
 
-/// Which part of an outline's stroke is drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum OutlineMode {
-    /// Its intersection with the inside.
-    Inset,
-    /// All of it.
-    #[default]
-    Normal,
-    /// Its intersection with the outside.
-    Offset,
+words! {
+    /// Which part of an outline's stroke is drawn.
+    #[derive(Default)]
+    pub enum OutlineMode {
+        /// Its intersection with the inside.
+        Inset = "inset",
+        /// All of it.
+        #[default]
+        Normal = "normal",
+        /// Its intersection with the outside.
+        Offset = "offset",
+    }
 }
 
 /// A stroke along a polyline.
@@ -158,35 +163,16 @@ pub enum Join {
     Bevel,
 }
 
-/// How a line ends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Cap {
-    /// At the end point.
-    #[default]
-    Butt,
-    /// Half a width on.
-    Square,
-    /// A half disc.
-    Round,
-}
-
-/// Vertices of a stroke nearer to each other than this are one vertex, metres: far below any width that can be seen, far above
-/// the rounding of plan coordinates, so that a duplicate written with an error has no direction of its own.
-pub const SAME_VERTEX: f64 = 1e-9;
-
-/// A polyline without the vertices that are the same as the one before; one that ends where it begins ends there exactly.
-pub fn distinct_vertices(points: &[Plan]) -> Vec<Plan> {
-    let is_same = |a: Plan, b: Plan| (a - b).length() <= SAME_VERTEX;
-    let mut all: Vec<Plan> = Vec::with_capacity(points.len());
-    for &p in points {
-        if all.last().is_none_or(|last| !is_same(*last, p)) {
-            all.push(p);
-        }
+words! {
+    /// How a line ends.
+    #[derive(Default)]
+    pub enum Cap {
+        /// At the end point.
+        #[default]
+        Butt = "butt",
+        /// Half a width on.
+        Square = "square",
+        /// A half disc.
+        Round = "round",
     }
-    if let [first, _, .., last] = &mut all[..]
-        && is_same(*first, *last)
-    {
-        *last = *first;
-    }
-    all
 }

@@ -1,32 +1,22 @@
 //! What is drawn: terrain data, vector layers, camera, styles and the machine to imitate.
 //!
 //! Input: nothing (plain data). Output: [`Scene`], which every later room reads and none changes. It refuses nothing
-//! itself; [`mod@file`] checks what a person wrote and `source` checks what the files hold.
+//! itself; [`crate::scene_file`] checks what a person wrote and `source` checks what the files hold.
 
 mod camera;
-mod clipmap;
-pub mod file;
 mod layer;
 mod settings;
-mod stencil;
 
 pub use camera::{Camera, Projection};
-pub use clipmap::{
-    Clipmap, Joints, LineFilter, LinePrimitives, OffsetForm, Overlaps, PixelWidth, PolygonRaster, Solution,
-    TILE_TEXELS, TexelFormat, TextureFilter, WideLines,
-};
-pub use layer::{
-    Cap, Feature, Fill, Join, Layer, Line, Outline, OutlineMode, Rule, SAME_VERTEX, Shape, Style, Width,
-    distinct_vertices,
-};
+pub use layer::{Cap, Feature, Fill, Join, Layer, Line, Outline, OutlineMode, Rule, Shape, Style, Width};
 pub use settings::{
-    BlendMode, BlendSpace, Color, Compositing, Corners, DepthFormat, Device, ImageSettings,
-    InverseProjection, PointInPolygon, Precision, Silhouette, TechniqueSettings,
+    BlendMode, BlendSpace, Color, Compositing, DepthFormat, Device, ImageSettings, Precision,
+    TechniqueSettings,
 };
-pub use stencil::{Counting, FarPlane, Grouping, Overflow, StencilVolume, VolumeCaps, VolumeJoins};
 
+use crate::parameter::words;
 use crate::space::{Plan, World};
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 /// Everything a picture depends on but the terrain's heights (a [`Surface`], which becomes the mesh), in memory, in
 /// scene-local coordinates.
@@ -34,8 +24,8 @@ use glam::DVec2;
 pub struct Scene {
     /// The scene's name.
     pub name: String,
-    /// Absolute plan coordinates (metres in the scene's CRS) of the local zero point.
-    pub origin: DVec2,
+    /// Absolute plan coordinates (metres in the scene's CRS) and height of the local zero point.
+    pub origin: DVec3,
     /// What the plan space is, in words (`EPSG:32733`, or the local plane and its centre).
     pub plan_space: String,
     /// Size and background.
@@ -169,16 +159,18 @@ impl Posts {
     }
 }
 
-/// How a cell of the grid is split into two triangles.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Diagonal {
-    /// From its south-west to its north-east corner.
-    #[default]
-    SwNe,
-    /// From its north-west to its south-east corner.
-    NwSe,
-    /// `SwNe` where column + row is even, else `NwSe`.
-    Alternating,
+words! {
+    /// How a cell of the grid is split into two triangles.
+    #[derive(Default)]
+    pub enum Diagonal {
+        /// From its south-west to its north-east corner.
+        #[default]
+        SwNe = "sw-ne",
+        /// From its north-west to its south-east corner.
+        NwSe = "nw-se",
+        /// `SwNe` where column + row is even, else `NwSe`.
+        Alternating = "alternating",
+    }
 }
 
 /// The terrain's own colour: constant on a triangle or on a texel, so that the right picture stays computable.

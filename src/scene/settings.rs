@@ -1,6 +1,7 @@
 //! The settings of a scene that need no data: image, compositing, device, technique parameters.
 
-use super::{Clipmap, StencilVolume};
+use crate::parameter::{Key, Range, Settings, Shape, Value, settings, words};
+use std::collections::BTreeMap;
 
 /// A colour with straight alpha, encoded (sRGB-style) values 0..=1 of red, green, blue, alpha.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,62 +32,51 @@ pub struct ImageSettings {
     pub background: Color,
 }
 
-/// How colours are composed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Compositing {
-    /// On which values.
-    pub space: BlendSpace,
-    /// By which formula.
-    pub mode: BlendMode,
+settings! {
+    /// How colours are composed.
+    pub struct Compositing of "compositing" {
+        /// The values that are blended.
+        space: BlendSpace = BlendSpace::Encoded;
+        /// The formula of blending.
+        mode: BlendMode = BlendMode::Over;
+    }
 }
 
-/// The values that are blended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum BlendSpace {
-    /// Encoded (sRGB-style) values, as GPU paths do.
-    #[default]
-    Encoded,
-    /// Linear light.
-    Linear,
+words! {
+    /// The values that are blended.
+    pub enum BlendSpace {
+        /// Encoded (sRGB-style) values, as GPU paths do.
+        Encoded = "encoded",
+        /// Linear light.
+        Linear = "linear",
+    }
 }
 
-/// The formula of blending.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum BlendMode {
-    /// Source over destination.
-    #[default]
-    Over,
-    /// Source times alpha plus destination, clamped at 1 (Schneider & Klein).
-    Additive,
+words! {
+    /// The formula of blending.
+    pub enum BlendMode {
+        /// Source over destination.
+        Over = "over",
+        /// Source times alpha plus destination, clamped at 1 (Schneider & Klein).
+        Additive = "additive",
+    }
 }
 
-/// The machine to imitate; the default is exact mathematics.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Device {
-    /// Arithmetic of transforms, interpolation and plan points.
-    pub precision: Precision,
-    /// Fractional bits of vertex positions on the screen: 0 (no snapping), 4 or 8.
-    pub subpixel_bits: u32,
-    /// What the depth buffer holds.
-    pub depth: DepthFormat,
-    /// Bits of the stencil buffer, 1..=16.
-    pub stencil_bits: u32,
-    /// The widest line primitive.
-    pub max_line_width_px: f64,
-    /// Fractional bits of a texture filter's weights; 0: exact.
-    pub filter_bits: u32,
-}
-
-impl Default for Device {
-    fn default() -> Self {
-        Self {
-            precision: Precision::F64,
-            subpixel_bits: 0,
-            depth: DepthFormat::F32Reversed,
-            stencil_bits: 8,
-            max_line_width_px: 10.0,
-            filter_bits: 0,
-        }
+settings! {
+    /// The machine to imitate; the default is exact mathematics.
+    pub struct Device of "device" {
+        /// Arithmetic of transforms, interpolation and plan points.
+        precision: Precision = Precision::F64;
+        /// Fractional bits of vertex positions on the screen; 0: no snapping.
+        subpixel_bits: u32 = 0, Shape::IntegerOf(&[0, 4, 8]);
+        /// What the depth buffer holds.
+        depth: DepthFormat = DepthFormat::F32Reversed;
+        /// Bits of the stencil buffer.
+        stencil_bits: u32 = 8, Shape::Integer(1, 16);
+        /// The widest line primitive, in texels where it draws a texture.
+        max_line_width_px: f64 = 10.0, Shape::Number(Range::Positive);
+        /// Fractional bits of a texture filter's weights, 8 on most; 0: exact.
+        filter_bits: u32 = 0, Shape::Integer(0, 16);
     }
 }
 
@@ -100,91 +90,64 @@ impl Device {
     }
 }
 
-/// Arithmetic.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Precision {
-    /// IEEE double.
-    #[default]
-    F64,
-    /// IEEE single.
-    F32,
+words! {
+    /// Arithmetic.
+    pub enum Precision {
+        /// IEEE double.
+        F64 = "f64",
+        /// IEEE single.
+        F32 = "f32",
+    }
 }
 
-/// What a depth buffer holds.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum DepthFormat {
-    /// Single precision, 1 at the near plane, 0 at infinity.
-    #[default]
-    F32Reversed,
-    /// Single precision, 0 at the near plane, 1 at the far plane.
-    F32,
-    /// 24-bit fixed point, 0 at the near plane.
-    Unorm24,
-    /// 16-bit fixed point, 0 at the near plane.
-    Unorm16,
+words! {
+    /// What a depth buffer holds.
+    pub enum DepthFormat {
+        /// Single precision, 1 at the near plane, 0 at infinity.
+        F32Reversed = "f32-reversed",
+        /// Single precision, 0 at the near plane, 1 at the far plane.
+        F32 = "f32",
+        /// 24-bit fixed point, 0 at the near plane.
+        Unorm24 = "unorm24",
+        /// 16-bit fixed point, 0 at the near plane.
+        Unorm16 = "unorm16",
+    }
 }
 
-/// Parameters of the techniques.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct TechniqueSettings {
-    /// Taibo et al. 2014.
-    pub clipmap: Clipmap,
-    /// She 2016.
-    pub inverse_projection: InverseProjection,
-    /// Schneider & Klein 2007.
-    pub stencil_volume: StencilVolume,
-}
+/// What is said of the techniques' parameters beyond their defaults: values by the names of technique and parameter, so that a scene
+/// knows no technique.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct TechniqueSettings(BTreeMap<(&'static str, &'static str), Value>);
 
-/// Parameters of inverse projection (She 2016).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct InverseProjection {
-    /// n: n x n samples in each P pixel (She 3.4).
-    pub samples: u32,
-    /// Which points make a pixel's quadrilateral (She 3.2).
-    pub corners: Corners,
-    /// How a sample is judged (She 3.5).
-    pub point_in_polygon: PointInPolygon,
-    /// What is done with a pixel whose quadrilateral spans the sky or a silhouette (the paper is silent).
-    pub silhouette: Silhouette,
-}
+impl TechniqueSettings {
+    /// A technique's settings.
+    pub fn get<S: Settings>(&self) -> S {
+        S::from_values(&|parameter| self.0.get(&(S::NAME, parameter)).cloned())
+    }
 
-impl Default for InverseProjection {
-    fn default() -> Self {
-        Self {
-            samples: 3,
-            corners: Corners::default(),
-            point_in_polygon: PointInPolygon::default(),
-            silhouette: Silhouette::default(),
+    /// Says all settings of a technique.
+    pub fn set<S: Settings>(&mut self, settings: S) {
+        for (key, (_, value)) in S::TABLE.keys.iter().zip(settings.values()) {
+            self.say(S::NAME, key, value);
+        }
+    }
+
+    /// Says the value of one parameter of a technique; it is of the parameter's shape.
+    pub fn say(&mut self, technique: &'static str, parameter: &Key, value: Value) {
+        let place = (technique, parameter.name);
+        if parameter.default.is_some_and(|default| default() == value) {
+            self.0.remove(&place);
+        } else {
+            self.0.insert(place, value);
         }
     }
 }
 
-/// Which points make a pixel's quadrilateral.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Corners {
-    /// The centres of the pixel and of its right, upper right and upper neighbours (She Fig. 6b: half a pixel's shift).
-    #[default]
-    Centres,
-    /// The pixel's own four corners.
-    True,
-}
-
-/// How a sample is judged.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum PointInPolygon {
-    /// By the normals of the edges that meet the pixel, with the pedal rule (She Codes A and B).
-    #[default]
-    EdgeNormals,
-    /// By the winding number, exactly.
-    Winding,
-}
-
-/// What is done with a pixel whose quadrilateral has no meaning.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Silhouette {
-    /// One sample at the pixel's centre, counted in `counts.refused`.
-    #[default]
-    Centre,
-    /// The quadrilateral is used all the same where its corners see terrain (the paper's smear).
-    Smear,
+/// Settings of one technique; the others have their defaults.
+impl<S: Settings> From<S> for TechniqueSettings {
+    fn from(settings: S) -> Self {
+        let mut all = Self::default();
+        all.set(settings);
+        all
+    }
 }

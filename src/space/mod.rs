@@ -13,6 +13,8 @@
 //! Plan and world coordinates in memory are relative to the scene's origin (see [`crate::scene::Scene::origin`]),
 //! so that coordinates of UTM or ECEF size lose nothing.
 //!
+//! Between view and screen lies [`Clip`] space, homogeneous and in the numbers of the machine that is imitated.
+//!
 //! Points of two spaces do not subtract:
 //! ```compile_fail
 //! use drapery::space::{Plan, Screen};
@@ -24,9 +26,11 @@
 //! let _ = Plan::new(0.0, 0.0) + Plan::new(1.0, 1.0);
 //! ```
 
+mod clip;
 mod small_box;
 mod view;
 
+pub use clip::Clip;
 pub use small_box::SmallBox;
 pub use view::{Lens, Ray, ViewFrame, Viewpoint};
 
@@ -169,7 +173,7 @@ point_2d! {
     Texel
 }
 point_3d! {
-    /// Plan and height in metres, z up, relative to the scene's origin (heights are absolute).
+    /// Plan and height in metres, z up, relative to the scene's origin.
     World
 }
 point_3d! {
@@ -182,7 +186,7 @@ point_2d! {
 }
 
 impl World {
-    /// The plan point below (draping is vertical).
+    /// The plan point straight below: that of a surface point where draping is vertical (see [`crate::terrain::Drape`]).
     #[inline(always)]
     pub const fn plan(self) -> Plan {
         Plan::new(self.x, self.y)
@@ -190,7 +194,7 @@ impl World {
 }
 
 impl From<World> for Plan {
-    /// The plan point below.
+    /// The plan point straight below.
     #[inline(always)]
     fn from(p: World) -> Self {
         p.plan()

@@ -3,10 +3,17 @@
 //! Input: a [`Stage`] and views of it. Output: a [`Frame`]: the picture, the buffers that were asked for, and counts. A technique is
 //! prepared once (structures that do not depend on the view) and then draws frames of any view; neither step looks at a clock,
 //! at the number of threads or at another technique. Refuses: scenes that the technique's paper does not cover, with the reason.
+//!
+//! To add a technique: a folder with its [`Declaration`], and its line in the list below. The scene file with its check and schema, the
+//! command line, goldens, reports and bundles go by the list.
 
 pub mod clipmap;
+mod declaration;
 pub mod inverse_projection;
 pub mod stencil_volume;
+pub mod sweep;
+
+pub use declaration::{Contradiction, Declaration, Parameters};
 
 pub use crate::canvas::{Frame, FrameOptions};
 
@@ -15,30 +22,19 @@ use crate::space::ViewFrame;
 use crate::stage::Stage;
 use std::fmt;
 
-/// A technique's name in the contract.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Kind {
-    /// Taibo et al. 2014.
-    Clipmap,
-    /// Schneider & Klein 2007.
-    StencilVolume,
-    /// She 2016.
-    InverseProjection,
+declaration::techniques! {
+    Clipmap is clipmap,
+    StencilVolume is stencil_volume,
+    InverseProjection is inverse_projection,
 }
 
-impl Kind {
-    /// Every technique that is built.
-    pub const ALL: [Self; 3] = [Self::Clipmap, Self::StencilVolume, Self::InverseProjection];
-
-    /// The name on the command line and in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Clipmap => "clipmap",
-            Self::StencilVolume => "stencil-volume",
-            Self::InverseProjection => "inverse-projection",
-        }
-    }
-}
+/// Techniques that are known and not built yet: their names, and what they are in a line.
+pub const PLANNED: [(&str, &str); 4] = [
+    ("geometry-overlay", "Geometry overlay (Wartell)"),
+    ("static-decal", "Static decals (Zechmeister, after Thöny and Frasson)"),
+    ("dynamic-line", "Dynamic lines (Zechmeister)"),
+    ("analytic", "Hierarchical classification and closed-form coverage (ours)"),
+];
 
 /// A technique with its structures built.
 pub trait Prepared: Sync {
@@ -56,13 +52,6 @@ pub trait Prepared: Sync {
 
     /// Bytes of the structures that the technique built (without the terrain's).
     fn structure_bytes(&self) -> usize;
-
-    /// The parameters in use, by their names in the scene file.
-    fn parameters(&self) -> Vec<(&'static str, String)>;
-
-    /// The buffers that can be asked for, in the order of the technique's stages: of two that differ from what they should
-    /// be, the first is nearer to the cause.
-    fn buffer_names(&self) -> &'static [&'static str];
 }
 
 /// A step of a technique on the way to a pixel's colour: data of its own that has a short text.
@@ -108,11 +97,7 @@ pub fn explain(prepared: &dyn Prepared, view: &ViewFrame, pixel: [usize; 2]) -> 
 /// # Errors
 /// When the technique does not draw such a scene.
 pub fn prepare(kind: Kind, stage: &Stage) -> Result<Box<dyn Prepared + '_>> {
-    match kind {
-        Kind::Clipmap => Ok(Box::new(clipmap::Prepare::new(stage)?)),
-        Kind::StencilVolume => Ok(Box::new(stencil_volume::Prepare::new(stage)?)),
-        Kind::InverseProjection => Ok(Box::new(inverse_projection::Prepare::new(stage)?)),
-    }
+    (kind.declaration().prepare)(stage)
 }
 
 /// Whether a technique draws such a scene.
@@ -120,9 +105,5 @@ pub fn prepare(kind: Kind, stage: &Stage) -> Result<Box<dyn Prepared + '_>> {
 /// # Errors
 /// The reason why it does not.
 pub fn applies(kind: Kind, stage: &Stage) -> Result<()> {
-    match kind {
-        Kind::Clipmap => clipmap::applies(stage),
-        Kind::StencilVolume => stencil_volume::applies(stage),
-        Kind::InverseProjection => inverse_projection::applies(stage),
-    }
+    (kind.declaration().applies)(stage)
 }

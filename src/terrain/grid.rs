@@ -88,6 +88,20 @@ impl Grid {
         (a.z + b.z + c.z).is_finite().then_some([a, b, c])
     }
 
+    /// The numbers of a triangle's posts, counted row by row from the first.
+    pub(super) fn corners(&self, id: u32) -> Option<[u32; 3]> {
+        self.triangle(id)?;
+        let cell = (id / 2) as usize;
+        let (i, j) = (cell % (self.posts.columns() - 1), cell / (self.posts.columns() - 1));
+        let corners = self.half_corners(i, j, id % 2 == 1);
+        Some(corners.map(|(di, dj)| ((j + dj) * self.posts.columns() + i + di) as u32))
+    }
+
+    /// A post by its number.
+    pub(super) fn vertex(&self, number: usize) -> World {
+        self.posts.world(number % self.posts.columns(), number / self.posts.columns())
+    }
+
     /// The corners of a half of cell (i, j) as offsets from its south-west post, counter-clockwise.
     #[inline(always)]
     pub fn half_corners(&self, i: usize, j: usize, second: bool) -> [(usize, usize); 3] {

@@ -1,19 +1,29 @@
 //! Heights -> a triangle mesh with a hierarchy of bounding boxes.
 //!
-//! Input: a [`Surface`] (posts of a grid or scattered points). Output: a [`Mesh`]: triangles with fixed numbers,
-//! counter-clockwise in plan, and nodes whose boxes bound them, for culling. Holes are triangles that do not exist.
-//! Refuses: more triangles than a `u32` can number, and points that span no triangle.
+//! Input: a [`Surface`] (posts of a grid or scattered points), or the vertices and triangles of a surface themselves. Output: a [`Mesh`]:
+//! triangles with fixed numbers, how they are draped (`drape`), and nodes whose boxes bound them, for culling. Holes are triangles
+//! that do not exist. Refuses: more triangles than a `u32` can number, and points that span no triangle.
+//!
+//! # The interface
+//! A kind of terrain has numbered triangles over numbered vertices, and a tree of [`Node`]s with boxes whose leaves hold triangles. All that
+//! other rooms ask for are the methods of [`Mesh`]; none of them asks which kind it is. [`Mesh`] is an enum and no trait: inner loops take
+//! triangles by the million, by calls that are compiled into them, and the two ways in which they take them are the two kinds of
+//! [`Leaf`]. A new kind is a file, a variant, and an arm in each method here, which the compiler asks for.
 
+mod drape;
 mod grid;
 mod tin;
 
+pub use drape::{Drape, PlanMap, SurfaceTriangle, SurfaceVertex, TriangleDrape, upward_normal};
 pub use grid::Grid;
 pub use tin::Tin;
 
 use crate::error::Result;
+use crate::math;
 use crate::scene::{Diagonal, Surface};
-use crate::space::{PlanBox, World};
+use crate::space::{Plan, PlanBox, World};
 use glam::DVec3;
+use std::ops::Range;
 
 /// Cells a side of a grid's smallest node.
 pub const BLOCK: usize = 15;
@@ -26,9 +36,21 @@ pub const SKY: u32 = u32::MAX;
 pub enum Mesh {
     /// Two triangles a cell of a grid of posts.
     Grid(Grid),
-    /// Delaunay triangles over scattered points.
+    /// Triangles over scattered points, or over vertices with plan points of their own.
     Tin(Tin),
 }
+
+/// What a leaf of the hierarchy holds.
+#[derive(Debug, Clone)]
+pub enum Leaf<'a> {
+    /// Cells of a regular grid: those of [`Grid::cells`].
+    Cells(&'a Grid),
+    /// The triangles with these numbers.
+    Triangles(Range<u32>),
+}
+
+/// A node has at most so many children.
+pub const MOST_CHILDREN: usize = 4;
 
 /// A node of the hierarchy: level 0 holds triangles, higher levels hold nodes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -46,8 +68,28 @@ pub struct Node {
 pub struct Bounds {
     /// Its middle.
     pub center: World,
-    /// Its half extents; the third is vertical.
+    /// Its half extents, in any direction.
     pub axes: [DVec3; 3],
+}
+
+impl Bounds {
+    /// The lowest and the highest z in it: heights, where draping is vertical.
+    #[inline]
+    pub fn heights(&self) -> (f64, f64) {
+        let [a, b, c] = self.axes.map(|axis| axis.z.abs());
+        let reach = a + b + c;
+        (self.center.z - reach, self.center.z + reach)
+    }
+
+    /// The rectangle of the plan straight below it, grown by the roundings of its making.
+    #[inline]
+    pub fn below(&self) -> PlanBox {
+        let [a, b, c] = self.axes.map(|axis| axis.truncate().abs());
+        let reach = a + b + c;
+        let slack = 1e-9 * (reach.element_sum() + self.center.x.abs() + self.center.y.abs());
+        let middle = self.center.plan();
+        PlanBox { min: middle + -reach, max: middle + reach }.grown(slack)
+    }
 }
 
 impl Mesh {
@@ -62,7 +104,27 @@ impl Mesh {
         }
     }
 
-    /// The corners of triangle `id`, counter-clockwise in plan; `None` for a hole.
+    /// The mesh of a surface that is given as it is: vertices, and triangles as numbers of three of them. Where each vertex lies straight over
+    /// its plan point and has z up, the mesh is draped vertically, like one that was triangulated. Triangles are numbered anew, along a
+    /// space-filling curve of the plan.
+    ///
+    /// # Errors
+    /// When there is no triangle or too many, one names a vertex that is not there, a coordinate is not finite, or an up is no
+    /// unit vector.
+    pub fn of_surface(vertices: Vec<SurfaceVertex>, triangles: Vec<[u32; 3]>) -> Result<Self> {
+        Tin::of_surface(vertices, triangles).map(Self::Tin)
+    }
+
+    /// How the mesh is draped.
+    #[inline]
+    pub fn drape(&self) -> Drape {
+        match self {
+            Self::Grid(_) => Drape::Vertical,
+            Self::Tin(tin) => tin.drape(),
+        }
+    }
+
+    /// The corners of triangle `id`; `None` for a hole. Those of a mesh over the plan run counter-clockwise there.
     ///
     /// # Panics
     /// When `id` is not below [`Mesh::triangle_ids`].
@@ -74,6 +136,41 @@ impl Mesh {
         }
     }
 
+    /// Triangle `id` and how its points get to the plan; `None` for a hole.
+    ///
+    /// # Panics
+    /// When `id` is not below [`Mesh::triangle_ids`].
+    #[inline]
+    pub fn surface_triangle(&self, id: u32) -> Option<SurfaceTriangle> {
+        match self {
+            Self::Grid(grid) => grid.triangle(id).map(SurfaceTriangle::vertical),
+            Self::Tin(tin) => Some(tin.surface_triangle(id)),
+        }
+    }
+
+    /// The numbers of the corners of triangle `id`, in the order of [`Mesh::triangle`]; `None` for a hole.
+    ///
+    /// # Panics
+    /// When `id` is not below [`Mesh::triangle_ids`].
+    pub fn corners(&self, id: u32) -> Option<[u32; 3]> {
+        match self {
+            Self::Grid(grid) => grid.corners(id),
+            Self::Tin(tin) => Some(tin.triangles()[id as usize]),
+        }
+    }
+
+    /// The vertices in the order of their numbers. Those that no triangle has may have no height (NaN).
+    pub fn vertices(&self) -> impl Iterator<Item = SurfaceVertex> + '_ {
+        let count = match self {
+            Self::Grid(grid) => grid.posts().heights().len(),
+            Self::Tin(tin) => tin.vertices().len(),
+        };
+        (0..count).map(move |number| match self {
+            Self::Grid(grid) => SurfaceVertex::vertical(grid.vertex(number)),
+            Self::Tin(tin) => tin.vertex(number),
+        })
+    }
+
     /// Triangles have numbers below this.
     pub fn triangle_ids(&self) -> u32 {
         match self {
@@ -82,11 +179,11 @@ impl Mesh {
         }
     }
 
-    /// The rectangle that the terrain lies in.
+    /// The rectangle of the plan that the terrain lies in.
     pub fn plan_bounds(&self) -> PlanBox {
         match self {
             Self::Grid(grid) => grid.plan_bounds(),
-            Self::Tin(tin) => PlanBox::around(tin.vertices().iter().map(|v| v.plan())),
+            Self::Tin(_) => PlanBox::around(self.vertices().map(|vertex| vertex.plan)),
         }
     }
 
@@ -104,16 +201,56 @@ impl Mesh {
     pub fn bounds(&self, node: Node) -> Option<Bounds> {
         match self {
             Self::Grid(grid) => grid.bounds(node),
-            Self::Tin(tin) => tin.bounds(node),
+            Self::Tin(tin) => Some(tin.bounds(node)),
         }
     }
 
-    /// The lowest and the highest that the terrain comes.
-    pub fn heights(&self) -> (f64, f64) {
-        self.bounds(self.root()).map_or((0.0, 0.0), |b| (b.center.z - b.axes[2].z, b.center.z + b.axes[2].z))
+    /// A rectangle of the plan around all that a node's triangles lie over; `None` when it holds no triangle.
+    pub fn plan_of(&self, node: Node) -> Option<PlanBox> {
+        match self {
+            Self::Grid(grid) => grid.bounds(node).map(|bounds| bounds.below()),
+            Self::Tin(tin) => Some(tin.plan_of(node)),
+        }
     }
 
-    /// Calls `visit` with each child of a node above level 0.
+    /// The lowest and the highest that the terrain comes; `None` where draping is not vertical, so that heights are no axis of the world.
+    pub fn heights(&self) -> Option<(f64, f64)> {
+        let all = || self.bounds(self.root()).map_or((0.0, 0.0), |bounds| bounds.heights());
+        (self.drape() == Drape::Vertical).then(all)
+    }
+
+    /// The farthest that the terrain may come from a point, metres.
+    pub fn farthest_from(&self, point: World) -> f64 {
+        let reach = |bounds: Bounds| bounds.axes.iter().map(|axis| axis.length()).sum::<f64>();
+        let farthest = |bounds: Bounds| (bounds.center - point).length() + reach(bounds);
+        // The sum of a few roundings is far below this share.
+        self.bounds(self.root()).map_or(0.0, |bounds| farthest(bounds) * (1.0 + 1e-9))
+    }
+
+    /// What a leaf, a node of level 0, holds.
+    #[inline]
+    pub fn leaf(&self, node: Node) -> Leaf<'_> {
+        match self {
+            Self::Grid(grid) => Leaf::Cells(grid),
+            Self::Tin(tin) => Leaf::Triangles(tin.leaf(node)),
+        }
+    }
+
+    /// How far plan points lie from where a map takes the same points of the world, at the middles of the triangles (there the combination of
+    /// the corners is off most): the largest distance in the plan. A globe's map, along the normal of the ellipsoid, is curved; the smaller its
+    /// triangles, the smaller is this.
+    pub fn largest_deviation(&self, plan_from_world: impl Fn(World) -> Plan) -> f64 {
+        let middle = |[a, b, c]: [DVec3; 3]| (a + b + c) / 3.0;
+        let triangles = (0..self.triangle_ids()).filter_map(|id| self.surface_triangle(id));
+        let deviations = triangles.map(|triangle| {
+            let at = middle(triangle.plan().map(|p| p.to_vec().extend(0.0))).truncate();
+            (plan_from_world(World::from(middle(triangle.world.map(World::to_vec)))) - Plan::from(at))
+                .length()
+        });
+        deviations.fold(0.0, |most, deviation| math::max(deviation, most))
+    }
+
+    /// Calls `visit` with each child of a node above level 0: at most [`MOST_CHILDREN`].
     #[inline]
     pub fn for_each_child(&self, node: Node, visit: impl FnMut(Node)) {
         match self {
@@ -129,10 +266,4 @@ impl Mesh {
             Self::Tin(tin) => tin.bytes(),
         }
     }
-}
-
-/// The unit normal of a triangle, pointing up; straight up for a degenerate one.
-pub fn upward_normal([a, b, c]: &[World; 3]) -> DVec3 {
-    let normal = (*b - *a).cross(*c - *a).try_normalize().unwrap_or(DVec3::Z);
-    if normal.z < 0.0 { -normal } else { normal }
 }

@@ -1,12 +1,14 @@
 //! A tile's rays, and triangles as they lie on it.
 
+use super::draped::Draped;
 use super::form::{BallForm, Form};
 use crate::footprint::HalfPlane;
 use crate::interval::{Ball, BallVec};
 use crate::math;
 use crate::predicate;
-use crate::space::{Lens, PlanBox, ViewFrame, World};
-use glam::DVec3;
+use crate::space::{Lens, Plan, PlanBox, ViewFrame, World};
+use crate::terrain::{SurfaceTriangle, TriangleDrape, upward_normal};
+use glam::{DVec2, DVec3};
 
 /// Sides of a facet: three edges, the near and the far plane.
 pub(super) const MOST_BOUNDS: usize = 5;
@@ -91,7 +93,7 @@ impl TileRays {
     }
 
     /// On which side of the edge from `a` to `b` a ray passes.
-    fn edge(&self, a: World, b: World) -> BallForm {
+    pub(super) fn edge(&self, a: World, b: World) -> BallForm {
         // The same edge of two triangles has the same bits: it is taken in one direction.
         if (a.x, a.y, a.z) > (b.x, b.y, b.z) {
             return self.edge(b, a).signed(-1.0);
@@ -130,11 +132,22 @@ pub(super) struct Facet {
     facing_plain: Form,
     /// The sign of the denominator where the triangle is seen.
     sign: f64,
+    /// The map to the plan; `None`: straight down.
+    draped: Option<Box<Draped>>,
+}
+
+/// A visible point, with a bound of each coordinate's error in metres.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Hit {
+    pub(super) plan: Plan,
+    pub(super) world: World,
+    pub(super) error: f64,
 }
 
 impl Facet {
     /// `None`: it is seen edge-on, or lies beyond the planes of near and far.
-    pub(super) fn new(rays: &TileRays, id: u32, corners: [World; 3]) -> Option<Self> {
+    pub(super) fn new(rays: &TileRays, id: u32, triangle: &SurfaceTriangle) -> Option<Self> {
+        let corners = triangle.world;
         let [a, b, c] = corners;
         let depths = corners.map(|p| rays.frame.depth(p));
         let (low, high) = (math::min(depths[0], math::min(depths[1], depths[2])), {
@@ -179,6 +192,8 @@ impl Facet {
         };
         let first = if low - margin > rays.near { low - margin } else { rays.near };
         let nearest = if rays.is_central { (1.0 / first) * (1.0 + DEPTH_SHARE) } else { -first };
+        let is_vertical = triangle.drape == TriangleDrape::Vertical;
+        let draped = (!is_vertical).then(|| Box::new(Draped::new(rays, triangle)));
         Some(Self {
             id,
             corners,
@@ -191,6 +206,7 @@ impl Facet {
             depth_plain: depth.plain(rays.span),
             facing_plain: facing.plain(rays.span),
             sign,
+            draped,
         })
     }
 
@@ -210,6 +226,9 @@ impl Facet {
 
     /// The function whose sign on the tile says on which side of a plan line the visible point lies.
     pub(super) fn half_plane(&self, rays: &TileRays, of: &HalfPlane) -> BallForm {
+        if let Some(draped) = &self.draped {
+            return draped.half_plane(&self.facing, of).signed(self.sign);
+        }
         let normal = BallVec { x: of.normal[0], y: of.normal[1], z: Ball::ZERO };
         let at = BallVec { x: Ball::exact(of.at.x), y: Ball::exact(of.at.y), z: Ball::ZERO };
         let mut start = rays.dot_from(normal, at);
@@ -223,9 +242,9 @@ impl Facet {
         product.signed(self.sign)
     }
 
-    /// Where the ray of a tile's point meets its plane, and a bound of each coordinate's error, metres.
+    /// Where the ray of a tile's point meets its plane.
     #[inline]
-    pub(super) fn hit(&self, rays: &TileRays, at: [f64; 2]) -> (World, f64) {
+    pub(super) fn hit(&self, rays: &TileRays, at: [f64; 2]) -> Hit {
         let (depth, facing) = (self.depth_plain.at(at), self.facing_plain.at(at));
         let parameter = depth / facing;
         let sure = facing.abs() - self.facing_plain.error;
@@ -240,11 +259,32 @@ impl Facet {
         let size = rays.plain.size + parameter.abs() * rays.plain.reach;
         let error = doubt * rays.plain.reach + 32.0 * f64::EPSILON * size;
         let error = if sure > 0.0 && error.is_finite() { error } else { f64::INFINITY };
-        (World::from(from + along * parameter), error)
+        let world = World::from(from + along * parameter);
+        match &self.draped {
+            None => Hit { plan: world.plan(), world, error },
+            Some(draped) => {
+                let (plan, of_plan) = draped.plan_at(at, (facing, self.facing_plain.error));
+                Hit { plan, world, error: math::max(error, of_plan) }
+            }
+        }
     }
 
-    /// The box around the triangle.
+    /// What a function of the surface point gains a metre east and north in the plan, of which this is the gradient in the world.
+    pub(super) fn slope(&self, gradient: DVec3) -> DVec2 {
+        if let Some(draped) = &self.draped {
+            return draped.slope(gradient);
+        }
+        // The surface climbs by -n.xy / n.z a metre.
+        let normal = upward_normal(&self.corners);
+        let climb = gradient.z / math::max(normal.z, 1e-9);
+        gradient.truncate() - normal.truncate() * climb
+    }
+
+    /// The box of the plan around the triangle.
     pub(super) fn plan(&self) -> PlanBox {
-        PlanBox::around(self.corners.map(World::plan))
+        match &self.draped {
+            None => PlanBox::around(self.corners.map(World::plan)),
+            Some(draped) => PlanBox::around(draped.corners()),
+        }
     }
 }

@@ -50,19 +50,17 @@ pub(super) fn first_state(
     has_edges: bool,
     (first, count): (u32, u32),
 ) -> State {
-    let what = &pixel.setting.footprints.items()[item as usize];
-    let polygon = match what.wants_polygon() {
+    let footprints = pixel.setting.footprints;
+    let polygon = match footprints.wants_polygon(item) {
         None => Known::In,
         Some(_) if has_edges => Known::Open,
         // No edge is near: the polygon holds all of the fragment, or none.
         Some(wanted) => match ground.hit(middle(points)) {
-            hit if hit.error < f64::INFINITY => {
-                Known::of(pixel.setting.footprints.polygon_holds(item, hit.plan) == wanted)
-            }
+            hit if hit.error < f64::INFINITY => Known::of(footprints.polygon_holds(item, hit.plan) == wanted),
             _ => Known::Open,
         },
     };
-    let stroke = if what.wants_stroke() { Known::Open } else { Known::In };
+    let stroke = if footprints.wants_stroke(item) { Known::Open } else { Known::In };
     State { item, polygon, stroke, first, count }
 }
 
@@ -87,7 +85,7 @@ pub(super) fn polygon_at(pixel: &Pixel, ground: &Ground, points: &[[f64; 2]], it
             _ => true,
         })
     });
-    let wanted = footprints.items()[item as usize].wants_polygon();
+    let wanted = footprints.wants_polygon(item);
     match wanted.filter(|_| is_clear) {
         Some(wanted) => Known::of(footprints.polygon_holds(item, hit.plan) == wanted),
         None => Known::Open,

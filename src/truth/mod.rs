@@ -5,8 +5,9 @@
 //! cannot be told within the [`Budget`] is in the interval.
 //!
 //! ```text
+//!   seen.rs     which boxes of the plan a view may see
 //!   tile.rs     a tile's triangles, by the terrain's hierarchy; squares down to pixels
-//!   facet.rs    a triangle on the tile: sides, nearness, its map to the plan, with bounds of their errors (form.rs)
+//!   facet.rs    a triangle on the tile: sides, nearness, its map to the plan (draped.rs), with bounds of their errors (form.rs)
 //!   visible.rs  the pixel cut into convex fragments that see one triangle (polygon.rs), and sky
 //!   refine.rs   fragments cut along footprints' borders (shape.rs) until little is unknown of which items hold them
 //!               (knowledge.rs); colours between bounds (crate::certainty)
@@ -18,28 +19,31 @@
 //! is in or out by bounds of the distance, or open. No decision is shared with a technique but the signs of
 //! [`crate::predicate`].
 
+mod draped;
 mod facet;
 mod form;
 mod knowledge;
 mod polygon;
 mod refine;
+mod seen;
 mod setting;
 mod shape;
 mod tile;
 mod visible;
 
-use crate::buffer::{Buffer, Plane, Values};
+use crate::buffer::{Buffer, Look, Plane, PlaneKind, Values};
 use crate::error::{Error, Result};
-use crate::footprint::{Footprints, Item, PixelSize};
+use crate::footprint::{Footprints, PixelSize};
 use crate::math;
 use crate::parallel;
 use crate::resolve::code_values;
-use crate::space::{ViewFrame, World};
+use crate::space::{Plan, ViewFrame, World};
 use crate::stage::Stage;
 use crate::terrain::SKY;
 use crate::tiling::Tiling;
+use seen::SeenPlan;
 use setting::Setting;
-use tile::{Frustum, TILE, TileTruth, certify_tile};
+use tile::{TILE, TileTruth, certify_tile};
 
 /// The truth's name among the techniques', on the command line and in files.
 pub const NAME: &str = "truth";
@@ -86,7 +90,7 @@ impl Default for Budget {
 /// What an item covers of a pixel, as a share of the pixel's area.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ItemCoverage {
-    /// The item's number in [`Truth::items`].
+    /// The item's number in the draw list.
     pub item: u32,
     /// At least.
     pub low: f64,
@@ -129,6 +133,8 @@ pub struct Centre {
     pub triangle: u32,
     /// The visible point, in plain doubles.
     pub world: World,
+    /// Its place in the plan.
+    pub plan: Plan,
 }
 
 /// What was done.
@@ -163,7 +169,6 @@ pub struct Truth {
     pub tally: Tally,
     /// Bytes of the footprints and their index.
     pub structure_bytes: usize,
-    items: Vec<Item>,
 }
 
 impl Truth {
@@ -179,24 +184,26 @@ impl Truth {
         widths.flat_map(|(l, h)| (0..4).map(|c| h[c] - l[c])).fold(0.0, |most, w| math::max(w, most))
     }
 
-    /// The sets of plan points that were drawn, in draw order.
-    pub fn items(&self) -> &[Item] {
-        &self.items
-    }
-
-    /// The names of the buffers that [`Truth::plane`] gives, from the first stage to the last.
-    pub const BUFFERS: [&'static str; 6] = ["depth", "triangle", "plan", "lo", "hi", "color"];
+    /// The buffers that [`Truth::plane`] gives, from the first stage to the last.
+    pub const PLANES: [PlaneKind; 6] = [
+        PlaneKind::DEPTH,
+        PlaneKind::TRIANGLE,
+        PlaneKind::PLAN,
+        PlaneKind::new("lo", Look::Color),
+        PlaneKind::new("hi", Look::Color),
+        PlaneKind::COLOR,
+    ];
 
     /// A buffer by its name.
     pub fn plane(&self, name: &str) -> Option<Plane> {
         let colors = |buffer: &Buffer<[f64; 4]>| (4, Values::F64(buffer.values().as_flattened().to_vec()));
         let centres = || self.centres.values().iter();
-        let index = Self::BUFFERS.iter().position(|known| *known == name)?;
+        let index = Self::PLANES.iter().position(|known| known.name == name)?;
         let (components, values) = match name {
             "depth" => (1, Values::F64(self.depth.values().to_vec())),
             "triangle" => (1, Values::U32(centres().map(|c| c.map_or(SKY, |c| c.triangle)).collect())),
             "plan" => {
-                let plan = |c: &Option<Centre>| c.map_or([f64::INFINITY; 2], |c| [c.world.x, c.world.y]);
+                let plan = |c: &Option<Centre>| c.map_or([f64::INFINITY; 2], |c| [c.plan.x, c.plan.y]);
                 (2, Values::F64(centres().flat_map(plan).collect()))
             }
             "lo" => colors(&self.low),
@@ -204,20 +211,17 @@ impl Truth {
             _ => colors(&self.estimate),
         };
         let (width, height) = (self.estimate.width(), self.estimate.height());
-        Some(Plane { name: Self::BUFFERS[index], width, height, components, values })
+        Some(Plane { name: Self::PLANES[index].name, width, height, components, values })
     }
 }
 
 /// Computes the truth of a view of a scene. `progress` is told the share that is done (0..=1), from any thread.
 pub fn certify(stage: &Stage, view: &ViewFrame, budget: &Budget, progress: &(dyn Fn(f64) + Sync)) -> Truth {
-    let Stage { scene, mesh } = stage;
-    let heights = mesh.heights();
-    let size = PixelSize::of(view, heights);
+    let (scene, draw_list, mesh) = (&stage.scene, &stage.draw_list, &*stage.mesh_for(view));
+    let size = PixelSize::of(view, mesh);
     let (width, height) = (view.width(), view.height());
-    let whole = Frustum::new(view, [0.0, 0.0], [width as f64, height as f64]);
-    let bounds = mesh.plan_bounds();
-    let footprints =
-        Footprints::new(&scene.layers, size, &|plan| plan.meets(&bounds) && whole.meets_plan(plan, heights));
+    let seen = SeenPlan::new(mesh, view);
+    let footprints = Footprints::new(draw_list, size, &|plan| seen.meets(plan));
     let setting = Setting::new(scene, mesh, (&footprints, size), *budget);
     let tiling = Tiling::new(width, height, TILE);
     let tiles = parallel::map_telling(tiling.count(), progress, |k| {
@@ -268,6 +272,5 @@ fn assembled(
         coverage: budget.coverage.then(|| Buffer::from_values(width, height, coverage)),
         tally,
         structure_bytes: footprints.bytes(),
-        items: footprints.items().to_vec(),
     }
 }

@@ -410,6 +410,6 @@ pub(super) type Claim = (Polygon, u32, Vec<(u32, Option<bool>)>);
 /// The paint of a piece's items over a base.
 fn composed(setting: &Setting, base: PaintRange, states: &[State]) -> PaintRange {
     states.iter().fold(base, |below, state| {
-        below.under_known(state.known(), setting.paints[state.item as usize], setting.mode)
+        below.under_known(state.known(), setting.paint_of(state.item), setting.mode)
     })
 }

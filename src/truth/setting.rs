@@ -7,7 +7,7 @@ use crate::certainty::PaintRange;
 use crate::footprint::{Footprints, HalfPlane, PixelSize};
 use crate::interval::Ball;
 use crate::resolve::{Compositor, GroundPaint, Paint};
-use crate::scene::{self, BlendMode, Color, Imagery, Scene, Style};
+use crate::scene::{self, BlendMode, Color, Imagery, Scene};
 use crate::space::Plan;
 use crate::terrain::Mesh;
 use std::ops::RangeInclusive;
@@ -17,15 +17,15 @@ const MOST_TEXELS: usize = 64;
 
 pub(super) struct Setting<'a> {
     pub(super) budget: Budget,
-    pub(super) footprints: &'a Footprints,
+    pub(super) footprints: &'a Footprints<'a>,
     pub(super) pixel_size: PixelSize,
     pub(super) compositor: Compositor,
     pub(super) mode: BlendMode,
-    /// The paint of each item.
-    pub(super) paints: Vec<Paint>,
+    /// The paint of each style of items.
+    paints: Vec<Paint>,
     pub(super) sky: Paint,
-    /// For each layer, its colours at full alpha.
-    crowds: Vec<Paint>,
+    /// Around the colours of all styles at full alpha, which any number of items tends to; `None`: there is no item.
+    crowd: Option<PaintRange>,
     ground: GroundColors<'a>,
 }
 
@@ -39,7 +39,7 @@ impl<'a> Setting<'a> {
     pub(super) fn new(
         scene: &'a Scene,
         mesh: &'a Mesh,
-        (footprints, pixel_size): (&'a Footprints, PixelSize),
+        (footprints, pixel_size): (&'a Footprints<'a>, PixelSize),
         budget: Budget,
     ) -> Self {
         let compositor = Compositor::new(scene.compositing);
@@ -51,24 +51,31 @@ impl<'a> Setting<'a> {
             }
             _ => GroundColors::OfTriangles(GroundPaint::new(&scene.ground, mesh, compositor)),
         };
-        let paints = footprints.items().iter().map(|item| compositor.paint(item.color)).collect();
-        let styles = scene.layers.iter().flat_map(|layer| &layer.styles);
-        let crowds = styles.flat_map(colors).map(|c| compositor.paint(opaque(c))).collect();
+        let styles = || footprints.list().styles().iter();
+        let paints = styles().map(|style| compositor.paint(style.paint)).collect();
+        let crowd = styles().map(|style| PaintRange::exact(compositor.paint(opaque(style.paint))));
+        let crowd = crowd.reduce(|a, b| a.hull(&b));
         let sky = compositor.paint(scene.image.background);
         let mode = scene.compositing.mode;
-        Self { budget, footprints, pixel_size, compositor, mode, paints, sky, crowds, ground }
+        Self { budget, footprints, pixel_size, compositor, mode, paints, sky, crowd, ground }
+    }
+
+    /// The paint of an item.
+    #[inline]
+    pub(super) fn paint_of(&self, item: u32) -> Paint {
+        self.paints[self.footprints.list().items()[item as usize].style as usize]
     }
 
     /// Whether nothing below an item matters where it is.
     pub(super) fn hides(&self, item: u32) -> bool {
-        let is_opaque = self.paints[item as usize].0[3] == 1.0;
+        let is_opaque = self.paint_of(item).0[3] == 1.0;
         is_opaque && self.mode == BlendMode::Over && !self.budget.coverage
     }
 
-    /// The paint of a piece that may lie in any number of items of any layer.
+    /// The paint of a piece that may lie in any number of any items.
     pub(super) fn crowd_paint(&self, ground: &Ground, piece: &[[f64; 2]]) -> PaintRange {
         let (base, _) = self.ground_paint(ground, piece, &mut 0.0);
-        self.crowds.iter().fold(base, |below, paint| below.under_any_number(*paint, self.mode))
+        self.crowd.map_or(base, |crowd| base.under_any_of(&crowd, self.mode))
     }
 
     /// The terrain's own paint on a piece, and where to cut it to know more. `slop` grows by what is doubtful.
@@ -95,12 +102,6 @@ impl<'a> Setting<'a> {
             }
         }
     }
-}
-
-/// The colours that a style names.
-fn colors(style: &Style) -> impl Iterator<Item = Color> {
-    let (fill, outline) = (style.fill.map(|f| f.color), style.outline.map(|o| o.line.color));
-    [fill, outline, style.line.map(|l| l.color)].into_iter().flatten()
 }
 
 fn opaque(color: Color) -> Color {

@@ -1,12 +1,12 @@
 //! Primitives of footprints as they lie on a pixel: straight ones as lines, round ones by bounds of their distance.
 
-use super::facet::{Facet, TileRays};
+use super::facet::{Facet, Hit, TileRays};
 use super::form::{Line, Side};
 use super::polygon::middle;
 use crate::footprint::{HalfPlane, MOST_SIDES, PixelSize, Primitive};
 use crate::interval::Ball;
 use crate::math;
-use crate::space::{Plan, PlanBox, World};
+use crate::space::{Plan, PlanBox};
 use glam::{DVec2, DVec3};
 
 /// A primitive on a pixel.
@@ -52,14 +52,6 @@ pub(super) struct Ground<'a> {
     pub(super) size: PixelSize,
 }
 
-/// A visible point, with a bound of each coordinate's error in metres.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Hit {
-    pub(super) plan: Plan,
-    pub(super) world: World,
-    pub(super) error: f64,
-}
-
 impl Ground<'_> {
     /// The line on the pixel where the visible points' plan points cross a half plane's border.
     pub(super) fn line(&self, of: &HalfPlane) -> Line {
@@ -68,8 +60,7 @@ impl Ground<'_> {
 
     /// Where a point of the pixel lies in the plan.
     pub(super) fn hit(&self, [x, y]: [f64; 2]) -> Hit {
-        let (world, error) = self.facet.hit(self.rays, [self.pixel[0] + x, self.pixel[1] + y]);
-        Hit { plan: world.plan(), world, error }
+        self.facet.hit(self.rays, [self.pixel[0] + x, self.pixel[1] + y])
     }
 
     /// A box of the plan around what a piece sees.
@@ -163,8 +154,8 @@ fn convex_verdict(sides: &[Line], piece: &[[f64; 2]], slop: &mut f64) -> Verdict
 }
 
 impl Near {
-    /// By bounds of `f = distance - reach - growth * r` over the piece, each exact to the second order: the distance and r are
-    /// convex functions of the plan point, so each is at least its tangent and at most what its corners say.
+    /// By bounds of `f = distance - reach - growth * r` over the piece, each exact to the second order: on the triangle's plane the distance
+    /// and r are convex functions, so each is at least its tangent and at most what its corners say.
     fn verdict(&self, ground: &Ground, piece: &[[f64; 2]]) -> Verdict {
         let centre = ground.hit(middle(piece));
         if centre.error >= MOST_ERROR {
@@ -208,11 +199,7 @@ impl Near {
         let from_eye = eye.map_or(DVec3::ZERO, |eye| centre.world - eye);
         let r = from_eye.length();
         let to_eye = if r > 0.0 { from_eye / r } else { DVec3::ZERO };
-        // The surface climbs by -n.xy / n.z a metre.
-        let normal = crate::terrain::upward_normal(&ground.facet.corners);
-        let climb = to_eye.z / math::max(normal.z, 1e-9);
-        let r_slope = to_eye.truncate() - normal.truncate() * climb;
-        let slope = gradient - r_slope * self.growth;
+        let slope = gradient - ground.facet.slope(to_eye) * self.growth;
         Tangent { distance, gradient, doubt, to_eye, slope, value: distance - self.reach - self.growth * r }
     }
 

@@ -1,6 +1,6 @@
 //! The triangles of a tile, and the tile's pixels.
 
-use super::facet::{Facet, TileRays};
+use super::facet::{Facet, Hit, TileRays};
 use super::knowledge::Pixel;
 use super::polygon::{self, Pieces};
 use super::refine::Refinery;
@@ -9,7 +9,7 @@ use super::visible::Sight;
 use super::{Centre, PixelCoverage, Tally};
 use crate::math;
 use crate::space::{Lens, PlanBox, ViewFrame, World};
-use crate::terrain::{Bounds, Mesh, Node};
+use crate::terrain::{self, Bounds, Mesh, Node};
 use crate::tiling::TilePlace;
 use glam::DVec3;
 use std::ops::Range;
@@ -61,12 +61,25 @@ impl Frustum {
         Self { sides, forward, eye, near: frame.near(), far: frame.far() }
     }
 
+    /// Calls `visit` with the leaves of the terrain's hierarchy, from a node down, that may be seen.
+    pub(super) fn for_each_leaf(&self, mesh: &Mesh, node: Node, visit: &mut dyn FnMut(Node, &Bounds)) {
+        let Some(bounds) = mesh.bounds(node).filter(|b| self.meets(b.center, &b.axes)) else {
+            return;
+        };
+        match node.level {
+            0 => visit(node, &bounds),
+            _ => mesh.for_each_child(node, |child| self.for_each_leaf(mesh, child, visit)),
+        }
+    }
+
     /// Whether a box may be seen; `center` and half extents as of [`crate::terrain::Bounds`].
     fn meets(&self, center: World, axes: &[DVec3; 3]) -> bool {
         let reach = |normal: DVec3| axes.iter().fold(0.0, |sum, axis| sum + normal.dot(*axis).abs());
         let size = center.to_vec().abs().max_element() + self.eye.to_vec().abs().max_element();
-        let margin =
-            |normal: DVec3| BOX_SHARE * normal.length() * (size + axes[0].length() + axes[1].length());
+        let margin = |normal: DVec3| {
+            let sides = axes.iter().fold(0.0, |sum, axis| sum + axis.length());
+            BOX_SHARE * normal.length() * (size + sides)
+        };
         let depth = self.forward.dot(center - self.eye);
         let span = reach(self.forward) + margin(self.forward);
         depth + span >= self.near
@@ -74,7 +87,7 @@ impl Frustum {
             && self.sides.iter().all(|(n, at)| n.dot(center - *at) + reach(*n) + margin(*n) >= 0.0)
     }
 
-    /// Whether terrain between two heights over a box of the plan may be seen.
+    /// Whether terrain that is draped vertically may be seen between two heights over a box of the plan.
     pub(super) fn meets_plan(&self, plan: &PlanBox, (low, high): (f64, f64)) -> bool {
         let middle = plan.min.to_vec() / 2.0 + plan.max.to_vec() / 2.0;
         let half = plan.max.to_vec() / 2.0 - plan.min.to_vec() / 2.0;
@@ -142,17 +155,6 @@ pub(super) fn certify_tile(
     work.out.tally.pieces = work.refinery.pieces;
     work.out.tally.triangles = work.facets.len() as u64;
     work.out
-}
-
-/// The leaves that a tile may see.
-fn gather(mesh: &Mesh, frustum: &Frustum, view: (&ViewFrame, [f64; 2]), node: Node, out: &mut Vec<Leaf>) {
-    let Some(bounds) = mesh.bounds(node).filter(|b| frustum.meets(b.center, &b.axes)) else {
-        return;
-    };
-    if node.level > 0 {
-        return mesh.for_each_child(node, |child| gather(mesh, frustum, view, child, out));
-    }
-    out.push(Leaf::new(node, &bounds, view));
 }
 
 impl Leaf {
@@ -294,7 +296,9 @@ impl<'a> Work<'a> {
         let rays = TileRays::new(frame, start, TILE as f64);
         let frustum = Frustum::new(frame, start, [start[0] + size[0] as f64, start[1] + size[1] as f64]);
         let mut leaves = Vec::new();
-        gather(mesh, &frustum, (frame, start), mesh.root(), &mut leaves);
+        frustum.for_each_leaf(mesh, mesh.root(), &mut |node, bounds| {
+            leaves.push(Leaf::new(node, bounds, (frame, start)));
+        });
         leaves.sort_by(|a, b| b.nearest.total_cmp(&a.nearest));
         let count = size[0] * size[1];
         let kept = if setting.budget.coverage { count } else { 0 };
@@ -338,12 +342,12 @@ impl<'a> Work<'a> {
         let first = self.facets.len() as u32;
         let (mesh, rays, out) = (self.mesh, &self.rays, &mut self.facets);
         let mut offer = |id: u32| {
-            let facet = mesh.triangle(id).and_then(|corners| Facet::new(rays, id, corners));
+            let facet = mesh.surface_triangle(id).and_then(|triangle| Facet::new(rays, id, &triangle));
             out.extend(facet.filter(|facet| may_cover(facet, [0.0, 0.0], rays.span)));
         };
         let node = self.leaves[leaf].node;
-        match mesh {
-            Mesh::Grid(grid) => {
+        match mesh.leaf(node) {
+            terrain::Leaf::Cells(grid) => {
                 let (columns, rows) = grid.cells(node);
                 for (i, j) in rows.flat_map(|j| columns.clone().map(move |i| (i, j))) {
                     let first = grid.first_triangle(i, j);
@@ -351,7 +355,7 @@ impl<'a> Work<'a> {
                     offer(first + 1);
                 }
             }
-            Mesh::Tin(tin) => tin.leaf(node).for_each(offer),
+            terrain::Leaf::Triangles(ids) => ids.for_each(offer),
         }
         let fresh = &self.facets[first as usize..];
         self.boxes.extend(fresh.iter().map(|facet| Reach::of(&facet.corners, &self.rays)));
@@ -407,8 +411,8 @@ impl<'a> Work<'a> {
         let mut fragments = self.sight.fragments.iter();
         let fragment = fragments.find(|f| polygon::holds(self.pieces.of(f.shape), CENTRE))?;
         let facet = &self.facets[fragment.facet as usize];
-        let (world, _) = facet.hit(&self.rays, pixel.map(|v| v + 0.5));
-        Some(Centre { triangle: facet.id, world })
+        let Hit { plan, world, .. } = facet.hit(&self.rays, pixel.map(|v| v + 0.5));
+        Some(Centre { triangle: facet.id, world, plan })
     }
 
     /// Finds what a square of a pixel sees.

@@ -11,7 +11,7 @@ use crate::raster::device::{Pipeline, Primitive, Real, Window};
 use crate::raster::{Counts, Lattice};
 use crate::scene::{Device, Precision};
 use crate::space::{Screen, ViewFrame, World};
-use crate::terrain::Mesh;
+use crate::terrain::{Mesh, SurfaceTriangle, TriangleDrape};
 
 /// Triangles that are transformed at a time.
 const CHUNK: u32 = 4096;
@@ -67,19 +67,33 @@ impl Machine {
     }
 
     /// The surface point that the depth buffer's content means at a screen point where a triangle was drawn, by the inverse
-    /// matrix (She 3.2); `None` where the machine's arithmetic finds no point before the eye.
-    pub fn hit(&self, at: Screen, stored: f32) -> Option<Hit> {
-        let (point, depth) = match self {
-            Self::Single(pipeline) => pipeline.unproject(at, stored)?,
-            Self::Double(pipeline) => pipeline.unproject(at, stored)?,
-        };
-        Some(Hit { plan: point.plan(), height: point.z, depth })
+    /// matrix (She 3.2); `None` where the machine's arithmetic finds no point before the eye. Where the triangle is not draped
+    /// vertically no matrix leads to the plan: its plan point is interpolated.
+    pub fn hit(&self, at: Screen, stored: f32, triangle: &SurfaceTriangle) -> Option<Hit> {
+        match self {
+            Self::Single(pipeline) => hit_of(pipeline, at, stored, triangle),
+            Self::Double(pipeline) => hit_of(pipeline, at, stored, triangle),
+        }
     }
 }
 
 /// Finds what each sample sees on a machine that is used once.
 pub fn see_on_device(visible: &mut Visible, frame: &ViewFrame, mesh: &Mesh, device: &Device) {
     Machine::new(frame, mesh, device).see(visible, mesh);
+}
+
+fn hit_of<T: Real>(
+    pipeline: &Pipeline<T>,
+    at: Screen,
+    stored: f32,
+    triangle: &SurfaceTriangle,
+) -> Option<Hit> {
+    let (world, depth) = pipeline.unproject(at, stored)?;
+    let plan = match &triangle.drape {
+        TriangleDrape::Vertical => world.plan(),
+        TriangleDrape::Affine { plan, .. } => pipeline.plan_at(at, &triangle.world, plan)?,
+    };
+    Some(Hit { plan, world, depth })
 }
 
 fn see_through<T: Real>(pipeline: &Pipeline<T>, visible: &mut Visible, mesh: &Mesh) {

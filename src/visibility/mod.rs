@@ -18,7 +18,7 @@ pub use sight::Sight;
 use crate::parallel;
 use crate::raster::{Counts, Facet, Lattice, MISSING, Patch, Samples, Tile, TileView, outcodes};
 use crate::space::ViewFrame;
-use crate::terrain::{Grid, Mesh, Node, SKY};
+use crate::terrain::{Grid, Leaf, MOST_CHILDREN, Mesh, Node, SKY};
 use crate::tiling::{TilePlace, Tiling};
 
 /// The default side of a tile in samples: its keys and triangles fit the second-level cache.
@@ -138,7 +138,7 @@ fn draw_node(tile: &mut Tile, mesh: &Mesh, node: Node) {
 }
 
 fn draw_children(tile: &mut Tile, mesh: &Mesh, node: Node) {
-    let mut children = [(0.0, node); 4];
+    let mut children = [(0.0, node); MOST_CHILDREN];
     let mut count = 0;
     mesh.for_each_child(node, |child| {
         let depth = mesh.bounds(child).map_or(f64::INFINITY, |b| tile.view.frame.depth(b.center));
@@ -152,11 +152,11 @@ fn draw_children(tile: &mut Tile, mesh: &Mesh, node: Node) {
 }
 
 fn draw_leaf(tile: &mut Tile, mesh: &Mesh, node: Node, patch: Option<Patch>, slack: f64) {
-    match (mesh, patch) {
-        (Mesh::Grid(grid), Some(patch)) => patch.draw_grid(tile, grid, node),
-        (Mesh::Tin(tin), Some(patch)) => patch.draw_tin(tile, tin, tin.leaf(node)),
-        (Mesh::Grid(grid), None) => draw_cells(tile, grid, node, slack),
-        (Mesh::Tin(tin), None) => draw_facets(tile, mesh, tin.leaf(node)),
+    match (mesh.leaf(node), patch) {
+        (Leaf::Cells(grid), Some(patch)) => patch.draw_grid(tile, grid, node),
+        (Leaf::Triangles(ids), Some(patch)) => patch.draw_triangles(tile, ids),
+        (Leaf::Cells(grid), None) => draw_cells(tile, grid, node, slack),
+        (Leaf::Triangles(ids), None) => draw_facets(tile, mesh, ids),
     }
 }
 

@@ -1,12 +1,12 @@
 //! What a technique sees, whichever machine is imitated.
 
-use super::hit::hit_plane;
+use super::hit::on_plane;
 use super::{Hit, Machine, Visible, hit};
 use crate::predicate::TrianglePlane;
 use crate::raster::{Counts, Lattice};
 use crate::scene::Device;
 use crate::space::{Plan, ViewFrame, World};
-use crate::terrain::{Mesh, SKY};
+use crate::terrain::{Drape, Mesh, PlanMap, SKY, TriangleDrape};
 
 /// The triangle and the surface point of each sample of a lattice: exact, or as a [`Device`] finds them.
 ///
@@ -16,7 +16,7 @@ use crate::terrain::{Mesh, SKY};
 ///     let lattice = Lattice::centres(frame, 0);
 ///     let mut sight = Sight::new(frame, mesh, device, lattice, 128);
 ///     sight.see();
-///     (0..lattice.columns).map(|c| sight.hit(c, 0).map(|hit| hit.height)).collect()
+///     (0..lattice.columns).map(|c| sight.hit(c, 0).map(|hit| hit.world.z)).collect()
 /// }
 /// ```
 #[derive(Debug)]
@@ -89,16 +89,53 @@ impl<'a> Sight<'a> {
         if id == SKY {
             return None;
         }
-        let at = self.visible.lattice.at(column, row);
+        let (at, triangle) = (self.visible.lattice.at(column, row), self.mesh.surface_triangle(id)?);
         match &self.machine {
-            None => Some(hit(self.frame, &self.frame.ray(at), &self.mesh.triangle(id)?)),
-            Some(machine) => machine.hit(at, self.stored[row * self.visible.lattice.columns + column]),
+            None => Some(hit(self.frame, &self.frame.ray(at), &triangle)),
+            Some(machine) => {
+                machine.hit(at, self.stored[row * self.visible.lattice.columns + column], &triangle)
+            }
         }
     }
 
     /// The plan points of a row of samples, infinite where the sky is seen; the same as those of [`Sight::hit`].
     pub fn plan_of_row(&self, row: usize, plan: &mut [Plan]) {
-        self.points_of_row((0, row), plan);
+        match self.mesh.drape() {
+            Drape::Vertical => self.points_of_row((0, row), plan),
+            Drape::Affine => self.draped_row(row, plan),
+        }
+    }
+
+    /// As [`Sight::plan_of_row`], of a mesh with plan points of its own.
+    fn draped_row(&self, row: usize, plan: &mut [Plan]) {
+        let sky = Plan::new(f64::INFINITY, f64::INFINITY);
+        let of_hit = |column| self.hit(column, row).map_or(sky, |hit| hit.plan);
+        if self.machine.is_some() {
+            plan.iter_mut().enumerate().for_each(|(column, to)| *to = of_hit(column));
+            return;
+        }
+        let mut world = vec![World::default(); plan.len()];
+        self.world_of_row((0, row), &mut world);
+        let start = row * self.visible.lattice.columns;
+        let mut column = 0;
+        for run in self.ids[start..start + plan.len()].chunk_by(|a, b| a == b) {
+            let map = self.map_of(run[0]);
+            for k in column..column + run.len() {
+                plan[k] = map.map_or_else(|| of_hit(k), |map| map.at(world[k]));
+            }
+            column += run.len();
+        }
+    }
+
+    /// The map of a triangle with plan points of its own, if it is precise.
+    fn map_of(&self, id: u32) -> Option<PlanMap> {
+        let triangle = if id == SKY { None } else { self.mesh.surface_triangle(id) }?;
+        match &triangle.drape {
+            TriangleDrape::Vertical => None,
+            TriangleDrape::Affine { plan, .. } => {
+                Some(PlanMap::new(&triangle.world, plan)).filter(PlanMap::is_sure)
+            }
+        }
     }
 
     /// The surface points of neighbours in a row from (column, row) on, infinite where the sky is seen; the same as those of
@@ -111,9 +148,7 @@ impl<'a> Sight<'a> {
         let sky = || P::from(World::new(f64::INFINITY, f64::INFINITY, f64::INFINITY));
         if self.machine.is_some() {
             for (k, to) in points.iter_mut().enumerate() {
-                let point =
-                    self.hit(first + k, row).map(|hit| World::new(hit.plan.x, hit.plan.y, hit.height));
-                *to = point.map_or_else(sky, P::from);
+                *to = self.hit(first + k, row).map_or_else(sky, |hit| P::from(hit.world));
             }
             return;
         }
@@ -145,8 +180,7 @@ impl<'a> Sight<'a> {
         let run = Run { frame, lattice, column, row, plane, points };
         if !pulp::Arch::new().dispatch(run) {
             for (k, to) in points.iter_mut().enumerate() {
-                let hit = hit_plane(frame, &frame.ray(lattice.at(column + k, row)), plane);
-                *to = P::from(World::new(hit.plan.x, hit.plan.y, hit.height));
+                *to = P::from(on_plane(frame, &frame.ray(lattice.at(column + k, row)), plane).0);
             }
         }
     }

@@ -5,7 +5,8 @@
 
 use drapery::compare::{Difference, Image, Metrics};
 use drapery::report;
-use drapery::scene::file::{Override, SceneFile};
+use drapery::scene::{Scene, Surface};
+use drapery::scene_file::{Override, SceneFile};
 use drapery::stage::Stage;
 use drapery::technique::{self, Frame, FrameOptions, Kind};
 use drapery::truth::{self, Budget, Truth};
@@ -18,11 +19,16 @@ pub fn scene(terrain: &str, camera: &str, more: &str) -> String {
     )
 }
 
-/// A scene, with changes.
-pub fn stage(text: &str, changes: &[&str]) -> Stage {
+/// A scene in memory, with changes, and its terrain's heights.
+pub fn loaded(text: &str, changes: &[&str]) -> (Scene, Surface) {
     let changes: Vec<Override> = changes.iter().map(|c| Override::parse(c).unwrap()).collect();
     let file = SceneFile::parse(text, None, &changes).unwrap_or_else(|e| panic!("{e}"));
-    let (scene, surface) = drapery::source::load::load(&file, &|_| {}).unwrap_or_else(|e| panic!("{e}"));
+    drapery::source::load::load(&file, &|_| {}).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// A scene ready to be drawn, with changes.
+pub fn stage(text: &str, changes: &[&str]) -> Stage {
+    let (scene, surface) = loaded(text, changes);
     Stage::new(scene, surface).unwrap_or_else(|e| panic!("{e}"))
 }
 

@@ -3,8 +3,7 @@
 use super::techniques::Buffers;
 use crate::cli::bar::Bar;
 use crate::cli::measure::{Certified, Drawn, device_words};
-use drapery::Result;
-use drapery::buffer::{Buffer, Plane};
+use drapery::buffer::{Buffer, Plane, PlaneKind};
 use drapery::output::{Batch, BufferResult, ByName, ErrorResult, ImageResult, Npy, RunResult};
 use drapery::output::{absolute, look, write_png};
 use drapery::report::TRUTH;
@@ -13,9 +12,7 @@ use drapery::space::ViewFrame;
 use drapery::stage::Stage;
 use drapery::technique::{Frame, Kind};
 use drapery::truth::Truth;
-
-/// The buffers that hold plan coordinates: scene-local in memory, absolute in files.
-const IN_PLAN: [&str; 3] = ["plan", "quad", "vertices"];
+use drapery::{Error, Result};
 
 /// What is wanted of each technique.
 pub(in crate::cli) struct Wish {
@@ -41,9 +38,9 @@ impl Drawing<'_> {
         let image = truth.image();
         let path = format!("{TRUTH}.png");
         self.batch.stage(&path, |to| write_png(&image, to))?;
-        let names = Truth::BUFFERS.iter().filter(|name| wish.buffers.wants(name));
-        let planes: Vec<Plane> = names.filter_map(|name| truth.plane(name)).collect();
-        let buffers: Result<_> = planes.iter().map(|plane| self.stage_plane(TRUTH, plane)).collect();
+        let kinds = Truth::PLANES.iter().filter(|kind| wish.buffers.wants(kind.name));
+        let planes: Vec<Plane> = kinds.filter_map(|kind| truth.plane(kind.name)).collect();
+        let buffers = self.stage_planes((TRUTH, &Truth::PLANES), &planes);
         Ok(RunResult {
             technique: TRUTH.into(),
             parameters: certified.parameters(),
@@ -66,8 +63,7 @@ impl Drawing<'_> {
         let name = kind.name();
         let path = format!("{name}.png");
         self.batch.stage(&path, |to| write_png(&drawn.frame.image, to))?;
-        let planes = drawn.frame.planes.iter();
-        let buffers: Result<_> = planes.map(|plane| self.stage_plane(name, plane)).collect();
+        let buffers = self.stage_planes((name, kind.declaration().planes), &drawn.frame.planes);
         let image = &drawn.frame.image;
         let run = RunResult {
             technique: name.into(),
@@ -97,18 +93,32 @@ impl Drawing<'_> {
         })
     }
 
+    /// Stages buffers of a technique that has such.
+    fn stage_planes(
+        &mut self,
+        (technique, kinds): (&str, &[PlaneKind]),
+        planes: &[Plane],
+    ) -> Result<Vec<BufferResult>> {
+        let undeclared = |plane: &Plane| Error::internal(format!("{technique} declares no `{}`", plane.name));
+        let stage = |plane: &Plane| {
+            let kind = kinds.iter().find(|kind| kind.name == plane.name);
+            self.stage_plane(technique, kind.ok_or_else(|| undeclared(plane))?, plane)
+        };
+        planes.iter().map(stage).collect()
+    }
+
     /// Stages a buffer's values and, where it has one, its picture.
-    fn stage_plane(&mut self, technique: &str, plane: &Plane) -> Result<BufferResult> {
+    fn stage_plane(&mut self, technique: &str, kind: &PlaneKind, plane: &Plane) -> Result<BufferResult> {
         let file = |extension: &str| format!("{technique}.{}.{extension}", plane.name);
         let checked = Npy::new(plane)?;
-        if IN_PLAN.contains(&plane.name) {
-            let moved = absolute(plane, self.stage.scene.origin);
+        if kind.is_in_plan {
+            let moved = absolute(plane, self.stage.scene.origin.truncate());
             let moved = Npy::new(&moved)?;
             self.batch.stage(&file("npy"), |to| moved.write(to))?;
         } else {
             self.batch.stage(&file("npy"), |to| checked.write(to))?;
         }
-        if let Some(picture) = look(checked) {
+        if let Some(picture) = look(checked, kind.look) {
             self.batch.stage(&file("png"), |to| write_png(&picture, to))?;
         }
         Ok(BufferResult { name: plane.name.into(), path: file("npy"), hash: plane.hash() })

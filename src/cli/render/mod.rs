@@ -80,7 +80,7 @@ fn render(
     let view = stage.view()?;
     let kinds = techniques::applying(asked, &stage, bar)?;
     let wish = Wish {
-        buffers: techniques::buffers(&arguments.buffers, asked.truth, &kinds, &stage)?,
+        buffers: techniques::buffers(&arguments.buffers, asked.truth, &kinds)?,
         repeat: arguments.repeat,
     };
     let certified = Certified::of((&stage, &view), budget, if asked.truth { wish.repeat } else { 1 }, bar)?;

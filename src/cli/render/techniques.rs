@@ -3,33 +3,54 @@
 use crate::cli::bar::Bar;
 use crate::cli::measure::applicable;
 use clap::ValueEnum;
+use clap::builder::PossibleValue;
+use drapery::report::TRUTH;
 use drapery::stage::Stage;
-use drapery::technique::{self, Kind};
+use drapery::technique::{self, Kind, PLANNED};
 use drapery::truth::Truth;
 use drapery::{Error, Result};
 
 /// Every buffer that a technique has.
 const ALL: &str = "all";
 
-/// The techniques of the contract.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+/// What can be named.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::cli) enum Name {
-    /// The right picture, as certified intervals.
     Truth,
-    /// Clipmap texture (Taibo).
-    Clipmap,
-    /// Geometry overlay (Wartell).
-    GeometryOverlay,
-    /// Stencil volumes (Schneider & Klein).
-    StencilVolume,
-    /// Inverse projection (She).
-    InverseProjection,
-    /// Static decals (Zechmeister, after Thöny and Frasson).
-    StaticDecal,
-    /// Dynamic lines (Zechmeister).
-    DynamicLine,
-    /// Hierarchical classification and closed-form coverage (ours).
-    Analytic,
+    Technique(Kind),
+    /// A technique that is not built yet: its name and what it is.
+    Planned(&'static str, &'static str),
+}
+
+impl Name {
+    const ALL: [Self; 1 + Kind::ALL.len() + PLANNED.len()] = {
+        let mut all = [Self::Truth; _];
+        let mut at = 0;
+        while at < Kind::ALL.len() {
+            all[1 + at] = Self::Technique(Kind::ALL[at]);
+            at += 1;
+        }
+        while at < Kind::ALL.len() + PLANNED.len() {
+            let (name, title) = PLANNED[at - Kind::ALL.len()];
+            all[1 + at] = Self::Planned(name, title);
+            at += 1;
+        }
+        all
+    };
+}
+
+impl ValueEnum for Name {
+    fn value_variants<'a>() -> &'a [Self] {
+        &Self::ALL
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        Some(match self {
+            Self::Truth => PossibleValue::new(TRUTH).help("The right picture, as certified intervals"),
+            Self::Technique(kind) => PossibleValue::new(kind.name()).help(kind.declaration().title),
+            Self::Planned(name, title) => PossibleValue::new(*name).help(format!("{title}: not built yet")),
+        })
+    }
 }
 
 /// What a call asks for by name.
@@ -64,14 +85,15 @@ pub(super) fn asked(names: &[Name]) -> Result<Asked> {
 /// # Errors
 /// When this version does not have it.
 pub(in crate::cli) fn built(name: Name) -> Result<Kind> {
-    let value = name.to_possible_value();
-    let name = value.as_ref().map_or("", |value| value.get_name());
-    let has: Vec<&str> = Kind::ALL.iter().map(|kind| kind.name()).collect();
-    let refuse = || {
-        Error::new(format!("this version of drapery does not have the technique `{name}` yet"))
-            .help(format!("it has truth, {}", has.join(", ")))
-    };
-    Kind::ALL.into_iter().find(|kind| kind.name() == name).ok_or_else(refuse)
+    let has = || Kind::ALL.map(Kind::name).join(", ");
+    match name {
+        Name::Technique(kind) => Ok(kind),
+        Name::Planned(name, _) => {
+            let refusal = format!("this version of drapery does not have the technique `{name}` yet");
+            Err(Error::new(refusal).help(format!("it has truth, {}", has())))
+        }
+        Name::Truth => Err(Error::internal("the truth is no technique")),
+    }
 }
 
 /// The techniques to run: those that are asked for, or all that apply.
@@ -109,19 +131,17 @@ impl Buffers {
 ///
 /// # Errors
 /// When neither the truth (if its picture is asked for) nor a technique has one of them: known before anything is drawn.
-pub(super) fn buffers(asked: &[String], truth: bool, kinds: &[Kind], stage: &Stage) -> Result<Buffers> {
-    let mut unknown: Vec<&str> = asked.iter().map(String::as_str).filter(|name| *name != ALL).collect();
-    let mut offered: Vec<&str> = if truth { Truth::BUFFERS.to_vec() } else { Vec::new() };
-    unknown.retain(|name| !offered.contains(name));
-    for kind in kinds {
-        if unknown.is_empty() {
-            break;
+pub(super) fn buffers(asked: &[String], truth: bool, kinds: &[Kind]) -> Result<Buffers> {
+    let of_truth = if truth { &Truth::PLANES[..] } else { &[] };
+    let planes = of_truth.iter().chain(kinds.iter().flat_map(|kind| kind.declaration().planes));
+    let mut offered: Vec<&str> = Vec::new();
+    planes.for_each(|plane| {
+        if !offered.contains(&plane.name) {
+            offered.push(plane.name)
         }
-        let names = technique::prepare(*kind, stage)?.buffer_names();
-        unknown.retain(|name| !names.contains(name));
-        offered.extend(names.iter().filter(|name| !offered.contains(name)).collect::<Vec<_>>());
-    }
-    if let Some(name) = unknown.first() {
+    });
+    let unknown = asked.iter().find(|name| *name != ALL && !offered.contains(&name.as_str()));
+    if let Some(name) = unknown {
         return Err(Error::new(format!("there is no buffer `{name}`"))
             .help(format!("buffers here: {}, or {ALL}", offered.join(", "))));
     }

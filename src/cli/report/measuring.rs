@@ -73,11 +73,11 @@ impl<'a> Measuring<'a> {
     /// Every technique that draws the scene.
     pub(super) fn techniques(&mut self) -> Result<()> {
         for kind in applicable(&self.stage, self.bar)? {
-            let tries = tries(sweep::of(kind).variations(), self.input)?;
+            let tries = tries(sweep::variations(&kind.declaration().sweep), self.input)?;
             let mut notable = Notable::default();
             for (k, one) in tries.iter().enumerate() {
                 self.bar.start(&format!("{} {}/{}", kind.name(), k + 1, tries.len()));
-                self.stage.scene.technique = one.technique;
+                self.stage.scene.technique = one.technique.clone();
                 self.stage.scene.device = one.device;
                 if let Some(run) = self.technique(kind, one, &mut notable)? {
                     self.runs.push(run);
@@ -201,7 +201,7 @@ fn tries(variations: Vec<Variation>, input: &SceneInput) -> Result<Vec<Try>> {
     for variation in variations {
         let file = input.changed(&variation.changes)?;
         let mut one = Try { variation, technique: file.technique, device: file.device, is_own: false };
-        let is_same = |known: &Try| (known.technique, known.device) == (one.technique, one.device);
+        let is_same = |known: &Try| known.technique == one.technique && known.device == one.device;
         match all.iter().position(is_same) {
             None => one.is_own = all.is_empty(),
             Some(at)

@@ -186,7 +186,7 @@ mod tests {
     fn named(name: &str) -> SceneReport {
         let (hash, plan_space) = (String::new(), String::new());
         SceneReport {
-            scene: SceneResult { name: name.into(), hash, plan_space, origin: [0.0; 2] },
+            scene: SceneResult { name: name.into(), hash, plan_space, origin: [0.0; 2], origin_height: 0.0 },
             width: 1,
             height: 1,
             notes: Vec::new(),

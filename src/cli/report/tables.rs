@@ -3,12 +3,12 @@
 use crate::cli::bar::Bar;
 use crate::cli::measure::{scene_result, timed};
 use crate::cli::scene_input::SceneInput;
+use drapery::draw_list::{Chain, Role};
 use drapery::output::Batch;
 use drapery::report::Times;
 use drapery::report::tables::{
     DataSet, SolutionRow, TABLES_SCHEMA, Tables, VARIANTS, Variant, WIDTH_CHANGES, WidthRow, page,
 };
-use drapery::scene::Shape;
 use drapery::space::Plan;
 use drapery::stage::Stage;
 use drapery::technique::clipmap;
@@ -76,22 +76,16 @@ fn data_set(input: &SceneInput, repeat: u32, bar: &Bar) -> Result<DataSet> {
     })
 }
 
-/// How many lines and outlined polygons a scene has, with how many segments and vertices.
+/// How many lines and outlined polygons a scene has, with how many segments and vertices; of a line that ends where it begins, both ends.
 fn counted(stage: &Stage) -> [usize; 3] {
-    let [mut features, mut segments, mut vertices] = [0; 3];
-    for layer in &stage.scene.layers {
-        for feature in &layer.features {
-            let style = layer.style_of(feature);
-            let (parts, is_ring) = match &feature.shape {
-                Shape::Line(parts) if style.line.is_some() => (parts, false),
-                Shape::Polygon(rings) if style.outline.is_some() => (rings, true),
-                _ => continue,
-            };
-            let of_part = |part: &Vec<Plan>| if is_ring { part.len() } else { part.len().saturating_sub(1) };
-            features += 1;
-            segments += parts.iter().map(of_part).sum::<usize>();
-            vertices += parts.iter().map(Vec::len).sum::<usize>();
-        }
+    let (list, [mut features, mut segments, mut vertices]) = (&stage.draw_list, [0; 3]);
+    for (number, item) in list.numbered() {
+        let role = list.style_of(number).role;
+        let path =
+            |chain: &Chain| if role == Role::Line { list.path_of(chain) } else { list.vertices_of(chain) };
+        features += usize::from(role != Role::Fill);
+        segments += list.strokes(item).iter().map(|chain| chain.segments() as usize).sum::<usize>();
+        vertices += list.strokes(item).iter().map(|chain| path(chain).len()).sum::<usize>();
     }
     [features, segments, vertices]
 }

@@ -1,10 +1,7 @@
 //! Triangles cut at the near plane, the far plane and the guard band, in clip space.
 
 use super::number::Real;
-use crate::space::{Lens, ViewFrame};
-
-/// A point of clip space: x, y, z, w.
-pub(super) type Clip<T> = [T; 4];
+use crate::space::{Clip, Lens, ViewFrame};
 
 /// The guard band's least reach from the picture's middle, in pixels.
 const GUARD: f64 = 65_536.0;
@@ -49,7 +46,7 @@ impl<T: Real> Volume<T> {
     }
 
     /// Positive inside, 0 on the plane.
-    fn distance(&self, plane: Plane, [x, y, z, w]: Clip<T>) -> T {
+    fn distance(&self, plane: Plane, Clip { x, y, z, w }: Clip<T>) -> T {
         match plane {
             Plane::Eye => w - self.least_w,
             Plane::Near if self.is_reversed => w - z,
@@ -70,7 +67,7 @@ impl<T: Real> Volume<T> {
 
     /// Calls `emit` with the triangles of what remains of one; `is_clamped`: the near and the far plane clip nothing.
     pub(super) fn clip(&self, triangle: &[Clip<T>; 3], is_clamped: bool, mut emit: impl FnMut([Clip<T>; 3])) {
-        if !triangle.iter().flatten().all(|v| v.get().is_finite()) {
+        if !triangle.iter().flat_map(|corner| corner.to_array()).all(|v| v.get().is_finite()) {
             return;
         }
         let is_off = |plane: Plane| is_clamped && matches!(plane, Plane::Near | Plane::Far);
@@ -112,6 +109,7 @@ impl<T: Real> Volume<T> {
     fn crossing(&self, plane: Plane, inside: Clip<T>, outside: Clip<T>) -> Clip<T> {
         let (d, e) = (self.distance(plane, inside), self.distance(plane, outside));
         let t = d / (d - e);
-        [0, 1, 2, 3].map(|k| inside[k] + (outside[k] - inside[k]) * t)
+        let (from, to) = (inside.to_array(), outside.to_array());
+        Clip::from_array([0, 1, 2, 3].map(|k| from[k] + (to[k] - from[k]) * t))
     }
 }

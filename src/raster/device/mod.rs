@@ -10,7 +10,8 @@
 //!   numbers stay in range; the crossing of a shared edge is the same for both of its triangles;
 //! - vertices are snapped in *pixels of the screen*, to the nearest multiple of 2^-bits, ties to even, whatever the lattice:
 //!   a finer lattice is more samples of the same picture; a sample lies at the nearest multiple of 2^-12 pixels;
-//! - depth is a mean of the corners' weighted by the edge functions, so that it never leaves their range.
+//! - depth is a mean of the corners' weighted by the edge functions, so that it never leaves their range; plan points, where a
+//!   mesh has its own, are means by the edge functions of corners that have not been snapped.
 //!
 //! Refuses: nothing; a triangle whose numbers leave the range of the device's arithmetic is not drawn, so that neither
 //! NaN nor infinity reaches a buffer.
@@ -27,9 +28,9 @@ pub use scan::{Primitive, Window};
 
 use super::{Lattice, Samples};
 use crate::scene::Device;
-use crate::space::{Lens, Screen, ViewFrame, World};
+use crate::space::{Clip, Lens, Plan, Screen, ViewFrame, World};
 use crate::terrain::Mesh;
-use clip::{Clip, Volume};
+use clip::Volume;
 use matrix::{Matrix, Projection};
 use std::ops::Range;
 
@@ -76,7 +77,7 @@ impl<T: Real> Pipeline<T> {
             let Some(corners) = mesh.triangle(id) else {
                 continue;
             };
-            let corners = corners.map(|p| self.clip_from_world.times(homogeneous(p)));
+            let corners = corners.map(|p| self.clip(p));
             self.volume.clip(&corners, false, |triangle| {
                 let primitive = Primitive { id, corners: triangle.map(|c| self.screen_from_clip(c)) };
                 if primitive.window(lattice).is_some() {
@@ -97,11 +98,11 @@ impl<T: Real> Pipeline<T> {
         (lattice, window): (&Lattice, &Window),
         visit: &mut dyn FnMut((usize, usize), i32, f32),
     ) {
-        let corners = triangle.map(|p| self.clip_from_world.times(homogeneous(p)));
+        let corners = triangle.map(|p| self.clip(p));
         self.volume.clip(&corners, is_clamped, |triangle| {
-            let corners = triangle.map(|[x, y, z, w]| {
-                let [x, y, _] = self.screen_from_clip([x, y, z, w]);
-                [x, y, z / w]
+            let corners = triangle.map(|corner| {
+                let [x, y, _] = self.screen_from_clip(corner);
+                [x, y, corner.z / corner.w]
             });
             let primitive = Primitive { id: 0, corners };
             let mut store = |at, facing, depth| visit(at, facing, self.depth.store(depth));
@@ -118,8 +119,13 @@ impl<T: Real> Pipeline<T> {
         self.depth
     }
 
+    /// A point of the world in clip space.
+    fn clip(&self, p: World) -> Clip<T> {
+        Clip::from_array(self.clip_from_world.times([T::of(p.x), T::of(p.y), T::of(p.z), T::of(1.0)]))
+    }
+
     /// Perspective division, viewport transform and snapping; depth stays as the division left it, within 0..=1.
-    fn screen_from_clip(&self, [x, y, z, w]: Clip<T>) -> [T; 3] {
+    fn screen_from_clip(&self, Clip { x, y, z, w }: Clip<T>) -> [T; 3] {
         let [half_width, half_height] = self.half;
         [
             self.snapped(half_width + x / w * half_width),
@@ -159,19 +165,39 @@ impl<T: Real> Pipeline<T> {
     /// The world point and its view depth that the depth buffer's content means at a screen point (She 3.2); `None`
     /// where the machine's arithmetic finds none.
     pub fn unproject(&self, at: Screen, stored: f32) -> Option<(World, f64)> {
-        let one = T::of(1.0);
-        let [half_width, half_height] = self.half;
-        let z = self.depth.load(stored);
-        let ndc = [T::of(at.x) / half_width - one, one - T::of(at.y) / half_height, z, one];
-        let [x, y, up, w] = self.world_from_clip.times(ndc);
+        let ([x, y], z) = (self.divided(at), self.depth.load(stored));
+        let divided = Clip { x, y, z, w: T::of(1.0) };
+        let [x, y, up, w] = self.world_from_clip.times(divided.to_array());
         let point = World::new((x / w).get(), (y / w).get(), (up / w).get());
         let depth = self.projection.view_depth(z, self.is_parallel).get();
         (point.is_finite() && depth.is_finite() && depth > 0.0).then_some((point, depth))
     }
-}
 
-fn homogeneous<T: Real>(p: World) -> Clip<T> {
-    [T::of(p.x), T::of(p.y), T::of(p.z), T::of(1.0)]
+    /// The plan point that the machine interpolates at a screen point between a triangle's corners, with the perspective; `None` where
+    /// its arithmetic finds none. The weights are edge functions of the corners in clip space as they are before snapping, seen from the
+    /// screen point: so a triangle that is cut is interpolated as a whole.
+    pub fn plan_at(&self, at: Screen, corners: &[World; 3], plan: &[Plan; 3]) -> Option<Plan> {
+        let [x, y] = self.divided(at);
+        let [a, b, c] = corners.map(|p| {
+            let corner = self.clip(p);
+            [corner.x - x * corner.w, corner.y - y * corner.w]
+        });
+        let edge = |p: [T; 2], q: [T; 2]| p[0] * q[1] - p[1] * q[0];
+        let [of_a, of_b, of_c] = [edge(b, c), edge(c, a), edge(a, b)];
+        let sum = of_a + of_b + of_c;
+        let between = |corners: [f64; 3]| {
+            let [first, second, third] = corners.map(T::of);
+            (first + ((second - first) * of_b + (third - first) * of_c) / sum).get()
+        };
+        let point = Plan::new(between(plan.map(|p| p.x)), between(plan.map(|p| p.y)));
+        point.is_finite().then_some(point)
+    }
+
+    /// A screen point's x and y in clip space, divided by w.
+    fn divided(&self, at: Screen) -> [T; 2] {
+        let (one, [half_width, half_height]) = (T::of(1.0), self.half);
+        [T::of(at.x) / half_width - one, one - T::of(at.y) / half_height]
+    }
 }
 
 /// Rows of the matrix from scene-local points to a machine's clip space, in double precision.

@@ -35,6 +35,7 @@ fn scene(runs: Vec<Run>) -> SceneReport {
         hash: String::new(),
         plan_space: String::new(),
         origin: [0.0; 2],
+        origin_height: 0.0,
     };
     SceneReport { scene, width: 1, height: 1, notes: vec![], reference_width_max: 0.0, runs }
 }

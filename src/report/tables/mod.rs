@@ -206,7 +206,7 @@ impl Tables {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::file::{Override, SceneFile};
+    use crate::scene_file::{Override, SceneFile};
 
     #[test]
     fn every_data_set_and_every_change_is_understood() {

@@ -16,14 +16,14 @@ pub use terrain::terrain;
 
 use crate::scene::Feature;
 use crate::scene::Shape;
-use crate::scene::file::{VectorGenerator, VectorKind};
+use crate::scene_file::{VectorGenerator, VectorKind};
 use crate::space::{Plan, PlanBox};
 
 /// The features that `generator` describes, in plan coordinates; `terrain` is the rectangle of the plan that they fill
 /// where the generator names none.
 ///
 /// ```
-/// use drapery::scene::file::{VectorGenerator, VectorKind};
+/// use drapery::scene_file::{VectorGenerator, VectorKind};
 /// use drapery::space::{Plan, PlanBox};
 /// let generator = VectorGenerator { kind: VectorKind::Roads { segment_m: None }, seed: 1, count: 500, window: None };
 /// let roads = drapery::source::generate::features(&generator, PlanBox::around([Plan::new(0.0, 0.0), Plan::new(9e3, 9e3)]));

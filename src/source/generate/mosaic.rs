@@ -3,7 +3,7 @@
 use super::random::{at, scramble, signed, unit};
 use crate::math::{cos, sin};
 use crate::scene::Shape;
-use crate::scene::file::VectorGenerator;
+use crate::scene_file::VectorGenerator;
 use crate::space::{Plan, PlanBox};
 use glam::DVec2;
 use std::f64::consts::PI;
@@ -150,7 +150,7 @@ fn backwards(edge: Vec<Plan>, end: Plan) -> Vec<Plan> {
 mod tests {
     use super::super::{features, tests::*};
     use super::*;
-    use crate::scene::file::VectorKind;
+    use crate::scene_file::VectorKind;
     use std::collections::BTreeMap;
 
     fn rings(count: usize, class: Option<(u32, u32)>, holes: f64) -> Vec<Vec<Vec<Plan>>> {

@@ -3,7 +3,7 @@
 use super::random::{Sequence, at, scramble, signed, unit};
 use super::roads::direction;
 use crate::scene::Shape;
-use crate::scene::file::VectorGenerator;
+use crate::scene_file::VectorGenerator;
 use crate::space::{Plan, PlanBox};
 use glam::DVec2;
 
@@ -86,7 +86,7 @@ impl Town {
 mod tests {
     use super::super::{features, tests::*};
     use super::*;
-    use crate::scene::file::VectorKind;
+    use crate::scene_file::VectorKind;
 
     fn rings(count: usize) -> Vec<Vec<Plan>> {
         let generator = VectorGenerator { kind: VectorKind::Parcels, seed: 3, count, window: None };

@@ -4,7 +4,7 @@ use super::random::Sequence;
 use super::roads::direction;
 use crate::math::{cos, sin};
 use crate::scene::Shape;
-use crate::scene::file::VectorGenerator;
+use crate::scene_file::VectorGenerator;
 use crate::space::PlanBox;
 use glam::DVec2;
 
@@ -39,7 +39,7 @@ pub(super) fn paths(generator: &VectorGenerator, segment_m: Option<f64>, window:
 mod tests {
     use super::super::{features, tests::*};
     use super::*;
-    use crate::scene::file::VectorKind;
+    use crate::scene_file::VectorKind;
     use crate::space::Plan;
 
     fn lines(count: usize) -> Vec<Vec<Plan>> {

@@ -3,7 +3,7 @@
 use super::random::Sequence;
 use crate::math::{max, min};
 use crate::scene::Shape;
-use crate::scene::file::VectorGenerator;
+use crate::scene_file::VectorGenerator;
 use crate::space::{Plan, PlanBox};
 use glam::DVec2;
 
@@ -90,7 +90,7 @@ fn normalized(v: DVec2) -> Option<DVec2> {
 mod tests {
     use super::super::{features, tests::*};
     use super::*;
-    use crate::scene::file::VectorKind;
+    use crate::scene_file::VectorKind;
 
     fn lines(count: usize) -> Vec<Vec<Plan>> {
         let generator =

@@ -4,7 +4,7 @@ use super::noise::mountains;
 use crate::error::Result;
 use crate::math::{max, sin, tan};
 use crate::scene::Posts;
-use crate::scene::file::{TerrainGenerator, TerrainKind};
+use crate::scene_file::{TerrainGenerator, TerrainKind};
 use crate::space::Plan;
 use glam::DVec2;
 use std::f64::consts::PI;

@@ -1,7 +1,7 @@
 //! Whom an error blames: the data file, and the line of the scene that names it.
 
 use crate::error::{Error, Result};
-use crate::scene::file::{DataFile, SceneFile};
+use crate::scene_file::{DataFile, SceneFile};
 use std::path::Path;
 
 /// A data file and the scene that names it.

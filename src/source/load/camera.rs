@@ -5,10 +5,10 @@ use super::layer;
 use super::terrain::{REACH, Terrain, height_range, in_reach};
 use crate::error::{Error, Result};
 use crate::math::max;
-use crate::scene::file::{SceneFile, Spot, check_view};
 use crate::scene::{Camera, Layer, Projection};
+use crate::scene_file::{SceneFile, Spot, check_view};
 use crate::space::{Plan, PlanBox, ViewFrame, World};
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
 /// The least share of the terrain that a view chosen by the program shows.
 const LEAST: f64 = 1.0 / 32.0;
@@ -53,8 +53,7 @@ fn place(spot: Spot, terrain: &Terrain) -> Result<World> {
             space.plan_from_geographic(at.x, at.y)?.extend(at.z)
         }
     };
-    let plan = at.truncate() + terrain.place.shift(DVec2::ZERO);
-    Ok(World::from(plan.extend(at.z)))
+    Ok(terrain.place.local(at))
 }
 
 /// Eye and target of a view that shows the layers, or the terrain where there are none on it.

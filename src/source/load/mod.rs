@@ -18,7 +18,8 @@
 //! - a layer's shift is `(layer offset - terrain offset) - anchor`, so that a terrain and layers moved by the same offset
 //!   keep every bit;
 //! - what the scene file states in plan coordinates (camera, inline features, windows of generators) is shifted by
-//!   `-terrain offset - anchor`: exact where the numbers are.
+//!   `-terrain offset - anchor`: exact where the numbers are;
+//! - heights are local too: those of the data stay as they are, what raises the terrain is taken from the camera's.
 
 mod blame;
 mod camera;
@@ -34,17 +35,17 @@ mod tests;
 pub use place::{crs_of, default_plan_space, scale_error};
 
 use crate::error::Result;
-use crate::scene::file::SceneFile;
 use crate::scene::{Scene, Surface};
+use crate::scene_file::SceneFile;
 
 /// Reads everything that a scene names. `progress` is told what is being read.
 ///
 /// ```
-/// use drapery::scene::file::{DEFAULT_SCENE, SceneFile};
+/// use drapery::scene_file::{DEFAULT_SCENE, SceneFile};
 /// let file = SceneFile::parse(DEFAULT_SCENE, None, &[])?;
 /// let (scene, surface) = drapery::source::load::load(&file, &|_| ())?;
 /// let stage = drapery::stage::Stage::new(scene, surface)?;
-/// assert_eq!(stage.scene.origin, glam::DVec2::ZERO);
+/// assert_eq!(stage.scene.origin, glam::DVec3::ZERO);
 /// # Ok::<(), drapery::Error>(())
 /// ```
 ///
@@ -67,7 +68,7 @@ pub fn load(file: &SceneFile, progress: &dyn Fn(&str)) -> Result<(Scene, Surface
         layers,
         compositing: file.compositing,
         device: file.device,
-        technique: file.technique,
+        technique: file.technique.clone(),
         notes,
     };
     Ok((scene, terrain.surface))

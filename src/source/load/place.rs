@@ -4,8 +4,8 @@ use crate::crs::{Crs, PlanFrom, PlanSpace};
 use crate::error::{Error, Result};
 use crate::math::max;
 use crate::source::dem::CrsHint;
-use crate::space::Plan;
-use glam::DVec2;
+use crate::space::{Plan, World};
+use glam::{DVec2, DVec3};
 
 /// The scene's plan and its local zero.
 pub(super) struct Place {
@@ -13,20 +13,25 @@ pub(super) struct Place {
     pub(super) space: Option<PlanSpace>,
     /// The place of the plan that the surface was made relative to.
     pub(super) anchor: DVec2,
-    /// By how much the terrain is moved.
-    pub(super) offset: DVec2,
+    /// By how much the terrain is moved, and raised.
+    pub(super) offset: DVec3,
 }
 
 impl Place {
-    /// Absolute plan coordinates of the local zero.
-    pub(super) fn origin(&self) -> DVec2 {
-        self.anchor + self.offset
+    /// Absolute plan coordinates and height of the local zero.
+    pub(super) fn origin(&self) -> DVec3 {
+        self.anchor.extend(0.0) + self.offset
     }
 
     /// What makes plan coordinates, moved by an offset of their own, local ones.
     pub(super) fn shift(&self, moved: DVec2) -> DVec2 {
         // The offsets first: equal ones cancel without a rounding.
-        (moved - self.offset) - self.anchor
+        (moved - self.offset.truncate()) - self.anchor
+    }
+
+    /// A place of the plan and a height above its zero, in local coordinates.
+    pub(super) fn local(&self, at: DVec3) -> World {
+        World::from((at.truncate() + self.shift(DVec2::ZERO)).extend(at.z - self.offset.z))
     }
 
     /// What the plan is, in words.

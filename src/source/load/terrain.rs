@@ -6,12 +6,12 @@ use super::{place, resample};
 use crate::crs::{Affine, Crs, PlanSpace};
 use crate::error::{Error, Result};
 use crate::math::{max, min};
-use crate::scene::file::{DataFile, HeightEncoding, SceneFile, TerrainSource};
 use crate::scene::{Posts, Surface};
+use crate::scene_file::{DataFile, HeightEncoding, SceneFile, TerrainSource};
 use crate::source::dem::{self, Dem, DemOptions, PngEncoding};
 use crate::source::generate;
 use crate::space::{Plan, PlanBox, World};
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 /// The terrain in local coordinates, and where those are.
 pub(super) struct Terrain {
@@ -40,11 +40,12 @@ pub(super) fn terrain(
     stretch(&mut surface, scene.terrain.vertical_scale)?;
     let offset = scene.terrain.offset;
     let bounds = bounds(&surface);
-    within_reach(&surface, &bounds, anchor + offset).map_err(|error| match &scene.terrain.source {
+    let place = Place { space, anchor, offset };
+    within_reach(&surface, &bounds, place.origin()).map_err(|error| match &scene.terrain.source {
         TerrainSource::File(file) => Named::new(scene, file).blame(error),
         TerrainSource::Generate(_) => of_key(scene, "terrain", error),
     })?;
-    Ok(Terrain { bounds, surface, place: Place { space, anchor, offset } })
+    Ok(Terrain { bounds, surface, place })
 }
 
 /// The plan that the scene asks for.
@@ -269,12 +270,16 @@ fn stretch(surface: &mut Surface, by: f64) -> Result<()> {
 }
 
 /// Refuses a terrain so far from 0, or so high, that nothing near it could be told apart.
-fn within_reach(surface: &Surface, bounds: &PlanBox, origin: DVec2) -> Result<()> {
+fn within_reach(surface: &Surface, bounds: &PlanBox, origin: DVec3) -> Result<()> {
     let (low, high) = height_range(surface, bounds);
-    let corners = [bounds.min.to_vec(), bounds.max.to_vec()].map(|corner| corner + origin);
-    let plan = corners.into_iter().flat_map(|corner| [corner.x, corner.y]);
-    let local = [bounds.min.x, bounds.min.y, bounds.max.x, bounds.max.y];
-    match plan.chain(local).chain([low, high]).find(|number| !in_reach(*number)) {
+    let local = [bounds.min.to_vec().extend(low), bounds.max.to_vec().extend(high)];
+    let absolute = local.map(|corner| corner + origin);
+    match absolute
+        .into_iter()
+        .chain(local)
+        .flat_map(|corner| corner.to_array())
+        .find(|number| !in_reach(*number))
+    {
         None => Ok(()),
         Some(far) => Err(Error::new(format!("the terrain reaches {far:e} m, beyond {REACH:e} m"))
             .help("check the file's heights, its nodata value and position, and the scene's offset")),

@@ -5,10 +5,10 @@
 use super::load;
 use crate::crs::{Crs, PlanSpace};
 use crate::error::{Error, Result};
-use crate::scene::file::SceneFile;
 use crate::scene::{Feature, Posts, Scene, Shape, Surface};
+use crate::scene_file::SceneFile;
 use crate::space::Plan;
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use std::path::Path;
 
 /// A folder with a scene and its data.
@@ -88,7 +88,7 @@ fn generated_terrain_without_offset_has_its_origin_at_zero() {
              [[layer]]\nfeatures = [{ line = [[-7.3, 1.1], [3.7, 2.9]] }]\nline = { color = \"#000000\", width_m = 2.0 }",
         )
         .unwrap();
-    assert_eq!(scene.origin, DVec2::ZERO);
+    assert_eq!(scene.origin, DVec3::ZERO);
     assert_eq!(posts(surface).first, Plan::new(-20.0, -20.0));
     assert_eq!(vertices(&scene.layers[0].features)[0], Plan::new(-7.3, 1.1));
 }
@@ -102,8 +102,8 @@ fn posts_do_not_depend_on_the_offset() {
     let (still, before) = load("[0, 0]");
     let (moved, after) = load("[5e6, -31.7]");
     assert_eq!(posts(before), posts(after));
-    assert_eq!(moved.origin, still.origin + DVec2::new(5e6, -31.7));
-    assert_eq!((still.camera, still.origin.fract()), (moved.camera, DVec2::ZERO));
+    assert_eq!(moved.origin, still.origin + DVec3::new(5e6, -31.7, 0.0));
+    assert_eq!((still.camera, still.origin.fract()), (moved.camera, DVec3::ZERO));
 }
 
 #[test]
@@ -116,8 +116,8 @@ fn a_scene_moved_with_all_its_data_keeps_every_bit() {
         let at = |x: f64, y: f64| format!("{}, {}", x + d, y + d);
         folder
             .load(&format!(
-                "camera = {{ eye = [{eye}, 900.5], target = [{target}, 500.25] }}
-                terrain = {{ source = \"d.asc\", offset = [{d}, {d}], crs = \"EPSG:32633\" }}
+                "camera = {{ eye = [{eye}, {above}], target = [{target}, {level}] }}
+                terrain = {{ source = \"d.asc\", offset = [{d}, {d}, {d}], crs = \"EPSG:32633\" }}
                 [[layer]]\nsource = \"l.geojson\"\ncrs = \"EPSG:32633\"\noffset = [{d}, {d}]
                 line = {{ color = \"#000000\", width_m = 1.0 }}
                 [[layer]]\nfeatures = [{{ polygon = [[[{a}], [{b}], [{c}]]] }}]\nfill = {{ color = \"#ff0000\" }}
@@ -126,6 +126,8 @@ fn a_scene_moved_with_all_its_data_keeps_every_bit() {
                 [[layer]]\nname = \"r\"\ngenerate = {{ kind = \"roads\", count = 9 }}
                 line = {{ color = \"#00ff00\", width_m = 1.0 }}",
                 eye = at(412_300.25, 5_123_300.5),
+                above = 900.5 + d,
+                level = 500.25 + d,
                 target = at(412_366.75, 5_123_470.0),
                 a = at(412_350.25, 5_123_460.5),
                 b = at(412_361.0, 5_123_461.75),
@@ -137,7 +139,7 @@ fn a_scene_moved_with_all_its_data_keeps_every_bit() {
     };
     let (still, before) = scene(0.0);
     let (moved, after) = scene(5e6);
-    assert_eq!(moved.origin - still.origin, DVec2::splat(5e6));
+    assert_eq!(moved.origin - still.origin, DVec3::splat(5e6));
     assert_eq!(still.layers.iter().map(|l| l.features.len()).collect::<Vec<_>>()[..3], [1, 1, 9]);
     assert_eq!(local(&still, &before), local(&moved, &after));
 }
@@ -153,7 +155,7 @@ fn local_coordinates_are_plan_coordinates_less_the_origin() {
             line = { color = \"#000000\", width_m = 1.0 }",
         )
         .unwrap();
-    let absolute = |p: Plan| p + scene.origin;
+    let absolute = |p: Plan| p + scene.origin.truncate();
     assert_eq!(absolute(vertices(&scene.layers[0].features)[0]), Plan::new(412_351.25, 5_123_462.5));
     assert_eq!(absolute(scene.camera.eye.plan()), Plan::new(412_300.5, 5_123_300.0));
     let posts = posts(surface);
@@ -175,7 +177,7 @@ fn a_terrain_in_degrees_stays_a_grid_on_the_local_plane() {
         )
         .unwrap();
     let posts = posts(surface);
-    assert_eq!((scene.origin, posts.columns(), posts.rows()), (DVec2::ZERO, 41, 31));
+    assert_eq!((scene.origin, posts.columns(), posts.rows()), (DVec3::ZERO, 41, 31));
     assert!(posts.plan(20, 15).to_vec().length() < 1e-6, "the middle post stands at the centre");
     // Metres in a degree at 46 north, from the ellipsoid's formulas.
     assert!(
@@ -215,7 +217,7 @@ fn a_plane_resampled_from_another_crs_is_the_same_plane() {
     for j in 0..first.rows() {
         for i in 0..first.columns() {
             let p = first.world(i, j);
-            let q = p.plan() + scene.origin;
+            let q = p.plan() + scene.origin.truncate();
             if !p.z.is_nan() {
                 seen += 1;
                 let truth = 0.1 * (q.x - 500_000.0) - 0.05 * (q.y - 5_100_000.0);
@@ -255,8 +257,8 @@ fn points_are_placed_like_posts() {
         Folder::new().with("p.xyz", "412345.5 5123456.25 10\n412355 5123456 20\n412350 5123470 30\n");
     let (scene, surface) = folder.load("terrain = { source = \"p.xyz\" }").unwrap();
     let Surface::Points(points) = surface else { panic!("a grid") };
-    assert_eq!(scene.origin.fract(), DVec2::ZERO);
-    assert_eq!(points[0].plan() + scene.origin, Plan::new(412_345.5, 5_123_456.25));
+    assert_eq!(scene.origin.fract(), DVec3::ZERO);
+    assert_eq!(points[0].plan() + scene.origin.truncate(), Plan::new(412_345.5, 5_123_456.25));
 }
 
 #[test]
@@ -368,7 +370,7 @@ fn a_layer_in_another_crs_is_reprojected_with_a_note() {
             "terrain = { source = \"d.asc\", crs = \"EPSG:32632\" }\n[[layer]]\nsource = \"l.geojson\"\nline = { color = \"#000000\", width_m = 4.0 }",
         )
         .unwrap();
-    let at = vertices(&scene.layers[0].features)[0] + scene.origin;
+    let at = vertices(&scene.layers[0].features)[0] + scene.origin.truncate();
     // PROJ 9.5 says 500077.3604, 5099769.5216.
     assert!((at - Plan::new(500_077.360_4, 5_099_769.521_6)).length() < 1e-3, "{at:?}");
     assert!(
@@ -401,8 +403,8 @@ fn imagery_covers_the_terrain_or_what_its_world_file_says() {
 
 #[test]
 fn the_scene_that_is_built_in_loads() {
-    let file = SceneFile::parse(crate::scene::file::DEFAULT_SCENE, None::<&Path>, &[]).unwrap();
+    let file = SceneFile::parse(crate::scene_file::DEFAULT_SCENE, None::<&Path>, &[]).unwrap();
     let (scene, surface) = load(&file, &|_| ()).unwrap();
-    assert_eq!((scene.layers.len(), scene.origin), (8, DVec2::ZERO));
+    assert_eq!((scene.layers.len(), scene.origin), (8, DVec3::ZERO));
     assert_eq!(posts(surface).columns(), 513);
 }

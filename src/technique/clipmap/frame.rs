@@ -17,6 +17,7 @@ use crate::parallel::{self, Progress};
 use crate::raster::Lattice;
 use crate::resolve::{Paint, code_values};
 use crate::space::{Plan, ViewFrame, World};
+use crate::terrain::Mesh;
 use crate::visibility::{self, Hit, Sight};
 use std::sync::Arc;
 
@@ -29,14 +30,16 @@ pub(super) fn draw(
     view: &ViewFrame,
     options: &FrameOptions,
 ) -> Result<(Frame, CacheCounts)> {
-    let sight = see(prepared, view, options.tile);
+    let mesh = &*prepared.stage.mesh_for(view);
+    let sight = see(prepared, (mesh, view), options.tile);
     (options.progress)(0.2);
-    Drawing::new(prepared, view, sight).frame(options)
+    Drawing::new(prepared, (mesh, view), sight).frame(options)
 }
 
 /// Decides one pixel of a view as a frame does, with the tiles that it reads: its steps and its code values.
 pub(super) fn explain(prepared: &Prepare, view: &ViewFrame, [x, y]: [usize; 2]) -> (Vec<Step>, [u8; 4]) {
-    let drawing = Drawing::new(prepared, view, see(prepared, view, visibility::TILE));
+    let mesh = &*prepared.stage.mesh_for(view);
+    let drawing = Drawing::new(prepared, (mesh, view), see(prepared, (mesh, view), visibility::TILE));
     let (painter, mut steps) = (&drawing.painter, Vec::new());
     let plan = painter.sight.hit(x, y).map_or(Plan::new(f64::INFINITY, f64::INFINITY), |hit| hit.plan);
     let reading = painter.reading((x, y), plan, &mut None, &mut steps);
@@ -57,9 +60,9 @@ pub(super) fn explain(prepared: &Prepare, view: &ViewFrame, [x, y]: [usize; 2]) 
 }
 
 /// What the pixels' centres see, found in tiles of `tile` samples a side.
-fn see<'a>(prepared: &'a Prepare, view: &'a ViewFrame, tile: usize) -> Sight<'a> {
-    let stage = prepared.stage;
-    let mut sight = Sight::new(view, &stage.mesh, &stage.scene.device, Lattice::centres(view, 0), tile);
+fn see<'a>(prepared: &Prepare, (mesh, view): (&'a Mesh, &'a ViewFrame), tile: usize) -> Sight<'a> {
+    let device = &prepared.stage.scene.device;
+    let mut sight = Sight::new(view, mesh, device, Lattice::centres(view, 0), tile);
     sight.see();
     sight
 }
@@ -111,29 +114,27 @@ const TILES_A_ROW: usize = 16;
 const MOST_SHOWN: usize = 1024;
 
 impl<'a> Drawing<'a> {
-    fn new(prepared: &'a Prepare, view: &'a ViewFrame, sight: Sight<'a>) -> Self {
-        let stage = prepared.stage;
-        let (scene, settings) = (&stage.scene, prepared.settings);
+    fn new(prepared: &'a Prepare, (mesh, view): (&'a Mesh, &'a ViewFrame), sight: Sight<'a>) -> Self {
+        let (scene, settings) = (&prepared.stage.scene, prepared.settings);
         let nearest = nearest(&sight, view);
         let center = match settings.center {
             Some([x, y]) => Plan::new(x - scene.origin.x, y - scene.origin.y),
-            None => nearest.map_or_else(Plan::default, World::plan),
+            None => nearest.map_or_else(Plan::default, |hit| hit.plan),
         };
         let region = ClipRegion::new(&prepared.texture, center, settings.clip_size);
-        let middle = sight.hit(view.width() / 2, view.height() / 2);
-        let middle = middle.map(|Hit { plan, height, .. }| World::new(plan.x, plan.y, height)).or(nearest);
+        let middle = sight.hit(view.width() / 2, view.height() / 2).or(nearest);
         Self {
             prepared,
             view,
             painter: PixelPainter {
-                mesh: &stage.mesh,
+                mesh,
                 view,
                 texture: prepared.texture,
                 sampler: Sampler::new(prepared.texture, &region, &settings, &scene.device),
-                backdrop: Backdrop::of(stage),
+                backdrop: Backdrop::of(scene, mesh),
                 sight,
             },
-            maker: prepared.maker(middle.map_or(1.0, |at| view.pixel_m(at))),
+            maker: prepared.maker(middle.map_or(1.0, |hit| view.pixel_m(hit.world))),
             region,
         }
     }
@@ -324,8 +325,8 @@ impl<'a> Drawing<'a> {
 }
 
 /// The surface point that is nearest to the eye's plane, of equals the first.
-fn nearest(sight: &Sight, view: &ViewFrame) -> Option<World> {
-    let nearer = |best: Option<(f64, World)>, (depth, at): (f64, World)| match best {
+fn nearest(sight: &Sight, view: &ViewFrame) -> Option<Hit> {
+    let nearer = |best: Option<(f64, [usize; 2])>, (depth, at): (f64, [usize; 2])| match best {
         Some(best) if best.0 <= depth => Some(best),
         _ => Some((depth, at)),
     };
@@ -333,10 +334,11 @@ fn nearest(sight: &Sight, view: &ViewFrame) -> Option<World> {
     let rows = parallel::map_indices(lattice.rows, |row| {
         let mut points = vec![World::default(); lattice.columns];
         sight.world_of_row((0, row), &mut points);
-        let points = points.into_iter().filter(|at| at.is_finite());
-        points.map(|at| (view.depth(at), at)).fold(None, nearer)
+        let points = points.into_iter().enumerate().filter(|(_, at)| at.is_finite());
+        points.map(|(column, at)| (view.depth(at), [column, row])).fold(None, nearer)
     });
-    rows.into_iter().flatten().fold(None, nearer).map(|(_, at)| at)
+    let (_, [column, row]) = rows.into_iter().flatten().fold(None, nearer)?;
+    sight.hit(column, row)
 }
 
 /// The tiles of some rows, each once, in order.

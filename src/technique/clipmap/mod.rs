@@ -2,7 +2,7 @@
 //! textures", Smart Tools and Apps for Graphics.
 //!
 //! Input: a [`Stage`]. Output: a picture whose ground carries a texture of the vectors:
-//! 1. the layers are kept in memory as one of the paper's solutions needs them (`geometry`, 4.1 to 4.4), lines tessellated into strips
+//! 1. the items are kept in memory as one of the paper's solutions needs them (`geometry`, 4.1 to 4.4), lines tessellated into strips
 //!    ([`tessellation`], 4.2);
 //! 2. the texture is virtual: levels cut into tiles ([`texture`], 2); a frame finds which tiles its pixels touch (`sampling`, `pixel`, `frame`);
 //! 3. those are made, each once ([`tile`]): layers in order, thin lines as line primitives, the others as polygons (Algorithm 2),
@@ -23,7 +23,7 @@
 //! - tiny-skia fills an item as one path: with it polygons are blended once, whatever `overlaps` says.
 //! - Line primitives have neither joins nor caps, nor have Algorithm 1's strips caps; `joints = "style"` has both.
 //!
-//! Refuses: nothing but more vertices or features than can be numbered.
+//! Refuses: nothing but more vertices than can be numbered.
 
 mod cache;
 mod frame;
@@ -34,8 +34,10 @@ pub mod raster;
 mod rational;
 mod sampling;
 mod sequences;
+mod settings;
 mod simple;
 mod step;
+mod sweep;
 mod table;
 pub mod tessellation;
 pub mod texture;
@@ -43,13 +45,16 @@ pub mod tile;
 
 pub use cache::CacheCounts;
 pub use sequences::{Sequences, StripOf};
+pub use settings::{
+    Joints, LineFilter, LinePrimitives, OffsetForm, Overlaps, PixelWidth, PolygonRaster, Settings, Solution,
+    TILE_TEXELS, TexelFormat, TextureFilter, WideLines,
+};
 pub use step::Step;
 
-use super::{Explanation, Frame, FrameOptions, Prepared};
+use super::{Declaration, Explanation, Frame, FrameOptions, Parameters, Prepared};
+use crate::buffer::{Look, PlaneKind};
 use crate::error::Result;
 use crate::parallel;
-use crate::scene::Clipmap;
-use crate::scene::file::Named;
 use crate::space::{Plan, ViewFrame};
 use crate::stage::Stage;
 use cache::TileCache;
@@ -58,27 +63,51 @@ use std::sync::{Mutex, PoisonError};
 use texture::{ClipRegion, TileKey, VirtualTexture};
 use tile::{TileCounts, TileMaker, Workbench};
 
-/// The technique with its layers in memory.
+/// The technique, said once.
+pub const DECLARATION: Declaration = Declaration {
+    parameters: Parameters::of::<Settings>(),
+    paper: "Taibo et al. 2014, \"Practical line rasterization for multi-resolution textures\".",
+    title: "Clipmap texture (Taibo)",
+    contradiction: settings::contradiction,
+    planes: &[
+        PlaneKind::new("vertices", Look::Table).in_plan(),
+        PlaneKind::new("strips", Look::Table),
+        PlaneKind::TRIANGLE,
+        PlaneKind::DEPTH,
+        PlaneKind::PLAN,
+        PlaneKind::new("level", Look::Level),
+        PlaneKind::new("tile", Look::Number),
+        PlaneKind::new("texels", Look::Count),
+        PlaneKind::new("tile-keys", Look::Table),
+        PlaneKind::new("tiles", Look::CodeValues),
+        PlaneKind::COLOR,
+    ],
+    sweep: sweep::SWEEP,
+    applies,
+    prepare: |stage| Ok(Box::new(Prepare::new(stage)?)),
+};
+
+/// The technique with its lines and areas in memory.
 #[derive(Debug)]
 pub struct Prepare<'s> {
     stage: &'s Stage,
-    settings: Clipmap,
+    settings: Settings,
     texture: VirtualTexture,
-    geometry: Geometry,
+    geometry: Geometry<'s>,
     /// Tiles that were made for earlier frames.
     cache: Mutex<TileCache>,
 }
 
 impl<'s> Prepare<'s> {
-    /// Keeps the layers as the solution needs them.
+    /// Keeps lines and areas as the solution needs them.
     ///
     /// # Errors
-    /// When there are more vertices or features than can be numbered.
+    /// When there are more vertices than can be numbered.
     pub fn new(stage: &'s Stage) -> Result<Self> {
         let scene = &stage.scene;
-        let settings = scene.technique.clipmap;
+        let settings: Settings = scene.technique.get();
         let texture = VirtualTexture::over(&stage.mesh.plan_bounds(), settings.virtual_size);
-        let geometry = Geometry::new(&scene.layers, &settings, scene.compositing)?;
+        let geometry = Geometry::new(&stage.draw_list, &settings, scene.compositing)?;
         Ok(Self { stage, settings, texture, geometry, cache: Mutex::default() })
     }
 
@@ -169,45 +198,5 @@ impl Prepared for Prepare<'_> {
 
     fn structure_bytes(&self) -> usize {
         self.geometry.bytes() + self.geometry.index_bytes()
-    }
-
-    fn parameters(&self) -> Vec<(&'static str, String)> {
-        let s = &self.settings;
-        vec![
-            ("virtual_size", s.virtual_size.to_string()),
-            ("clip_size", s.clip_size.to_string()),
-            ("cache_mib", s.cache_mib.to_string()),
-            ("texel", s.texel.word().into()),
-            ("solution", s.solution.word().into()),
-            ("joints", s.joints.word().into()),
-            ("angle_deg", s.angle_deg.to_string()),
-            ("threshold_texels", s.threshold_texels.to_string()),
-            ("lines", s.lines.word().into()),
-            ("line_filter", s.line_filter.word().into()),
-            ("wide_lines", s.wide_lines.word().into()),
-            ("polygons", s.polygons.word().into()),
-            ("overlaps", s.overlaps.word().into()),
-            ("offsets", s.offsets.word().into()),
-            ("pixel_width", s.pixel_width.word().into()),
-            ("filter", s.filter.word().into()),
-            ("anisotropy", s.anisotropy.to_string()),
-            ("level_bias", s.level_bias.to_string()),
-        ]
-    }
-
-    fn buffer_names(&self) -> &'static [&'static str] {
-        &[
-            "vertices",
-            "strips",
-            "triangle",
-            "depth",
-            "plan",
-            "level",
-            "tile",
-            "texels",
-            "tile-keys",
-            "tiles",
-            "color",
-        ]
     }
 }

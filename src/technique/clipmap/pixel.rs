@@ -52,8 +52,8 @@ impl<'a> PixelPainter<'a> {
         }
         record.step(|| Step::Seen { triangle, plan });
         if last.as_ref().is_none_or(|(of, _)| *of != triangle) {
-            let corners = self.mesh.triangle(triangle);
-            *last = Some((triangle, corners.map(|corners| FootprintPlane::new(self.view, &corners))));
+            let seen = self.mesh.surface_triangle(triangle);
+            *last = Some((triangle, seen.map(|seen| FootprintPlane::new(self.view, &seen))));
         }
         let at = self.sight.lattice().at(x, y);
         let footprint = last.as_ref().and_then(|(_, plane)| plane.as_ref()?.footprint(at));

@@ -7,8 +7,9 @@
 
 use super::texture::{ClipRegion, TILE, TileKey, TileWindow, VirtualTexture, power_of_two};
 use crate::math;
-use crate::scene::{Clipmap, Device, TextureFilter};
+use crate::scene::Device;
 use crate::space::{Plan, Texel};
+use crate::technique::clipmap::{Settings, TextureFilter};
 use crate::visibility::PixelFootprint;
 use glam::DVec2;
 
@@ -65,7 +66,7 @@ impl Sampler {
     pub(super) fn new(
         texture: VirtualTexture,
         region: &ClipRegion,
-        settings: &Clipmap,
+        settings: &Settings,
         device: &Device,
     ) -> Self {
         let bits = device.filter_bits;
@@ -230,7 +231,7 @@ mod tests {
     use crate::space::PlanBox;
     use proptest::prelude::*;
 
-    fn sampler(settings: &Clipmap, filter_bits: u32) -> Sampler {
+    fn sampler(settings: &Settings, filter_bits: u32) -> Sampler {
         let bounds = PlanBox { min: Plan::new(0.0, 0.0), max: Plan::new(1024.0, 1024.0) };
         let texture = VirtualTexture::over(&bounds, 4096);
         let region = ClipRegion::new(&texture, Plan::new(512.0, 512.0), settings.clip_size);
@@ -238,8 +239,8 @@ mod tests {
         Sampler::new(texture, &region, settings, &device)
     }
 
-    fn settings(filter: TextureFilter) -> Clipmap {
-        Clipmap { filter, anisotropy: 16, clip_size: 1 << 20, ..Clipmap::default() }
+    fn settings(filter: TextureFilter) -> Settings {
+        Settings { filter, anisotropy: 16, clip_size: 1 << 20, ..Settings::default() }
     }
 
     fn footprint(a: f64, b: f64, c: f64, d: f64) -> PixelFootprint {
@@ -323,7 +324,7 @@ mod tests {
 
     #[test]
     fn beyond_the_clip_region_a_coarser_level_is_read() {
-        let clipped = Clipmap { clip_size: 256, ..settings(TextureFilter::Trilinear) };
+        let clipped = Settings { clip_size: 256, ..settings(TextureFilter::Trilinear) };
         let sampler = sampler(&clipped, 0);
         let small = footprint(0.25, 0.0, 0.0, 0.25);
         let levels = |x: f64| {
@@ -358,7 +359,7 @@ mod tests {
             filter in 0..4usize, bits in 8..13u32, filter_bits in 0..9u32,
         ) {
             let filter = [TextureFilter::Nearest, TextureFilter::Bilinear, TextureFilter::Trilinear, TextureFilter::Anisotropic][filter];
-            let sampler = sampler(&Clipmap { clip_size: 1 << bits, ..settings(filter) }, filter_bits);
+            let sampler = sampler(&Settings { clip_size: 1 << bits, ..settings(filter) }, filter_bits);
             let probes = sampler.probes(Plan::new(x, y), Some(&footprint(f[0], f[1], f[2], f[3])));
             let quads = quads(&sampler, &probes);
             prop_assert!((quads.iter().map(|q| q.weight).sum::<f64>() - 1.0).abs() < 1e-9);

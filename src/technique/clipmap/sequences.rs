@@ -4,7 +4,7 @@ use super::Prepare;
 use super::tessellation::{Polyline, Rule, Sagitta, Strips};
 use crate::buffer::{Plane, Values};
 use crate::error::Result;
-use crate::scene::{Line, Shape, Width, distinct_vertices};
+use crate::scene::{Line, Width};
 use crate::space::Plan;
 
 /// A strip among the vertices of all strips.
@@ -37,25 +37,20 @@ impl Prepare<'_> {
     /// # Errors
     /// Internal errors only.
     pub fn sequences(&self, pixel_m: f64) -> Result<Sequences> {
-        let mut all = Sequences::default();
-        for (number, layer) in self.stage.scene.layers.iter().enumerate() {
-            for (feature, of) in layer.features.iter().enumerate() {
-                let style = layer.style_of(of);
-                let (line, parts, is_ring) = match (&of.shape, &style.line, &style.outline) {
-                    (Shape::Line(parts), Some(line), _) => (line, parts, false),
-                    (Shape::Polygon(rings), _, Some(outline)) => (&outline.line, rings, true),
-                    _ => continue,
+        let (list, mut all) = (&self.stage.draw_list, Sequences::default());
+        for (number, item) in list.numbered() {
+            let Some(line) = list.style_of(number).stroke else { continue };
+            // A dot has no segments (and a style's cap of it no sequence).
+            for chain in list.strokes(item).iter().filter(|chain| chain.count > 1) {
+                let strip = StripOf {
+                    layer: item.layer,
+                    feature: item.feature,
+                    part: chain.part,
+                    first: 0,
+                    count: 0,
                 };
-                for (part, vertices) in parts.iter().enumerate() {
-                    let strip = StripOf {
-                        layer: number as u32,
-                        feature: feature as u32,
-                        part: part as u32,
-                        first: 0,
-                        count: 0,
-                    };
-                    self.add_sequence(vertices, (line, is_ring), pixel_m, strip, &mut all)?;
-                }
+                let polyline = Polyline { vertices: list.vertices_of(chain), is_loop: chain.is_closed };
+                self.add_sequence(&polyline, &line, pixel_m, strip, &mut all)?;
             }
         }
         Ok(all)
@@ -63,30 +58,19 @@ impl Prepare<'_> {
 
     fn add_sequence(
         &self,
-        vertices: &[Plan],
-        (line, is_ring): (&Line, bool),
+        polyline: &Polyline,
+        line: &Line,
         pixel_m: f64,
         strip: StripOf,
         all: &mut Sequences,
     ) -> Result<()> {
-        let mut vertices = distinct_vertices(vertices);
-        let returns = vertices.len() > 1 && vertices.first() == vertices.last();
-        let is_loop = if is_ring { vertices.len() > 1 } else { returns && vertices.len() > 3 };
-        if is_loop && returns {
-            vertices.pop();
-        }
-        // A dot has no segments (and a style's cap of it no sequence).
-        if vertices.len() < 2 {
-            return Ok(());
-        }
         let width = match line.width {
             Width::Metres(width) => width,
             Width::Pixels(pixels) => pixels * pixel_m,
         };
         let rule = Rule::of_line(self.settings.joints, self.settings.angle_deg, line)?;
         let mut strips = Strips::default();
-        let polyline = Polyline { vertices: &vertices, is_loop };
-        rule.tessellate(&polyline, width, Sagitta::DEFAULT, &mut strips)?;
+        rule.tessellate(polyline, width, Sagitta::DEFAULT, &mut strips)?;
         for one in strips.iter() {
             let first = all.vertices.len() as u32;
             all.strips.push(StripOf { first, count: 2 * one.len() as u32, ..strip });

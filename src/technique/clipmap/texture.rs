@@ -3,8 +3,8 @@
 //! Level 0 is the finest; each further level has half as many texels a side, down to one. A level is cut into tiles of 256 texels
 //! (5); smaller ones are a tile of their own.
 
-use crate::scene::TILE_TEXELS;
 use crate::space::{Plan, PlanBox, Texel};
+use crate::technique::clipmap::TILE_TEXELS;
 
 /// Texels a side of a tile.
 pub const TILE: usize = TILE_TEXELS as usize;

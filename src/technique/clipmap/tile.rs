@@ -1,14 +1,14 @@
 //! One tile of the texture: its items in draw order, thin lines as line primitives, the others as polygons (Algorithm 2).
 
-use super::geometry::{AreaRings, Chunk, Geometry, Role, StrokeStyle};
+use super::geometry::{AreaRings, Chunk, Drawn, Geometry, StrokeStyle};
 use super::raster::{Area, Cut, RasterSettings, TilePlace, TileRaster};
 use super::tessellation::{Pair, Sagitta, Strips};
 use super::texture::{TILE, TileKey, VirtualTexture};
+use crate::draw_list::Side;
 use crate::math;
-use crate::scene::{
-    Clipmap, Device, OutlineMode, PixelWidth, Precision, Rule, Solution, TexelFormat, WideLines, Width,
-};
+use crate::scene::{Device, Precision, Width};
 use crate::space::{Plan, PlanBox, Texel};
+use crate::technique::clipmap::{PixelWidth, Settings, Solution, TexelFormat, WideLines};
 
 /// Vertices of a ring that are looked at together: where all lie on one side of the tile, only the first is kept.
 const RING_CHUNK: usize = 64;
@@ -85,9 +85,9 @@ impl Tile {
 /// Makes tiles.
 #[derive(Debug, Clone, Copy)]
 pub struct TileMaker<'a> {
-    pub(super) geometry: &'a Geometry,
+    pub(super) geometry: &'a Geometry<'a>,
     pub(super) texture: VirtualTexture,
-    pub(super) settings: Clipmap,
+    pub(super) settings: Settings,
     pub(super) device: Device,
     /// A pixel's size at the distance of what the middle of the picture shows, metres: what widths in pixels are multiples of where
     /// they follow the distance.
@@ -156,7 +156,7 @@ impl TexelMap {
 
 impl Workbench {
     /// For tiles of a size.
-    fn new(size: usize, settings: &Clipmap) -> Self {
+    fn new(size: usize, settings: &Settings) -> Self {
         let place = TilePlace { origin: (0, 0), size: (size, size) };
         let raster = RasterSettings {
             polygons: settings.polygons,
@@ -194,24 +194,19 @@ impl TileMaker<'_> {
         }
     }
 
-    /// The looks of all strokes.
-    fn styles(&self) -> impl Iterator<Item = &StrokeStyle> {
-        self.geometry.layers().iter().flat_map(|layer| layer.outline.iter().chain(&layer.line))
-    }
-
     /// A pixel's size, if the width of any stroke follows it.
     pub(super) fn followed_pixel_m(&self) -> Option<f64> {
-        let mut widths = self.styles().map(|style| style.width);
-        let is_followed = self.settings.pixel_width == PixelWidth::Distance
-            && widths.any(|width| matches!(width, Width::Pixels(_)));
+        let [_, of_pixels] = self.geometry.styles().reach();
+        let is_followed = self.settings.pixel_width == PixelWidth::Distance && of_pixels.is_some();
         is_followed.then_some(self.pixel_m)
     }
 
     /// How far from their vertices strokes may reach in a level, metres.
     fn reach_m(&self, level: u32) -> f64 {
-        let reach = |style: &StrokeStyle| 0.5 * self.width_m(style.width, level) * style.reach;
+        let [metres, pixels] = self.geometry.styles().reach();
+        let pixels = pixels.map(|pixels| self.width_m(Width::Pixels(pixels), level));
         // A filter around a texel's centre, and a texel for rounding.
-        self.styles().map(reach).fold(0.0, math::max) + 4.0 * self.texture.texel_m(level)
+        math::max(metres.unwrap_or(0.0), pixels.unwrap_or(0.0)) + 4.0 * self.texture.texel_m(level)
     }
 
     /// Makes a tile on a workbench, which is set up anew where tiles are of another size.
@@ -283,7 +278,7 @@ impl Drawing<'_> {
         let geometry = self.maker.geometry;
         match piece {
             Piece::Area(area) => {
-                let Some(Role::Fill(fill)) = geometry.role(area.item) else { return };
+                let Drawn::Fill(fill) = geometry.drawn(area.item) else { return };
                 self.load_rings(geometry.rings(&area), &mut bench.rings);
                 let rings = bench.rings.slices();
                 let shape = Area { rings: &rings, rule: fill.rule, is_simple: area.is_simple };
@@ -291,7 +286,7 @@ impl Drawing<'_> {
                 counts.areas += 1;
             }
             Piece::Stroke(item, chunks) => {
-                let Some(Role::Stroke(style)) = geometry.role(item) else { return };
+                let Drawn::Stroke(style) = geometry.drawn(item) else { return };
                 self.stroke(item, chunks, style, bench, counts);
             }
         }
@@ -319,12 +314,12 @@ impl Drawing<'_> {
             Solution::Polygons => false,
             Solution::Both | Solution::Wireframe | Solution::Adjacency | Solution::Offsets => is_thin,
         };
-        let cut_rule = self.load_cut(item, style, bench);
+        let cut = self.load_cut(item, style, bench);
         let Workbench { raster, strips, pairs, ends, segments, rings, .. } = bench;
         let rings = rings.slices();
-        let cut = cut_rule.map(|(rule, is_simple)| Cut {
-            area: Area { rings: &rings, rule, is_simple },
-            keeps_inside: style.mode == OutlineMode::Inset,
+        let cut = cut.map(|(side, is_simple)| Cut {
+            area: Area { rings: &rings, rule: style.cut_rule, is_simple },
+            keeps_inside: side == Side::Inside,
         });
 
         if as_lines {
@@ -358,21 +353,15 @@ impl Drawing<'_> {
         raster.strips(strips, maker.geometry.folded(), cut.as_ref(), &style.ink);
     }
 
-    /// Brings the polygon of an outline that is cut to it to texels; its rule, and whether it is simple.
-    fn load_cut(&self, item: u32, style: &StrokeStyle, bench: &mut Workbench) -> Option<(Rule, bool)> {
+    /// Brings the polygon of an outline that is cut to it to texels; the side that counts, and whether the polygon is simple.
+    fn load_cut(&self, item: u32, style: &StrokeStyle, bench: &mut Workbench) -> Option<(Side, bool)> {
         bench.rings.points.clear();
         bench.rings.ends.clear();
-        if style.mode == OutlineMode::Normal {
-            return None;
-        }
+        let side = style.cut?;
         let geometry = self.maker.geometry;
         let area = geometry.cut_of(item)?;
         self.load_rings(geometry.rings(&area), &mut bench.rings);
-        let rule = match geometry.role(area.item) {
-            Some(Role::Fill(fill)) => fill.rule,
-            _ => Rule::EvenOdd,
-        };
-        Some((rule, area.is_simple))
+        Some((side, area.is_simple))
     }
 
     /// Adds a chunk's segments that may touch the tile; those of wireframe, whose sides a chunk has too, with their neighbours.

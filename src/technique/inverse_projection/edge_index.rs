@@ -4,22 +4,26 @@
 //! Each cell lists the edges that meet it, and the areas that wind around its south-west corner. The winding of a point follows
 //! from the corner's by the edges that a path from the corner crosses: up along the cell's western side, then east.
 
-use super::expansion::{Area, Areas, Edge};
+use super::expansion::{AreaId, Edge, expanded};
 use super::quadrilateral::Quadrilateral;
+use crate::draw_list::{DrawList, Role, Side};
+use crate::error::{Error, Result};
 use crate::index::CellLists;
 use crate::math;
 use crate::parallel;
 use crate::predicate::orient2d;
+use crate::scene::Rule;
 use crate::space::{Plan, PlanBox};
 use std::ops::Range;
 
 /// Most cells of the grid.
 const MAX_CELLS: f64 = (1u32 << 24) as f64;
 
-/// Areas, their edges, and the grid over them.
+/// The edges of a draw list's areas, and the grid over them.
 #[derive(Debug)]
-pub struct EdgeIndex {
-    areas: Vec<Area>,
+pub struct EdgeIndex<'l> {
+    list: &'l DrawList,
+    area_count: usize,
     edges: Vec<Edge>,
     origin: Plan,
     cell: f64,
@@ -39,15 +43,23 @@ pub struct EdgeIndex {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Winding {
     /// The area.
-    pub area: u32,
+    pub area: AreaId,
     /// The number of turns, counter-clockwise positive.
     pub turns: i32,
 }
 
-impl EdgeIndex {
+impl<'l> EdgeIndex<'l> {
     /// Builds the grid over the part of the areas that lies in `bounds` (the terrain's rectangle).
-    pub fn new(areas: Areas, bounds: &PlanBox) -> Self {
-        let Areas { areas, mut edges } = areas;
+    ///
+    /// # Errors
+    /// When there are more edges than can be numbered.
+    pub fn new(list: &'l DrawList, bounds: &PlanBox) -> Result<Self> {
+        let mut edges = expanded(list);
+        if edges.len() > u32::MAX as usize / 2 {
+            return Err(
+                Error::new("more edges than this program can number").help("give the terrain a `window`")
+            );
+        }
         let layout = Layout::new(&edges, bounds);
         let mut index = Self {
             origin: layout.origin,
@@ -58,7 +70,8 @@ impl EdgeIndex {
             members: CellLists::default(),
             covers: CellLists::default(),
             sums: Vec::new(),
-            areas,
+            list,
+            area_count: area_count(list),
             edges: Vec::new(),
         };
         // What neither meets the grid nor lies west of it can change nothing in it.
@@ -73,12 +86,33 @@ impl EdgeIndex {
         index.list_members();
         index.list_covers();
         index.find_outsides();
-        index
+        Ok(index)
     }
 
-    /// The areas in draw order.
-    pub fn areas(&self) -> &[Area] {
-        &self.areas
+    /// How many areas there are: one for each item, and one for each outline that is cut to a polygon without a fill.
+    pub fn area_count(&self) -> usize {
+        self.area_count
+    }
+
+    /// Which windings are inside an area.
+    #[inline]
+    pub fn rule_of(&self, area: AreaId) -> Rule {
+        if area.is_stroke() { Rule::NonZero } else { self.list.style_of(area.item()).rule }
+    }
+
+    /// The style with whose paint an area is painted; `None`: it only cuts an outline.
+    #[inline]
+    pub fn painted_by(&self, area: AreaId) -> Option<u32> {
+        let style = self.list.items()[area.item() as usize].style;
+        let is_painted = area.is_stroke() || self.list.styles()[style as usize].role == Role::Fill;
+        is_painted.then_some(style)
+    }
+
+    /// The polygon that an area is cut to, and whether the points in it (or those outside) count.
+    #[inline]
+    pub fn cut_of(&self, area: AreaId) -> Option<(AreaId, bool)> {
+        let side = self.list.style_of(area.item()).cut.filter(|_| area.is_stroke())?;
+        Some((AreaId::polygon_of(self.list.area_owner(area.item())), side == Side::Inside))
     }
 
     /// An edge.
@@ -89,8 +123,7 @@ impl EdgeIndex {
 
     /// Bytes held.
     pub fn bytes(&self) -> usize {
-        size_of_val(&self.areas[..])
-            + size_of_val(&self.edges[..])
+        size_of_val(&self.edges[..])
             + self.members.bytes()
             + self.covers.bytes()
             + size_of_val(&self.sums[..])
@@ -232,7 +265,7 @@ impl EdgeIndex {
     }
 
     /// How often one area winds around a point.
-    pub fn winding_of(&self, area: u32, p: Plan) -> i32 {
+    pub fn winding_of(&self, area: AreaId, p: Plan) -> i32 {
         let Some((column, row)) = self.cell_of(p) else {
             return 0;
         };
@@ -313,7 +346,7 @@ impl EdgeIndex {
 
     /// The covering areas of each cell of a row, given the edges that cross the row's line.
     fn covers_in_row(&self, row: usize, crossings: &[u32]) -> CellLists<Winding> {
-        let mut changes: Vec<(u32, usize, i32)> = crossings
+        let mut changes: Vec<(AreaId, usize, i32)> = crossings
             .iter()
             .map(|&index| {
                 let edge = self.edge(index);
@@ -323,8 +356,8 @@ impl EdgeIndex {
             .collect();
         changes.sort_unstable();
         let mut runs: Vec<(Range<usize>, Winding)> = Vec::new();
-        let (mut area, mut turns, mut from) = (u32::MAX, 0, 0);
-        for (next_area, column, change) in changes.into_iter().chain([(u32::MAX, self.columns, 0)]) {
+        let (mut area, mut turns, mut from) = (AreaId::LAST, 0, 0);
+        for (next_area, column, change) in changes.into_iter().chain([(AreaId::LAST, self.columns, 0)]) {
             let until = if next_area == area { column } else { self.columns };
             if turns != 0 && from < until {
                 runs.push((from..until, Winding { area, turns }));
@@ -382,17 +415,24 @@ impl EdgeIndex {
     fn find_outsides(&mut self) {
         let outside: Vec<bool> = parallel::map_indices(self.edges.len(), |k| {
             let edge = &self.edges[k];
-            let area = &self.areas[edge.area as usize];
-            // An edge beside the grid meets no pixel.
-            area.is_rings
+            // The outside of a stroke is on the right; an edge beside the grid meets no pixel.
+            !edge.area.is_stroke()
                 && self.middle_in_grid(edge).is_some_and(|middle| {
-                    area.rule.contains(self.winding_of(edge.area, middle)) != is_left(edge, middle)
+                    let turns = self.winding_of(edge.area, middle);
+                    self.rule_of(edge.area).contains(turns) != is_left(edge, middle)
                 })
         });
         for (edge, is_left) in self.edges.iter_mut().zip(outside) {
             edge.outside_is_left = is_left;
         }
     }
+}
+
+/// How many areas a list has.
+fn area_count(list: &DrawList) -> usize {
+    let is_cut_alone = |item: &u32| list.style_of(*item).cut.is_some() && list.area_owner(*item) == *item;
+    let items = list.items().len() as u32;
+    items as usize + (0..items).filter(is_cut_alone).count()
 }
 
 /// Whether a point lies left of an edge. A point on it is moved a little east and a little less north, the same for all
@@ -466,29 +506,18 @@ impl Layout {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Rule;
+    use crate::scene::{Color, Feature, Fill, Layer, Shape, Style};
     use proptest::prelude::*;
 
-    fn index_of(rings: &[Vec<Plan>]) -> EdgeIndex {
-        let mut areas = Areas::default();
-        for (area, ring) in rings.iter().enumerate() {
-            let whole = Area {
-                layer: 0,
-                feature: area as u32,
-                color: None,
-                rule: Rule::EvenOdd,
-                cut: None,
-                is_rings: true,
-            };
-            areas.areas.push(whole);
-            for k in 0..ring.len() {
-                let (a, b) = (ring[k], ring[(k + 1) % ring.len()]);
-                if a != b {
-                    areas.edges.push(Edge { a, b, area: area as u32, outside_is_left: false });
-                }
-            }
-        }
-        EdgeIndex::new(areas, &PlanBox { min: Plan::new(-3.0, -3.0), max: Plan::new(3.0, 3.0) })
+    fn list_of(rings: &[Vec<Plan>]) -> DrawList {
+        let fill = Fill { color: Color([1.0; 4]), rule: Rule::EvenOdd };
+        let feature = |(index, ring): (usize, &Vec<Plan>)| {
+            let shape = Shape::Polygon(vec![ring.clone()]);
+            Feature { index, style: 0, shape }
+        };
+        let features = rings.iter().enumerate().map(feature).collect();
+        let style = Style { fill: Some(fill), ..Style::default() };
+        DrawList::new(&mut [Layer::uniform("rings", style, features)]).unwrap()
     }
 
     /// The winding number by the crossings of a ray to the west, half-open.
@@ -521,18 +550,20 @@ mod tests {
                 prop::collection::vec((coordinate(), coordinate()).prop_map(|(x, y)| Plan::new(x, y)), 1..9), 1..5),
             points in prop::collection::vec((coordinate(), coordinate()).prop_map(|(x, y)| Plan::new(x, y)), 40),
         ) {
-            let index = index_of(&rings);
+            let list = list_of(&rings);
+            let bounds = PlanBox { min: Plan::new(-3.0, -3.0), max: Plan::new(3.0, 3.0) };
+            let index = EdgeIndex::new(&list, &bounds).unwrap();
             let mut found = Vec::new();
             for p in points.iter().chain(rings.iter().flatten()) {
                 if index.cell_of(*p).is_none() {
                     continue;
                 }
                 index.windings_at(*p, &mut found);
-                for (area, ring) in rings.iter().enumerate() {
-                    let expected = winding(ring, *p);
-                    let turns = found.iter().find(|w| w.area == area as u32).map_or(0, |w| w.turns);
-                    prop_assert_eq!(turns, expected, "area {} at {:?}", area, p);
-                    prop_assert_eq!(index.winding_of(area as u32, *p), expected);
+                for (item, ring) in (0..).zip(&rings) {
+                    let (area, expected) = (AreaId::polygon_of(item), winding(ring, *p));
+                    let turns = found.iter().find(|w| w.area == area).map_or(0, |w| w.turns);
+                    prop_assert_eq!(turns, expected, "area {:?} at {:?}", area, p);
+                    prop_assert_eq!(index.winding_of(area, *p), expected);
                 }
             }
         }

@@ -4,9 +4,49 @@
 //! (Fig. 4d); every edge keeps the side that faces away from the line (Fig. 4e). The paper draws no round caps or joins ("in order to
 //! eradicate heavy loss in performance"), so a layer's `join` and `cap` are not asked, but for `square` caps.
 
-use crate::scene::{Cap, Feature, Layer, Line, OutlineMode, Rule, Shape, Style, Width, distinct_vertices};
+use crate::draw_list::{Chain, DrawList, Item};
+use crate::scene::{Cap, Line, Width};
 use crate::space::Plan;
 use glam::DVec2;
+use std::fmt;
+
+/// A set of plan points that edges bound: an item's polygon, or its expanded stroke. In draw order.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
+pub struct AreaId(u32);
+
+impl AreaId {
+    /// After all others.
+    pub const LAST: Self = Self(u32::MAX);
+
+    /// An item's polygon; of an outline, what it is cut to.
+    pub fn polygon_of(item: u32) -> Self {
+        Self(2 * item)
+    }
+
+    /// An item's expanded stroke.
+    pub fn stroke_of(item: u32) -> Self {
+        Self(2 * item + 1)
+    }
+
+    /// The item.
+    #[inline]
+    pub fn item(self) -> u32 {
+        self.0 / 2
+    }
+
+    /// Whether it is a stroke.
+    #[inline]
+    pub fn is_stroke(self) -> bool {
+        self.0 % 2 == 1
+    }
+}
+
+impl fmt::Display for AreaId {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let what = if self.is_stroke() { "stroke" } else { "polygon" };
+        write!(f, "the {what} of item {}", self.item())
+    }
+}
 
 /// A directed edge of an area. Its outside is on the right for expanded lines; rings tell in `outside_is_left`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,132 +56,74 @@ pub struct Edge {
     /// End.
     pub b: Plan,
     /// The area that it bounds.
-    pub area: u32,
+    pub area: AreaId,
     /// Whether the edge's normal (pointing out of the area) is on its left.
     pub outside_is_left: bool,
-}
-
-/// A set of plan points that is painted in one go, bounded by edges: a fill, a line, an outline.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Area {
-    /// The layer and the feature in it.
-    pub layer: u32,
-    /// The feature's place in the layer.
-    pub feature: u32,
-    /// What it is painted with; `None`: it only cuts an outline.
-    pub color: Option<crate::scene::Color>,
-    /// Which windings are inside.
-    pub rule: Rule,
-    /// For an outline: the polygon's area, and whether the points in it (or those outside) count.
-    pub cut: Option<(u32, bool)>,
-    /// Whether its edges come from rings, whose orientation says nothing about the inside.
-    pub is_rings: bool,
-}
-
-/// Areas in draw order and their edges, sorted by area.
-#[derive(Debug, Default)]
-pub struct Areas {
-    /// Areas in draw order.
-    pub areas: Vec<Area>,
-    /// Edges in the order of their areas.
-    pub edges: Vec<Edge>,
 }
 
 /// Where a miter would reach farther than this many half-widths, the corner is cut off (the paper is silent on
 /// lines that turn back, where parallel edges meet far away or nowhere).
 const MITER_LIMIT: f64 = 10.0;
 
-impl Areas {
-    /// The areas of all layers.
-    pub fn of_layers(layers: &[Layer]) -> Self {
-        let mut all = Self::default();
-        for (layer_index, layer) in layers.iter().enumerate() {
-            for (feature_index, feature) in layer.features.iter().enumerate() {
-                all.add_feature((layer_index as u32, feature_index as u32), layer.style_of(feature), feature);
+/// The edges of all items, in the order of their areas. A polygon has its edges once: of an outline that is cut to it, only where
+/// it has no fill.
+pub fn expanded(list: &DrawList) -> Vec<Edge> {
+    let mut all = Expansion { list, edges: Vec::new() };
+    list.numbered().for_each(|(number, item)| all.add_item(number, item));
+    all.edges
+}
+
+/// Edges being collected.
+struct Expansion<'l> {
+    list: &'l DrawList,
+    edges: Vec<Edge>,
+}
+
+impl Expansion<'_> {
+    fn add_item(&mut self, number: u32, item: &Item) {
+        if self.list.area_owner(number) == number {
+            for ring in self.list.area(item) {
+                self.add_edges(AreaId::polygon_of(number), self.list.path_of(ring));
             }
         }
-        all
-    }
-
-    fn add_feature(&mut self, from: (u32, u32), style: &Style, feature: &Feature) {
-        match &feature.shape {
-            Shape::Polygon(rings) => self.add_polygon(from, style, rings),
-            Shape::Line(parts) => {
-                if let Some(line) = &style.line {
-                    self.begin(from, Some(line.color), Rule::NonZero);
-                    parts.iter().for_each(|part| self.add_line(part, line));
-                }
-            }
+        let Some(line) = self.list.style_of(number).stroke else { return };
+        for chain in self.list.strokes(item) {
+            self.add_stroke(AreaId::stroke_of(number), chain, &line);
         }
     }
 
-    fn add_polygon(&mut self, from: (u32, u32), style: &Style, rings: &[Vec<Plan>]) {
-        let (fill, outline) = (style.fill, style.outline);
-        let needs_inside = outline.is_some_and(|o| o.mode != OutlineMode::Normal);
-        let mut inside = None;
-        if fill.is_some() || needs_inside {
-            inside = Some(self.areas.len() as u32);
-            self.begin(from, fill.map(|f| f.color), fill.map_or(Rule::EvenOdd, |f| f.rule));
-            if let Some(area) = self.areas.last_mut() {
-                area.is_rings = true;
-            }
-            rings.iter().for_each(|ring| self.add_chain(ring.iter().copied(), true));
-        }
-        if let Some(outline) = outline {
-            let cut = match outline.mode {
-                OutlineMode::Normal => None,
-                OutlineMode::Inset => inside.map(|area| (area, true)),
-                OutlineMode::Offset => inside.map(|area| (area, false)),
-            };
-            self.begin(from, Some(outline.line.color), Rule::NonZero);
-            if let Some(area) = self.areas.last_mut() {
-                area.cut = cut;
-            }
-            rings.iter().for_each(|ring| self.add_loop(ring, &outline.line));
-        }
+    /// Adds the edges between consecutive points, outside on the right.
+    fn add_edges(&mut self, area: AreaId, path: &[Plan]) {
+        let edges = path.windows(2).filter(|pair| pair[0] != pair[1]);
+        self.edges.extend(edges.map(|pair| Edge { a: pair[0], b: pair[1], area, outside_is_left: false }));
     }
 
-    fn begin(&mut self, (layer, feature): (u32, u32), color: Option<crate::scene::Color>, rule: Rule) {
-        self.areas.push(Area { layer, feature, color, rule, cut: None, is_rings: false });
-    }
-
-    /// Adds the edges between consecutive points (and back to the first), outside on the right.
-    fn add_chain(&mut self, points: impl Iterator<Item = Plan> + Clone, is_closed: bool) {
-        let area = self.areas.len() as u32 - 1;
-        let next = points.clone().skip(1).chain(points.clone().take(usize::from(is_closed)));
-        let edges = points.zip(next).filter(|(a, b)| a != b);
-        self.edges.extend(edges.map(|(a, b)| Edge { a, b, area, outside_is_left: false }));
-    }
-
-    /// Expands an open polyline (Fig. 4a to 4e); one that is closed has no caps.
-    fn add_line(&mut self, points: &[Plan], line: &Line) {
-        let points = distinct_vertices(points);
-        if points.len() > 3 && points.first() == points.last() {
-            return self.add_loop(&points[..points.len() - 1], line);
-        }
+    /// Expands an open polyline (Fig. 4a to 4e), or a closed one: a chain on each side, no caps.
+    fn add_stroke(&mut self, area: AreaId, chain: &Chain, line: &Line) {
+        let vertices = self.list.vertices_of(chain);
         let Some(half) = half_width(line) else { return };
-        let Some(points) = with_square_ends(points, line, half) else {
+        if chain.is_closed {
+            self.add_edges(area, &ring_of(side_chain(vertices, half, true)));
+            self.add_edges(area, &ring_of(side_chain(&reversed(vertices), half, true)));
+            return;
+        }
+        let Some(points) = with_square_ends(vertices.to_vec(), line, half) else {
             return;
         };
         let mut outline = side_chain(&points, half, false);
-        let back: Vec<Plan> = points.iter().rev().copied().collect();
-        outline.extend(side_chain(&back, half, false));
-        self.add_chain(outline.into_iter(), true);
+        outline.extend(side_chain(&reversed(&points), half, false));
+        self.add_edges(area, &ring_of(outline));
     }
+}
 
-    /// Expands a closed ring: one chain on each side, no caps.
-    fn add_loop(&mut self, ring: &[Plan], line: &Line) {
-        let mut points = distinct_vertices(ring);
-        while points.len() > 1 && points.first() == points.last() {
-            points.pop();
-        }
-        let Some(half) = half_width(line).filter(|_| points.len() > 1) else {
-            return;
-        };
-        self.add_chain(side_chain(&points, half, true).into_iter(), true);
-        points.reverse();
-        self.add_chain(side_chain(&points, half, true).into_iter(), true);
-    }
+fn reversed(points: &[Plan]) -> Vec<Plan> {
+    points.iter().rev().copied().collect()
+}
+
+/// Points and the first of them once more.
+fn ring_of(mut points: Vec<Plan>) -> Vec<Plan> {
+    points.extend_from_within(..points.len().min(1));
+    points
 }
 
 /// Half the width in metres; `None` for widths on the screen, which the technique refuses beforehand.
@@ -195,15 +177,14 @@ fn side_chain(points: &[Plan], half: f64, is_closed: bool) -> Vec<Plan> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Color, Join};
+    use crate::scene::{Color, Feature, Join, Layer, Shape, Style};
 
     fn expanded(points: &[(f64, f64)], cap: Cap) -> Vec<Edge> {
         let line = Line { color: Color([1.0; 4]), width: Width::Metres(2.0), join: Join::Bevel, cap };
         let part = points.iter().map(|&(x, y)| Plan::new(x, y)).collect();
         let style = Style { line: Some(line), ..Style::default() };
         let feature = Feature { index: 0, style: 0, shape: Shape::Line(vec![part]) };
-        let layer = Layer::uniform("line", style, vec![feature]);
-        Areas::of_layers(&[layer]).edges
+        super::expanded(&DrawList::new(&mut [Layer::uniform("line", style, vec![feature])]).unwrap())
     }
 
     fn corners(edges: &[Edge]) -> Vec<(f64, f64)> {

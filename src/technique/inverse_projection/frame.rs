@@ -7,9 +7,9 @@ use crate::buffer::{Buffer, Plane, Values};
 use crate::canvas::{Frame, FrameOptions, Kept, Pixels, joined, picture_plane, sight_counts, surface_plane};
 use crate::parallel;
 use crate::resolve::code_values;
-use crate::scene::InverseProjection;
 use crate::space::ViewFrame;
 use crate::stage::Stage;
+use crate::technique::inverse_projection::Settings;
 use crate::visibility::TILE;
 
 /// The buffers in the order in which a frame has them.
@@ -27,12 +27,13 @@ struct Row {
 /// Draws a frame of a view.
 pub fn draw(
     (stage, view): (&Stage, &ViewFrame),
-    settings: &InverseProjection,
+    settings: &Settings,
     index: &EdgeIndex,
     options: &FrameOptions,
 ) -> Frame {
+    let mesh = &*stage.mesh_for(view);
     let how = (options.tile, options.wants("quad"));
-    let painter = PixelPainter::new((stage, view), settings, index, how);
+    let painter = PixelPainter::new((stage, mesh, view), settings, index, how);
     (options.progress)(0.5);
     let (width, height) = (view.width(), view.height());
     let progress = |share: f64| (options.progress)(0.5 + 0.5 * share);
@@ -49,11 +50,12 @@ pub fn draw(
 /// Decides one pixel of a view as a frame does: its steps and its code values.
 pub fn explain(
     (stage, view): (&Stage, &ViewFrame),
-    settings: &InverseProjection,
+    settings: &Settings,
     index: &EdgeIndex,
     [x, y]: [usize; 2],
 ) -> (Vec<Step>, [u8; 4]) {
-    let painter = PixelPainter::new((stage, view), settings, index, (TILE, false));
+    let mesh = &*stage.mesh_for(view);
+    let painter = PixelPainter::new((stage, mesh, view), settings, index, (TILE, false));
     let mut steps = Vec::new();
     let pixel = painter.pixel((x, y), &mut painter.lists(), &mut Counts::default(), &mut steps);
     (steps, code_values(painter.backdrop().compositor.encoded(pixel.paint)))
@@ -111,7 +113,7 @@ fn plane(name: &str, painter: &PixelPainter, rows: &[Row], size: [usize; 2]) -> 
 fn counts(painter: &PixelPainter, index: &EdgeIndex, rows: &[Row]) -> Vec<(&'static str, u64)> {
     let sum = |f: fn(&Counts) -> u64| rows.iter().map(|row| f(&row.counts)).sum();
     let own = [
-        ("areas", index.areas().len() as u64),
+        ("areas", index.area_count() as u64),
         ("edges", index.edge_count() as u64),
         ("pixels_n", sum(|c| c.classes[PixelClass::N as usize])),
         ("pixels_p", sum(|c| c.classes[PixelClass::P as usize])),

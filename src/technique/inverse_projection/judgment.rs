@@ -1,9 +1,9 @@
 //! Is a sample in an area? (She 3.5, Fig. 9, Codes A and B; the winding number as an option.)
 
 use super::edge_index::EdgeIndex;
-use super::expansion::Edge;
-use crate::scene::PointInPolygon;
+use super::expansion::{AreaId, Edge};
 use crate::space::Plan;
+use crate::technique::inverse_projection::PointInPolygon;
 use glam::DVec2;
 
 /// An edge that meets the pixel at hand, with what Codes A and B ask of it made once for all samples.
@@ -52,7 +52,7 @@ pub fn flag(sample: Plan, edges: &[NearEdge]) -> i32 {
 #[derive(Debug, Clone, Copy)]
 pub struct Judge<'a> {
     /// Areas and edges.
-    pub index: &'a EdgeIndex,
+    pub index: &'a EdgeIndex<'a>,
     /// The rule.
     pub rule: PointInPolygon,
 }
@@ -60,13 +60,10 @@ pub struct Judge<'a> {
 impl Judge<'_> {
     /// Whether a sample lies in an area, of whose edges `near` meet the pixel.
     #[inline]
-    pub fn contains(&self, area: u32, near: &[NearEdge], sample: Plan) -> bool {
+    pub fn contains(&self, area: AreaId, near: &[NearEdge], sample: Plan) -> bool {
         match self.rule {
             PointInPolygon::EdgeNormals => flag(sample, near) > 0,
-            PointInPolygon::Winding => {
-                let rule = self.index.areas()[area as usize].rule;
-                rule.contains(self.index.winding_of(area, sample))
-            }
+            PointInPolygon::Winding => self.index.rule_of(area).contains(self.index.winding_of(area, sample)),
         }
     }
 }
@@ -79,7 +76,7 @@ mod tests {
         NearEdge::new(&Edge {
             a: Plan::new(a.0, a.1),
             b: Plan::new(b.0, b.1),
-            area: 0,
+            area: AreaId::stroke_of(0),
             outside_is_left: false,
         })
     }

@@ -25,42 +25,58 @@ mod frame;
 mod judgment;
 mod pixel;
 mod quadrilateral;
+mod settings;
 mod step;
+mod sweep;
 
+pub use expansion::AreaId;
+pub use settings::{Corners, PointInPolygon, Settings, Silhouette};
 pub use step::{EdgeOf, PixelClass, Refusal, Step};
 
-use super::{Explanation, Frame, FrameOptions, Prepared};
+use super::{Declaration, Explanation, Frame, FrameOptions, Parameters, Prepared};
+use crate::buffer::{Look, PlaneKind};
 use crate::error::{Error, Result};
-use crate::scene::InverseProjection;
-use crate::scene::file::Named;
 use crate::space::ViewFrame;
 use crate::stage::Stage;
 use edge_index::EdgeIndex;
-use expansion::Areas;
+
+/// The technique, said once.
+pub const DECLARATION: Declaration = Declaration {
+    parameters: Parameters::of::<Settings>(),
+    paper: "She et al. 2016, \"Rendering 2D lines on 3D terrain model\".",
+    title: "Inverse projection (She)",
+    contradiction: |_| None,
+    planes: &[
+        PlaneKind::DEPTH,
+        PlaneKind::TRIANGLE,
+        PlaneKind::PLAN,
+        PlaneKind::new("quad", Look::Place).in_plan(),
+        PlaneKind::new("class", Look::Class),
+        PlaneKind::new("edges", Look::Count),
+        PlaneKind::COLOR,
+    ],
+    sweep: sweep::SWEEP,
+    applies,
+    prepare: |stage| Ok(Box::new(Prepare::new(stage)?)),
+};
 
 /// The technique with its index built.
 #[derive(Debug)]
 pub struct Prepare<'s> {
     stage: &'s Stage,
-    settings: InverseProjection,
-    index: EdgeIndex,
+    settings: Settings,
+    index: EdgeIndex<'s>,
 }
 
 impl<'s> Prepare<'s> {
     /// Expands lines and builds the index of edges.
     ///
     /// # Errors
-    /// When a layer's width is in pixels.
+    /// When a layer's width is in pixels, or there are more edges than can be numbered.
     pub fn new(stage: &'s Stage) -> Result<Self> {
         applies(stage)?;
-        let areas = Areas::of_layers(&stage.scene.layers);
-        if areas.edges.len() > u32::MAX as usize / 2 {
-            return Err(
-                Error::new("more edges than this program can number").help("give the terrain a `window`")
-            );
-        }
-        let index = EdgeIndex::new(areas, &stage.mesh.plan_bounds());
-        Ok(Self { stage, settings: stage.scene.technique.inverse_projection, index })
+        let index = EdgeIndex::new(&stage.draw_list, &stage.mesh.plan_bounds())?;
+        Ok(Self { stage, settings: stage.scene.technique.get(), index })
     }
 
     /// The steps of a pixel (column, row) of a view's picture, and its code values; see [`super::explain`].
@@ -96,18 +112,5 @@ impl Prepared for Prepare<'_> {
 
     fn structure_bytes(&self) -> usize {
         self.index.bytes()
-    }
-
-    fn parameters(&self) -> Vec<(&'static str, String)> {
-        vec![
-            ("samples", self.settings.samples.to_string()),
-            ("corners", self.settings.corners.word().into()),
-            ("point_in_polygon", self.settings.point_in_polygon.word().into()),
-            ("silhouette", self.settings.silhouette.word().into()),
-        ]
-    }
-
-    fn buffer_names(&self) -> &'static [&'static str] {
-        &["depth", "triangle", "plan", "quad", "class", "edges", "color"]
     }
 }

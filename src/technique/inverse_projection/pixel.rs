@@ -1,16 +1,18 @@
 //! One pixel: its quadrilateral, its class, its samples, their mean.
 
 use super::edge_index::{EdgeIndex, Winding};
+use super::expansion::AreaId;
 use super::judgment::{Judge, NearEdge};
 use super::quadrilateral::Quadrilateral;
 use super::step::{EdgeOf, PixelClass, Refusal, Step};
 use crate::canvas::{Backdrop, GBuffer, LastGround, Record};
 use crate::raster::Lattice;
 use crate::resolve::Paint;
-use crate::scene::{Corners, InverseProjection, Silhouette};
 use crate::space::{Plan, PlanBox, ViewFrame};
 use crate::stage::Stage;
-use crate::visibility::{Hit, hit};
+use crate::technique::inverse_projection::{Corners, Settings, Silhouette};
+use crate::terrain::Mesh;
+use crate::visibility::hit;
 use std::ops::Range;
 
 /// Up to so many areas partly in a pixel, samples are told apart by which of them they lie in.
@@ -25,13 +27,13 @@ pub const GUARD: usize = 1;
 
 /// Everything that pixels are made from.
 pub struct PixelPainter<'a> {
-    stage: &'a Stage,
+    mesh: &'a Mesh,
     view: &'a ViewFrame,
-    settings: &'a InverseProjection,
+    settings: &'a Settings,
     judge: Judge<'a>,
     backdrop: Backdrop<'a>,
-    /// What each area is painted with.
-    paints: Vec<Option<Paint>>,
+    /// The paint of each style of items.
+    paints: Vec<Paint>,
     /// Whether quadrilaterals are asked for of pixels without edges too.
     keeps_quads: bool,
     /// What the pixels' centres see, and those of the pixels around the picture.
@@ -79,7 +81,7 @@ pub struct Lists {
 
 /// An area that has a part in a pixel.
 struct Involved {
-    area: u32,
+    area: AreaId,
     /// Its edges that meet the pixel, as a range of the list of near edges; empty: the whole pixel lies in the area.
     near: Range<usize>,
 }
@@ -106,22 +108,22 @@ impl Lists {
 }
 
 impl<'a> PixelPainter<'a> {
-    /// Finds what a view sees, in tiles of `tile` samples a side; `keeps_quads`: a quadrilateral means something of every pixel.
+    /// Finds what a view of a terrain sees, in tiles of `tile` samples a side; `keeps_quads`: a quadrilateral means something of every pixel.
     pub fn new(
-        (stage, view): (&'a Stage, &'a ViewFrame),
-        settings: &'a InverseProjection,
+        (stage, mesh, view): (&'a Stage, &'a Mesh, &'a ViewFrame),
+        settings: &'a Settings,
         index: &'a EdgeIndex,
         (tile, keeps_quads): (usize, bool),
     ) -> Self {
-        let see = |lattice| GBuffer::new(view, &stage.mesh, &stage.scene.device, lattice, tile);
-        let backdrop = Backdrop::of(stage);
-        let paint = |color| backdrop.compositor.paint(color);
+        let see = |lattice| GBuffer::new(view, mesh, &stage.scene.device, lattice, tile);
+        let backdrop = Backdrop::of(&stage.scene, mesh);
+        let styles = stage.draw_list.styles().iter();
         Self {
-            stage,
+            mesh,
             view,
             settings,
             judge: Judge { index, rule: settings.point_in_polygon },
-            paints: index.areas().iter().map(|area| area.color.map(paint)).collect(),
+            paints: styles.map(|style| backdrop.compositor.paint(style.paint)).collect(),
             backdrop,
             keeps_quads,
             centres: see(Lattice::centres(view, GUARD)),
@@ -244,7 +246,7 @@ impl<'a> PixelPainter<'a> {
         let limit = SILHOUETTE_RATIO * SILHOUETTE_RATIO;
         let expected = |id: u32, at: Plan, (column, row): (usize, usize)| {
             let ray = self.view.ray(seen.sight().lattice().at(column, row));
-            let hit: Option<Hit> = self.stage.mesh.triangle(id).map(|t| hit(self.view, &ray, &t));
+            let hit = self.mesh.surface_triangle(id).map(|t| hit(self.view, &ray, &t));
             // A plane that the neighbour's ray misses would reach to the horizon.
             hit.filter(|h| h.depth > 0.0).map_or(f64::INFINITY, |h| (h.plan - at).length_squared())
         };
@@ -275,7 +277,7 @@ impl<'a> PixelPainter<'a> {
     ) -> Pixel {
         lists.near.clear();
         self.involve(centre.plan, lists);
-        let is_covered = lists.involved.iter().any(|i| self.paints[i.area as usize].is_some());
+        let is_covered = lists.involved.iter().any(|i| self.judge.index.painted_by(i.area).is_some());
         let class = if is_covered { PixelClass::F } else { PixelClass::N };
         record.step(|| Step::Class(class));
         record.step(|| lists.areas());
@@ -353,9 +355,9 @@ impl<'a> PixelPainter<'a> {
         lists.involved.clear();
         let mut start = 0;
         let mut windings = lists.windings.iter().peekable();
-        let mut take_whole_below = |limit: u32, involved: &mut Vec<Involved>| {
+        let mut take_whole_below = |limit: AreaId, involved: &mut Vec<Involved>| {
             while let Some(w) = windings.next_if(|w| w.area <= limit) {
-                if w.area < limit && index.areas()[w.area as usize].rule.contains(w.turns) {
+                if w.area < limit && index.rule_of(w.area).contains(w.turns) {
                     involved.push(Involved { area: w.area, near: 0..0 });
                 }
             }
@@ -367,20 +369,20 @@ impl<'a> PixelPainter<'a> {
             lists.involved.push(Involved { area, near: start..end });
             start = end;
         }
-        take_whole_below(u32::MAX, &mut lists.involved);
+        take_whole_below(AreaId::LAST, &mut lists.involved);
     }
 
     /// The colour of the ground and every involved area that `is_in` says contains the sample, in draw order.
     fn compose(&self, ground: Paint, involved: &[Involved], is_in: impl Fn(usize) -> bool) -> Paint {
         let mut paint = ground;
         for (at, Involved { area, .. }) in involved.iter().enumerate() {
-            let Some(source) = self.paints[*area as usize] else { continue };
-            let cut = self.judge.index.areas()[*area as usize].cut;
-            let is_kept = |(area, wanted): (u32, bool)| {
+            let Some(style) = self.judge.index.painted_by(*area) else { continue };
+            let cut = self.judge.index.cut_of(*area);
+            let is_kept = |(area, wanted): (AreaId, bool)| {
                 involved.binary_search_by_key(&area, |i| i.area).is_ok_and(&is_in) == wanted
             };
             if is_in(at) && cut.is_none_or(is_kept) {
-                paint = self.backdrop.compositor.over(paint, source);
+                paint = self.backdrop.compositor.over(paint, self.paints[style as usize]);
             }
         }
         paint

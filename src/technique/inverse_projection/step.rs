@@ -1,5 +1,6 @@
 //! The steps on the way to a pixel's colour.
 
+use super::expansion::AreaId;
 use crate::resolve::Paint;
 use crate::space::Plan;
 use std::fmt;
@@ -29,16 +30,16 @@ pub enum Step {
     /// The areas that contain all of the pixel, and those with an edge in it (3.5), in draw order.
     Areas {
         /// The former.
-        whole: Vec<u32>,
+        whole: Vec<AreaId>,
         /// The latter.
-        partly: Vec<u32>,
+        partly: Vec<AreaId>,
     },
     /// A sample of a P pixel (3.4), and in which of the areas with an edge in the pixel it was judged to lie (3.5).
     Sample {
         /// Where it is.
         at: Plan,
         /// The areas.
-        within: Vec<u32>,
+        within: Vec<AreaId>,
     },
     /// The mean of the samples' colours.
     Mean(Paint),
@@ -68,7 +69,7 @@ pub enum PixelClass {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EdgeOf {
     /// The area.
-    pub area: u32,
+    pub area: AreaId,
     /// Where the edge starts.
     pub from: Plan,
     /// Where it ends.
@@ -89,16 +90,27 @@ impl fmt::Display for Step {
             Self::Refused(Refusal::Silhouette) => write!(f, "refused: the quadrilateral spans a silhouette"),
             Self::NearEdges(edges) => {
                 write!(f, "{} edges meet it:", edges.len())?;
-                edges
-                    .iter()
-                    .try_for_each(|e| write!(f, " area {} from {:.3} to {:.3};", e.area, e.from, e.to))
+                edges.iter().try_for_each(|e| write!(f, " {} from {:.3} to {:.3};", e.area, e.from, e.to))
             }
             Self::Class(class) => write!(f, "class {class:?}"),
-            Self::Areas { whole, partly } => write!(f, "wholly in areas {whole:?}, partly in {partly:?}"),
+            Self::Areas { whole, partly } => {
+                write!(f, "wholly in {}, partly in {}", Areas(whole), Areas(partly))
+            }
             Self::Sample { at, within } => {
-                write!(f, "the sample at {at:.3} lies in {within:?} of the latter")
+                write!(f, "the sample at {at:.3} lies in {} of the latter", Areas(within))
             }
             Self::Mean(paint) => write!(f, "the mean of the samples is {paint}"),
         }
+    }
+}
+
+/// Some areas as text.
+struct Areas<'a>(&'a [AreaId]);
+
+impl fmt::Display for Areas<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let Some((first, others)) = self.0.split_first() else { return f.write_str("none") };
+        write!(f, "{first}")?;
+        others.iter().try_for_each(|area| write!(f, ", {area}"))
     }
 }

@@ -7,9 +7,11 @@ use super::view::Looks;
 use crate::canvas::{Backdrop, FrameOptions, LastGround};
 use crate::raster::Lattice;
 use crate::resolve::Paint;
-use crate::scene::{FarPlane, Overflow, Rule, StencilVolume, VolumeCaps};
+use crate::scene::Rule;
 use crate::space::{Plan, ViewFrame};
 use crate::stage::Stage;
+use crate::technique::stencil_volume::{FarPlane, Overflow, Settings, VolumeCaps};
+use crate::terrain::Mesh;
 use crate::visibility::Sight;
 
 /// How fragments are found.
@@ -27,12 +29,14 @@ pub enum Way {
 pub struct FrameContext<'a> {
     /// The scene.
     pub stage: &'a Stage,
+    /// The terrain that the view shows.
+    pub mesh: &'a Mesh,
     /// From where it is seen.
     pub view: &'a ViewFrame,
     /// The parameters.
-    pub settings: StencilVolume,
+    pub settings: Settings,
     /// The volumes.
-    pub extrusion: &'a Extrusion,
+    pub extrusion: &'a Extrusion<'a>,
     /// What the samples see.
     pub sight: Sight<'a>,
     /// How fragments are found.
@@ -45,23 +49,24 @@ pub struct FrameContext<'a> {
     pub arch: pulp::Arch,
     /// What the view makes of the volumes.
     pub looks: Looks,
+    /// The paint of each style of items.
     paints: Vec<Paint>,
 }
 
 impl<'a> FrameContext<'a> {
     /// Finds what a view sees, and what it makes of the volumes.
     pub fn new(
-        (stage, view): (&'a Stage, &'a ViewFrame),
-        extrusion: &'a Extrusion,
+        (stage, mesh, view): (&'a Stage, &'a Mesh, &'a ViewFrame),
+        extrusion: &'a Extrusion<'a>,
         options: &FrameOptions,
     ) -> Self {
-        let settings = stage.scene.technique.stencil_volume;
+        let settings: Settings = stage.scene.technique.get();
         let n = settings.samples as usize;
         let lattice = Lattice::samples([0, 0], [view.width(), view.height()], n);
         let device = &stage.scene.device;
-        let mut sight = Sight::new(view, &stage.mesh, device, lattice, options.tile);
+        let mut sight = Sight::new(view, mesh, device, lattice, options.tile);
         sight.see();
-        let backdrop = Backdrop::of(stage);
+        let backdrop = Backdrop::of(&stage.scene, mesh);
         let looks = Looks::new((stage, view), &lattice, &settings, extrusion);
         let shows_counting = TRACES[1..].iter().any(|name| options.wants(name));
         let cancels = settings.overflow == Overflow::Wrap
@@ -73,8 +78,10 @@ impl<'a> FrameContext<'a> {
             (true, true) => Way::Sparse,
             (true, false) => Way::Full,
         };
+        let styles = stage.draw_list.styles().iter();
         Self {
             stage,
+            mesh,
             view,
             settings,
             extrusion,
@@ -83,7 +90,7 @@ impl<'a> FrameContext<'a> {
             wants_traces: shows_counting || options.wants(TRACES[0]),
             arch: pulp::Arch::new(),
             looks,
-            paints: extrusion.objects.iter().map(|o| backdrop.compositor.paint(o.color)).collect(),
+            paints: styles.map(|style| backdrop.compositor.paint(style.paint)).collect(),
             backdrop,
         }
     }
@@ -126,14 +133,14 @@ impl<'a> FrameContext<'a> {
 
     /// The paint and the rule of a pass.
     pub fn paint_of(&self, pass: u32) -> (Paint, Rule) {
-        let first = self.extrusion.passes[pass as usize].objects[0] as usize;
-        (self.paints[first], self.extrusion.objects[first].rule)
+        let first = self.extrusion.passes[pass as usize].objects[0];
+        let style = self.stage.draw_list.items()[first as usize].style;
+        (self.paints[style as usize], self.extrusion.rule_of(first))
     }
 
     /// The rule of the polygon that a pass is cut to, and whether what lies inside is kept.
     pub fn cut_of(&self, pass: u32) -> Option<(Rule, bool)> {
-        let first = self.extrusion.passes[pass as usize].objects[0] as usize;
-        self.extrusion.objects[first].cut.as_ref().map(|(_, rule, keeps_inside)| (*rule, *keeps_inside))
+        self.extrusion.cut_of(self.extrusion.passes[pass as usize].objects[0])
     }
 
     /// Whether the planes to look at show a pass.

@@ -1,6 +1,6 @@
 //! Vector data -> polyhedra (4.1, Fig. 3).
 //!
-//! Input: the scene's layers, the terrain. Output: [`Extrusion`]: objects in draw order, the volumes that each consists of, and
+//! Input: the draw list, the terrain. Output: [`Extrusion`]: an object for each of its items, the volumes that each consists of, and
 //! the passes that share a mask (4.2). A volume stands on rings of the plan between two levels just below and just
 //! above the terrain under it. Refuses: nothing; what has no area or no terrain under it has no volume.
 //!
@@ -15,11 +15,11 @@
 
 use super::heights::{Region, heights_under};
 use super::stroke::Stroke;
+use crate::draw_list::{Chain, DrawList, Item, Side};
 use crate::parallel;
-use crate::scene::{
-    Color, Feature, Grouping, Layer, Outline, OutlineMode, Rule, Shape, StencilVolume, Style, VolumeJoins,
-};
+use crate::scene::Rule;
 use crate::space::{Plan, PlanBox, World};
+use crate::technique::stencil_volume::{Grouping, Settings, VolumeJoins};
 use crate::terrain::Mesh;
 use std::ops::Range;
 
@@ -32,8 +32,8 @@ pub fn nadir(plan: Plan, height: f64) -> World {
 /// A polyhedron: rings of the plan between two levels.
 #[derive(Debug, Clone)]
 pub struct Volume {
-    /// Its rings, as a range of [`Extrusion::rings`].
-    pub rings: Range<u32>,
+    /// What it stands on.
+    base: Base,
     /// The level of the bottom cap.
     pub low: f64,
     /// The level of the top cap; not above `low`: there is no terrain and so no volume.
@@ -44,17 +44,22 @@ pub struct Volume {
     pub is_box: bool,
 }
 
-/// A set of plan points that is painted in one go: a fill, a line, an outline.
+/// What a volume stands on.
+#[derive(Debug, Clone)]
+enum Base {
+    /// A piece of a stroke: a range of [`Extrusion::corners`].
+    Piece(Range<u32>),
+    /// The area of an item of the draw list.
+    Area(u32),
+}
+
+/// What an item of the draw list is extruded to.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Object {
-    /// What it is painted with.
-    pub color: Color,
-    /// Which counts are inside.
-    pub rule: Rule,
     /// Its volumes.
     pub volumes: Range<u32>,
-    /// For an outline that is cut: the polygon's volumes and its rule, and whether the points in it (or those outside) count.
-    pub cut: Option<(Range<u32>, Rule, bool)>,
+    /// Those of the polygon that it is cut to; none where it is not cut.
+    pub cutters: Range<u32>,
 }
 
 /// Objects that share a mask.
@@ -65,29 +70,25 @@ pub struct Pass {
 }
 
 /// All that is extruded.
-#[derive(Debug, Default)]
-pub struct Extrusion {
-    /// Corners of all rings.
+#[derive(Debug)]
+pub struct Extrusion<'l> {
+    list: &'l DrawList,
+    /// Corners of the pieces of strokes.
     pub corners: Vec<Plan>,
-    /// Rings as ranges of corners.
-    pub rings: Vec<Range<u32>>,
     /// Volumes, by object.
     pub volumes: Vec<Volume>,
-    /// Objects in draw order.
+    /// Objects, as many as there are items.
     pub objects: Vec<Object>,
     /// Passes in draw order.
     pub passes: Vec<Pass>,
 }
 
-impl Extrusion {
-    /// Extrudes all layers.
-    pub fn new(layers: &[Layer], mesh: &Mesh, settings: &StencilVolume) -> Self {
-        let mut all = Self::default();
-        for layer in layers {
-            for feature in &layer.features {
-                all.add_feature(layer.style_of(feature), feature, settings.joins);
-            }
-        }
+impl<'l> Extrusion<'l> {
+    /// Extrudes all items.
+    pub fn new(list: &'l DrawList, mesh: &Mesh, settings: &Settings) -> Self {
+        let (corners, volumes, objects, passes) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let mut all = Self { list, corners, volumes, objects, passes };
+        list.numbered().for_each(|(number, item)| all.add_object(number, item, settings.joins));
         let levels = parallel::map(&all.volumes, |volume| all.levels(mesh, volume));
         for (volume, (low, high)) in all.volumes.iter_mut().zip(levels) {
             (volume.low, volume.high) = (low, high);
@@ -99,7 +100,6 @@ impl Extrusion {
     /// Bytes held.
     pub fn bytes(&self) -> usize {
         size_of_val(&self.corners[..])
-            + size_of_val(&self.rings[..])
             + size_of_val(&self.volumes[..])
             + size_of_val(&self.objects[..])
             + self.passes.iter().map(|p| size_of::<Pass>() + size_of_val(&p.objects[..])).sum::<usize>()
@@ -107,87 +107,66 @@ impl Extrusion {
 
     /// The corners of each ring of a volume.
     pub fn rings_of(&self, volume: &Volume) -> impl Iterator<Item = &[Plan]> + Clone {
-        let rings = &self.rings[volume.rings.start as usize..volume.rings.end as usize];
-        rings.iter().map(|ring| &self.corners[ring.start as usize..ring.end as usize])
-    }
-
-    fn add_feature(&mut self, style: &Style, feature: &Feature, joins: VolumeJoins) {
-        match &feature.shape {
-            Shape::Polygon(rings) => self.add_polygon(style, rings, joins),
-            Shape::Line(parts) => {
-                let Some(line) = &style.line else { return };
-                let first = self.volumes.len();
-                if let Some(stroke) = Stroke::new(line, joins) {
-                    parts.iter().for_each(|part| stroke.open(part, &mut |ring| self.add_convex(ring)));
-                }
-                self.add_object(line.color, Rule::NonZero, first, None);
-            }
-        }
-    }
-
-    fn add_polygon(&mut self, style: &Style, rings: &[Vec<Plan>], joins: VolumeJoins) {
-        let rule = style.fill.map_or(Rule::EvenOdd, |fill| fill.rule);
-        let outline = style.outline;
-        let needs_inside = outline.is_some_and(|o| o.mode != OutlineMode::Normal);
-        let first = self.volumes.len();
-        if style.fill.is_some() || needs_inside {
-            self.add_volume(rings);
-        }
-        let inside = first as u32..self.volumes.len() as u32;
-        if let Some(fill) = style.fill {
-            self.add_object(fill.color, rule, first, None);
-        }
-        if let Some(outline) = outline {
-            self.add_outline(rings, &outline, (inside, rule), joins);
-        }
-    }
-
-    fn add_outline(
-        &mut self,
-        rings: &[Vec<Plan>],
-        outline: &Outline,
-        (inside, rule): (Range<u32>, Rule),
-        joins: VolumeJoins,
-    ) {
-        let first = self.volumes.len();
-        if let Some(stroke) = Stroke::new(&outline.line, joins) {
-            rings.iter().for_each(|ring| stroke.closed(ring, &mut |ring| self.add_convex(ring)));
-        }
-        let cut = match outline.mode {
-            OutlineMode::Normal => None,
-            OutlineMode::Inset => Some((inside, rule, true)),
-            OutlineMode::Offset => Some((inside, rule, false)),
+        let (piece, area) = match &volume.base {
+            Base::Piece(corners) => (Some(&self.corners[corners.start as usize..corners.end as usize]), None),
+            Base::Area(item) => (None, Some(self.list.area(&self.list.items()[*item as usize]))),
         };
-        self.add_object(outline.line.color, Rule::NonZero, first, cut);
+        let rings = area.unwrap_or(&[]).iter().map(|ring| self.list.vertices_of(ring));
+        piece.into_iter().chain(rings)
     }
 
-    fn add_object(&mut self, color: Color, rule: Rule, first: usize, cut: Option<(Range<u32>, Rule, bool)>) {
-        let volumes = first as u32..self.volumes.len() as u32;
-        self.objects.push(Object { color, rule, volumes, cut });
+    /// Which counts of an object are inside.
+    pub fn rule_of(&self, object: u32) -> Rule {
+        let style = self.list.style_of(object);
+        if style.stroke.is_some() { Rule::NonZero } else { style.rule }
     }
 
-    fn add_convex(&mut self, ring: &[Plan]) {
-        let is_box = ring.len() <= 4;
-        self.push_volume(&[ring], is_box);
+    /// The rule of the polygon that an object is cut to, and whether the points in it (or those outside) count.
+    pub fn cut_of(&self, object: u32) -> Option<(Rule, bool)> {
+        let style = self.list.style_of(object);
+        style.cut.map(|side| (style.rule, side == Side::Inside))
     }
 
-    fn add_volume(&mut self, rings: &[Vec<Plan>]) {
-        let rings: Vec<&[Plan]> = rings.iter().map(Vec::as_slice).filter(|ring| ring.len() > 2).collect();
-        if !rings.is_empty() {
-            self.push_volume(&rings, false);
+    fn add_object(&mut self, number: u32, item: &Item, joins: VolumeJoins) {
+        let owner = self.list.area_owner(number);
+        let first = self.volumes.len();
+        if owner == number && !item.area.is_empty() {
+            let rings = self.list.area(item).iter().map(|ring| self.list.vertices_of(ring));
+            let plan = PlanBox::around(rings.flatten().copied());
+            self.push_volume(Base::Area(number), plan, false);
         }
+        let area = self.volumes_from(first);
+        let Some(line) = self.list.style_of(number).stroke else {
+            return self.objects.push(Object { volumes: area, cutters: 0..0 });
+        };
+        let cutters = match item.area.is_empty() || owner == number {
+            true => area,
+            false => self.objects[owner as usize].volumes.clone(),
+        };
+        let first = self.volumes.len();
+        if let Some(stroke) = Stroke::new(&line, joins) {
+            self.list.strokes(item).iter().for_each(|chain| self.add_pieces(&stroke, chain));
+        }
+        self.objects.push(Object { volumes: self.volumes_from(first), cutters });
     }
 
-    fn push_volume(&mut self, rings: &[&[Plan]], is_box: bool) {
-        let first = self.rings.len() as u32;
-        for ring in rings {
+    fn volumes_from(&self, first: usize) -> Range<u32> {
+        first as u32..self.volumes.len() as u32
+    }
+
+    fn add_pieces(&mut self, stroke: &Stroke, chain: &Chain) {
+        let path = self.list.path_of(chain);
+        stroke.pieces(path, chain.is_closed, &mut |ring| {
             let start = self.corners.len() as u32;
             self.corners.extend_from_slice(ring);
-            self.rings.push(start..self.corners.len() as u32);
-        }
-        let plan = PlanBox::around(rings.iter().flat_map(|ring| ring.iter().copied()));
-        let rings = first..self.rings.len() as u32;
-        self.volumes.push(Volume { rings, low: 0.0, high: 0.0, plan, is_box });
+            let corners = start..self.corners.len() as u32;
+            let plan = PlanBox::around(ring.iter().copied());
+            self.push_volume(Base::Piece(corners), plan, ring.len() <= 4);
+        });
+    }
+
+    fn push_volume(&mut self, base: Base, plan: PlanBox, is_box: bool) {
+        self.volumes.push(Volume { base, low: 0.0, high: 0.0, plan, is_box });
     }
 
     /// The levels of a volume's caps; the same one twice where there is no terrain.
@@ -205,18 +184,22 @@ impl Extrusion {
 
     /// Which objects share a mask (4.2: "sorting by color and then rendering each color group at once").
     fn group(&mut self, grouping: Grouping) {
-        let is_shared = |object: &Object| {
-            grouping == Grouping::Color && object.rule == Rule::NonZero && object.cut.is_none()
+        let is_shared = |object: u32| {
+            grouping == Grouping::Color
+                && self.rule_of(object) == Rule::NonZero
+                && self.cut_of(object).is_none()
         };
-        let key = |object: &Object| object.color.0.map(f64::to_bits);
+        let key = |object: u32| self.list.style_of(object).paint.0.map(f64::to_bits);
         let mut open = std::collections::BTreeMap::new();
-        for (number, object) in self.objects.iter().enumerate() {
-            let own = self.passes.len();
+        let mut passes: Vec<Pass> = Vec::new();
+        for object in 0..self.objects.len() as u32 {
+            let own = passes.len();
             let pass = if is_shared(object) { *open.entry(key(object)).or_insert(own) } else { own };
             if pass == own {
-                self.passes.push(Pass { objects: Vec::new() });
+                passes.push(Pass { objects: Vec::new() });
             }
-            self.passes[pass].objects.push(number as u32);
+            passes[pass].objects.push(object);
         }
+        self.passes = passes;
     }
 }

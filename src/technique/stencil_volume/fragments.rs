@@ -60,7 +60,7 @@ impl<'a, R> Tile<'a, R> {
         let [c, r] = sample_of(&self.blocks, at);
         let ray = self.view.ray(c, r);
         let id = self.context.sight.triangle(self.view.column + c, self.view.row + r);
-        let ground = if id == SKY { None } else { self.context.stage.mesh.triangle(id) };
+        let ground = if id == SKY { None } else { self.context.mesh.triangle(id) };
         let seen = match self.view.frame.lens() {
             Lens::Central { .. } => face.facing,
             Lens::Parallel { .. } => None,

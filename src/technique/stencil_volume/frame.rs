@@ -40,7 +40,8 @@ struct Drawn {
 
 /// Draws a frame of a view.
 pub fn draw((stage, view): (&Stage, &ViewFrame), extrusion: &Extrusion, options: &FrameOptions) -> Frame {
-    let context = FrameContext::new((stage, view), extrusion, options);
+    let mesh = &*stage.mesh_for(view);
+    let context = FrameContext::new((stage, mesh, view), extrusion, options);
     (options.progress)(0.3);
     let (n, lattice) = (context.samples(), context.sight.lattice());
     let side = options.tile.clamp(1, MOST / n);
@@ -78,7 +79,8 @@ pub fn explain(
     [x, y]: [usize; 2],
 ) -> (Vec<Step>, [u8; 4]) {
     let options = FrameOptions { tile: TILE, buffers: &[], progress: &|_| {} };
-    let mut context = FrameContext::new((stage, view), extrusion, &options);
+    let mesh = &*stage.mesh_for(view);
+    let mut context = FrameContext::new((stage, mesh, view), extrusion, &options);
     if context.way == Way::Sparse {
         context.way = Way::Full;
     }

@@ -1,12 +1,12 @@
 //! The bounding heights of the terrain under a part of the plan (4.1, Fig. 3).
 //!
-//! Input: the terrain's hierarchy of bounding boxes, the plan's rectangle or a convex ring. Output: the lowest and the highest height
+//! Input: the hierarchy of bounding boxes of a terrain that is draped vertically, the plan's rectangle or a convex ring. Output: the lowest and the highest height
 //! of the smallest boxes (cells of a grid, triangles of a TIN) that may lie under it; `None` where there is no
 //! terrain. Refuses: nothing.
 
 use crate::math;
 use crate::space::{Plan, PlanBox, World};
-use crate::terrain::{Bounds, Grid, Mesh, Node};
+use crate::terrain::{Grid, Leaf, Mesh, Node};
 
 /// A part of the plan whose heights are asked for.
 pub struct Region<'a> {
@@ -62,22 +62,22 @@ impl Range {
 
 fn visit(mesh: &Mesh, node: Node, region: &Region, range: &mut Range) {
     let Some(bounds) = mesh.bounds(node) else { return };
-    if !region.meets(&plan_box(&bounds)) {
+    if !region.meets(&bounds.below()) {
         return;
     }
-    let half = bounds.axes[2].z;
-    if bounds.center.z - half >= range.low && bounds.center.z + half <= range.high {
+    let (low, high) = bounds.heights();
+    if low >= range.low && high <= range.high {
         return;
     }
     if node.level > 0 {
         mesh.for_each_child(node, |child| visit(mesh, child, region, range));
         return;
     }
-    match mesh {
-        Mesh::Grid(grid) => visit_cells(grid, node, region, range),
-        Mesh::Tin(tin) => {
-            for id in tin.leaf(node) {
-                include_if_met(&tin.triangle(id), region, range);
+    match mesh.leaf(node) {
+        Leaf::Cells(grid) => visit_cells(grid, node, region, range),
+        Leaf::Triangles(ids) => {
+            for corners in ids.filter_map(|id| mesh.triangle(id)) {
+                include_if_met(&corners, region, range);
             }
         }
     }
@@ -107,14 +107,6 @@ fn include_if_met(corners: &[World], region: &Region, range: &mut Range) {
     if region.meets(&PlanBox::around(corners.iter().map(|p| p.plan()))) {
         corners.iter().for_each(|p| range.include(p.z));
     }
-}
-
-/// The rectangle under a node's box, grown by the roundings of its making.
-fn plan_box(bounds: &Bounds) -> PlanBox {
-    let reach = bounds.axes[0].truncate().abs() + bounds.axes[1].truncate().abs();
-    let slack = 1e-9 * (reach.element_sum() + bounds.center.x.abs() + bounds.center.y.abs());
-    let middle = bounds.center.plan();
-    PlanBox { min: middle + -reach, max: middle + reach }.grown(slack)
 }
 
 #[cfg(test)]

@@ -11,7 +11,8 @@
 //! point's plan point is. Where the paper is silent, see `extrusion`, `view` and `docs/semantics.md`.
 //!
 //! Refuses: scenes with widths in pixels (5: "available vector data is static"; a volume stands on a footprint that does not
-//! depend on the view), and outlines that are cut to their polygon where the stencil has one bit.
+//! depend on the view), terrains that are not draped vertically (walls stand upright on the plan), and outlines that are cut to
+//! their polygon where the stencil has one bit.
 
 mod block;
 mod context;
@@ -22,43 +23,69 @@ mod frame;
 mod heights;
 mod passes;
 mod points;
+mod settings;
 mod stencil;
 mod step;
 mod stroke;
+mod sweep;
 #[cfg(test)]
 mod tests;
 mod tile;
 mod view;
 
+pub use settings::{Counting, FarPlane, Grouping, Overflow, Settings, VolumeCaps, VolumeJoins};
 pub use step::Step;
 
-use super::{Explanation, Frame, FrameOptions, Prepared};
+use super::{Declaration, Explanation, Frame, FrameOptions, Parameters, Prepared};
+use crate::buffer::{Look, PlaneKind};
 use crate::error::{Error, Result};
-use crate::scene::file::Named;
 use crate::scene::{Layer, OutlineMode};
 use crate::space::ViewFrame;
 use crate::stage::Stage;
+use crate::terrain::Drape;
 use extrusion::Extrusion;
 
 /// The most samples of a picture: each takes 20 bytes while a frame is drawn.
 const MOST_SAMPLES: usize = 1 << 27;
 
+/// The technique, said once.
+pub const DECLARATION: Declaration = Declaration {
+    parameters: Parameters::of::<Settings>(),
+    paper: "Schneider & Klein 2007, \"Efficient and accurate rendering of vector data on virtual landscapes\".",
+    title: "Stencil volumes (Schneider & Klein)",
+    contradiction: |_| None,
+    planes: &[
+        PlaneKind::DEPTH,
+        PlaneKind::TRIANGLE,
+        PlaneKind::PLAN,
+        PlaneKind::COLOR,
+        PlaneKind::new("stencil", Look::Count),
+        PlaneKind::new("stencil-front", Look::Count),
+        PlaneKind::new("stencil-back", Look::Count),
+        PlaneKind::new("overdraw", Look::Count),
+    ],
+    sweep: sweep::SWEEP,
+    applies,
+    prepare: |stage| Ok(Box::new(Prepare::new(stage)?)),
+};
+
 /// The technique with its volumes built.
 #[derive(Debug)]
 pub struct Prepare<'s> {
     stage: &'s Stage,
-    extrusion: Extrusion,
+    settings: Settings,
+    extrusion: Extrusion<'s>,
 }
 
 impl<'s> Prepare<'s> {
-    /// Extrudes the scene's layers.
+    /// Extrudes the scene's items.
     ///
     /// # Errors
     /// When the technique does not draw such a scene, or there is too much in it.
     pub fn new(stage: &'s Stage) -> Result<Self> {
         applies(stage)?;
-        let settings = &stage.scene.technique.stencil_volume;
-        let extrusion = Extrusion::new(&stage.scene.layers, &stage.mesh, settings);
+        let settings: Settings = stage.scene.technique.get();
+        let extrusion = Extrusion::new(&stage.draw_list, &stage.mesh, &settings);
         if extrusion.corners.len() > u32::MAX as usize / 2 {
             return Err(Error::new("more corners of volumes than this program can number")
                 .help("give the terrain a `window`"));
@@ -72,7 +99,7 @@ impl<'s> Prepare<'s> {
                 "objects are counted from 0 in draw order: fills, outlines and lines, feature by feature",
             ));
         }
-        Ok(Self { stage, extrusion })
+        Ok(Self { stage, settings, extrusion })
     }
 
     /// The steps of a pixel (column, row) of a view's picture, and its code values; see [`super::explain`].
@@ -80,7 +107,7 @@ impl<'s> Prepare<'s> {
     /// # Errors
     /// When there is no room for the samples of the picture.
     pub fn steps_of(&self, view: &ViewFrame, pixel: [usize; 2]) -> Result<(Vec<Step>, [u8; 4])> {
-        has_room((view.width(), view.height()), self.stage.scene.technique.stencil_volume.samples)?;
+        has_room((view.width(), view.height()), self.settings.samples)?;
         Ok(frame::explain((self.stage, view), &self.extrusion, pixel))
     }
 }
@@ -90,6 +117,12 @@ impl<'s> Prepare<'s> {
 /// # Errors
 /// The reason why it cannot.
 pub fn applies(stage: &Stage) -> Result<()> {
+    if stage.mesh.drape() != Drape::Vertical {
+        return Err(Error::new(
+            "stencil-volume's walls are vertical, this terrain's points do not lie straight over their plan points",
+        )
+        .help("leave the technique out"));
+    }
     if let Some(layer) = stage.scene.layers.iter().find(|layer| layer.has_width_in_pixels()) {
         return Err(Error::new(format!(
             "stencil-volume extrudes footprints that do not depend on the view, layer `{}` has width_px",
@@ -98,7 +131,7 @@ pub fn applies(stage: &Stage) -> Result<()> {
         .help("give the layer width_m, or leave the technique out"));
     }
     let image = &stage.scene.image;
-    has_room((image.width, image.height), stage.scene.technique.stencil_volume.samples)?;
+    has_room((image.width, image.height), stage.scene.technique.get::<Settings>().samples)?;
     let is_cut = |layer: &&Layer| {
         let mut outlines = layer.styles.iter().filter_map(|style| style.outline);
         outlines.any(|outline| outline.mode != OutlineMode::Normal)
@@ -128,8 +161,7 @@ fn has_room((width, height): (usize, usize), n: u32) -> Result<()> {
 
 impl Prepared for Prepare<'_> {
     fn frame(&self, view: &ViewFrame, options: &FrameOptions) -> Result<Frame> {
-        let settings = &self.stage.scene.technique.stencil_volume;
-        has_room((view.width(), view.height()), settings.samples)?;
+        has_room((view.width(), view.height()), self.settings.samples)?;
         Ok(frame::draw((self.stage, view), &self.extrusion, options))
     }
 
@@ -140,23 +172,5 @@ impl Prepared for Prepare<'_> {
 
     fn structure_bytes(&self) -> usize {
         self.extrusion.bytes()
-    }
-
-    fn parameters(&self) -> Vec<(&'static str, String)> {
-        let settings = &self.stage.scene.technique.stencil_volume;
-        vec![
-            ("method", settings.method.word().into()),
-            ("overflow", settings.overflow.word().into()),
-            ("far", settings.far.word().into()),
-            ("caps", settings.caps.word().into()),
-            ("joins", settings.joins.word().into()),
-            ("grouping", settings.grouping.word().into()),
-            ("samples", settings.samples.to_string()),
-            ("object", settings.object.map_or_else(|| "all".into(), |object| object.to_string())),
-        ]
-    }
-
-    fn buffer_names(&self) -> &'static [&'static str] {
-        &["depth", "triangle", "plan", "color", "stencil", "stencil-front", "stencil-back", "overdraw"]
     }
 }

@@ -18,7 +18,8 @@ use super::step::Step;
 use super::tile::{Tile, sample_of};
 use super::view::Entry;
 use crate::canvas::Record;
-use crate::scene::{Rule, VolumeCaps};
+use crate::scene::Rule;
+use crate::technique::stencil_volume::VolumeCaps;
 
 impl<R: Record<Step>> Tile<'_, R> {
     /// Draws volumes in order, each pass's mask once (4.2).

@@ -5,7 +5,8 @@
 
 use super::block::{COLUMNS, SIZE};
 use super::face::Fragment;
-use crate::scene::{Overflow, Rule};
+use crate::scene::Rule;
+use crate::technique::stencil_volume::Overflow;
 
 /// How a volume's faces are counted (3.1).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -7,8 +7,9 @@
 
 use crate::math;
 use crate::predicate::orient2d;
-use crate::scene::{Cap, Join, Line, VolumeJoins, Width, distinct_vertices};
+use crate::scene::{Cap, Join, Line, Width};
 use crate::space::Plan;
+use crate::technique::stencil_volume::VolumeJoins;
 use glam::DVec2;
 
 /// Corners of the polygon that stands for a disc.
@@ -35,34 +36,14 @@ impl Stroke {
         }
     }
 
-    /// The pieces of an open polyline, or of a ring when its ends are one point.
-    pub fn open(&self, points: &[Plan], emit: &mut Emit) {
-        let points = distinct_vertices(points);
-        if points.len() > 3 && points.first() == points.last() {
-            return self.chain(&points, true, emit);
+    /// The pieces of a chain's path, whose consecutive points are distinct; `is_closed`: the last one is the first one.
+    pub fn pieces(&self, path: &[Plan], is_closed: bool, emit: &mut Emit) {
+        match path {
+            [only] => self.dot(*only, emit),
+            _ => self.chain(path, is_closed, emit),
         }
-        if let [only] = points[..] {
-            return self.dot(only, emit);
-        }
-        self.chain(&points, false, emit);
     }
 
-    /// The pieces of a ring that is stored without its closing vertex.
-    pub fn closed(&self, ring: &[Plan], emit: &mut Emit) {
-        let mut points = distinct_vertices(ring);
-        if points.len() > 1 && points.first() == points.last() {
-            points.pop();
-        }
-        if points.len() > 1 {
-            points.extend_from_within(..1);
-        }
-        if let [only] = points[..] {
-            return self.dot(only, emit);
-        }
-        self.chain(&points, true, emit);
-    }
-
-    /// The pieces of consecutive points; `is_closed`: the last one is the first one.
     fn chain(&self, points: &[Plan], is_closed: bool, emit: &mut Emit) {
         let last = points.len().saturating_sub(2);
         for (k, pair) in points.windows(2).enumerate() {
@@ -161,7 +142,7 @@ mod tests {
         let points: Vec<Plan> = points.iter().map(|&(x, y)| Plan::new(x, y)).collect();
         let mut out = Vec::new();
         let mut emit = |ring: &[Plan]| out.push(ring.iter().map(|p| (p.x, p.y)).collect());
-        Stroke::new(&line, joins).unwrap().open(&points, &mut emit);
+        Stroke::new(&line, joins).unwrap().pieces(&points, false, &mut emit);
         out
     }
 

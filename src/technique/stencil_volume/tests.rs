@@ -1,14 +1,15 @@
 //! The stencil's count against the footprint in rational arithmetic, sample by sample.
 
-use super::extrusion::{Extrusion, Volume};
+use super::extrusion::{Extrusion, Object, Volume};
 use crate::buffer::Values;
-use crate::scene::file::SceneFile;
 use crate::scene::{
-    Cap, Color, Counting, Feature, Fill, Join, Layer, Line, Outline, OutlineMode, Projection, Rule, Shape,
-    StencilVolume, Style, Surface, VolumeJoins, Width,
+    Cap, Color, Feature, Fill, Join, Layer, Line, Outline, OutlineMode, Projection, Rule, Shape, Style,
+    Surface, Width,
 };
+use crate::scene_file::SceneFile;
 use crate::space::{Plan, Ray, World};
 use crate::stage::Stage;
+use crate::technique::stencil_volume::{Counting, Settings, VolumeJoins};
 use crate::technique::{self, FrameOptions, Kind};
 use crate::terrain::SKY;
 use dashu::rational::RBig;
@@ -64,10 +65,10 @@ fn expected(extrusion: &Extrusion, volumes: &[Volume], at: &[RBig; 2]) -> i32 {
 /// The stencil plane of one object, drawn with these parameters.
 fn stencil(
     stage: &mut Stage,
-    settings: StencilVolume,
+    settings: Settings,
     buffers: &[&str],
 ) -> (Vec<u16>, crate::buffer::Buffer<[u8; 4]>) {
-    stage.scene.technique.stencil_volume = settings;
+    stage.scene.technique.set(settings);
     let buffers: Vec<String> = buffers.iter().map(|b| (*b).to_owned()).collect();
     let prepared = technique::prepare(Kind::StencilVolume, stage).unwrap();
     let frame = prepared
@@ -78,13 +79,24 @@ fn stencil(
     (values.clone(), frame.image)
 }
 
+/// The counts that all samples should have of each object, in as many bits as it is counted in.
+fn expected_of_objects(stage: &Stage, settings: &Settings, points: &[Option<[RBig; 2]>]) -> Vec<Vec<u16>> {
+    let extrusion = Extrusion::new(&stage.draw_list, &stage.mesh, settings);
+    let of_object = |(number, object): (u32, &Object)| {
+        let volumes = &extrusion.volumes[object.volumes.start as usize..object.volumes.end as usize];
+        let bits = if extrusion.cut_of(number).is_some() { 0x7fff } else { 0xffff };
+        let count = |at: &[RBig; 2]| (expected(&extrusion, volumes, at) & bits) as u16;
+        points.iter().map(|point| point.as_ref().map_or(0, count)).collect()
+    };
+    (0..).zip(&extrusion.objects).map(of_object).collect()
+}
+
 /// Compares the counts of all objects with the footprints; returns how many samples lie in one.
-fn check(stage: &mut Stage, settings: StencilVolume) -> usize {
+fn check(stage: &mut Stage, settings: Settings) -> usize {
     stage.scene.device.stencil_bits = 16;
-    let extrusion = Extrusion::new(&stage.scene.layers, &stage.mesh, &settings);
     let n = f64::from(settings.samples);
     let ids = {
-        stage.scene.technique.stencil_volume = settings;
+        stage.scene.technique.set(settings);
         let prepared = technique::prepare(Kind::StencilVolume, stage).unwrap();
         let wanted = ["triangle".to_owned()];
         let frame = prepared
@@ -106,16 +118,14 @@ fn check(stage: &mut Stage, settings: StencilVolume) -> usize {
             (*id != SKY).then(|| hit(&ray, &stage.mesh.triangle(*id).unwrap()))
         })
         .collect();
+    let counts = expected_of_objects(stage, &settings, &points);
     let mut inside = 0;
-    for (number, object) in extrusion.objects.iter().enumerate() {
-        let settings = StencilVolume { object: Some(number as u32), ..settings };
+    for (number, counts) in counts.into_iter().enumerate() {
+        let settings = Settings { object: Some(number as u32), ..settings };
         let (in_passing, picture) = stencil(stage, settings, &["stencil"]);
         let (in_full, full_picture) = stencil(stage, settings, &["stencil", "overdraw"]);
         assert_eq!(picture, full_picture, "the picture does not depend on the way");
-        let volumes = &extrusion.volumes[object.volumes.start as usize..object.volumes.end as usize];
-        for (k, point) in points.iter().enumerate() {
-            let right = point.as_ref().map_or(0, |p| expected(&extrusion, volumes, p));
-            let right = (right & if object.cut.is_some() { 0x7fff } else { 0xffff }) as u16;
+        for (k, right) in counts.into_iter().enumerate() {
             let at = (k % columns, k / columns);
             assert_eq!(in_passing[k], right, "object {number}, sample {at:?}, in passing");
             assert_eq!(in_full[k], right, "object {number}, sample {at:?}, in full");
@@ -130,7 +140,7 @@ struct Setting {
     text: String,
     layers: Vec<Layer>,
     projection: Projection,
-    settings: StencilVolume,
+    settings: Settings,
     ground: GroundKind,
 }
 
@@ -222,7 +232,7 @@ fn setting() -> impl Strategy<Value = Setting> {
                  [camera]\neye = [{:?}, {:?}, {:?}]\ntarget = [{:?}, {:?}, 1.0]\nup = {up}\nnear_m = {near:?}\n",
                 eye.0, eye.1, eye.2, target.0, target.1
             );
-            let settings = StencilVolume { method, joins, samples, ..StencilVolume::default() };
+            let settings = Settings { method, joins, samples, ..Settings::default() };
             Setting { text, layers, projection, settings, ground }
         },
     )
@@ -260,17 +270,18 @@ proptest! {
     }
 }
 
-fn fixed(text: &str, rings: Vec<Vec<(f64, f64)>>) -> Stage {
-    let rings = rings.into_iter().map(|r| r.into_iter().map(|(x, y)| Plan::new(x, y)).collect()).collect();
+/// A stage of filled polygons.
+fn fixed(text: &str, polygons: Vec<Vec<Vec<Plan>>>) -> Stage {
     let fill = Fill { color: Color([1.0, 0.0, 0.0, 1.0]), rule: Rule::EvenOdd };
     let style = Style { fill: Some(fill), ..Style::default() };
-    let feature = Feature { index: 0, style: 0, shape: Shape::Polygon(rings) };
-    let layer = Layer::uniform("polygon", style, vec![feature]);
+    let shapes = polygons.into_iter().map(Shape::Polygon);
+    let features = shapes.enumerate().map(|(index, shape)| Feature { index, style: 0, shape }).collect();
+    let layer = Layer::uniform("polygons", style, features);
     let setting = Setting {
         text: text.into(),
         layers: vec![layer],
         projection: Projection::Perspective { fov_y_deg: 60.0 },
-        settings: StencilVolume::default(),
+        settings: Settings::default(),
         ground: GroundKind::Grid,
     };
     stage(&setting).unwrap()
@@ -285,8 +296,9 @@ fn a_concave_ring_with_a_hole_and_an_island_is_counted_by_its_fan() {
     let outer = vec![(-40.0, -40.0), (40.0, -40.0), (40.0, 40.0), (0.0, -10.0), (-40.0, 40.0)];
     let hole = vec![(-10.0, -35.0), (10.0, -35.0), (10.0, -15.0), (-10.0, -15.0)];
     let island = vec![(-4.0, -30.0), (4.0, -30.0), (0.0, -20.0)];
-    let mut stage = fixed(HILL, vec![outer, hole, island]);
-    assert!(check(&mut stage, StencilVolume::default()) > 100);
+    let ring = |points: Vec<(f64, f64)>| points.into_iter().map(|(x, y)| Plan::new(x, y)).collect();
+    let mut stage = fixed(HILL, vec![[outer, hole, island].map(ring).to_vec()]);
+    assert!(check(&mut stage, Settings::default()) > 100);
 }
 
 #[test]
@@ -295,25 +307,23 @@ fn samples_on_corners_and_edges_of_neighbours_have_one_owner() {
     let text = "schema = 1\nimage = { width = 20, height = 16 }\n\
         terrain.generate = { kind = \"plane\", posts = [9, 9], cell_m = 4.0, height_m = 2.0 }\n\
         [camera]\neye = [0, 0, 40]\ntarget = [0, 0, 0]\nup = [0, 1, 0]\n";
-    let mut stage = fixed(text, vec![vec![(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)]]);
     let half = |v: usize| -7.5 + 3.0 * v as f64;
-    let mut features = Vec::new();
+    let mut triangles = Vec::new();
     for cell in 0..25 {
         let (x0, y0) = (half(cell % 5), half(cell / 5));
         let (x1, y1) = (half(cell % 5 + 1), half(cell / 5 + 1));
         let corners = [(x0, y0), (x1, y0), (x1, y1), (x0, y1)].map(|(x, y)| Plan::new(x, y));
         let halves = [[0, 1, 2], [0, 2, 3]];
         for triangle in halves {
-            let ring = triangle.map(|k| corners[k]).to_vec();
-            features.push(Feature { index: features.len(), style: 0, shape: Shape::Polygon(vec![ring]) });
+            triangles.push(vec![triangle.map(|k| corners[k]).to_vec()]);
         }
     }
-    stage.scene.layers[0].features = features;
+    let mut stage = fixed(text, triangles);
     for projection in
         [Projection::Orthographic { height_m: 16.0 }, Projection::Perspective { fov_y_deg: 23.792_845 }]
     {
         stage.scene.camera.projection = projection;
-        let inside = check(&mut stage, StencilVolume::default());
+        let inside = check(&mut stage, Settings::default());
         if matches!(projection, Projection::Orthographic { .. }) {
             assert_eq!(inside, 15 * 15, "each sample of the squares has one owner");
         }

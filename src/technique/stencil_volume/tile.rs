@@ -9,7 +9,7 @@ use super::view::Entry;
 use crate::canvas::LastGround;
 use crate::raster::TileView;
 use crate::resolve::Paint;
-use crate::scene::VolumeCaps;
+use crate::technique::stencil_volume::VolumeCaps;
 
 /// What was done in a tile.
 #[derive(Debug, Clone, Copy, Default)]

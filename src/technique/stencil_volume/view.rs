@@ -10,9 +10,9 @@ use super::stencil::Method;
 use crate::math;
 use crate::parallel;
 use crate::raster::{Lattice, TileView};
-use crate::scene::{Counting, FarPlane, Overflow, StencilVolume, VolumeCaps};
 use crate::space::{Plan, Screen, ViewFrame, World};
 use crate::stage::Stage;
+use crate::technique::stencil_volume::{Counting, FarPlane, Overflow, Settings, VolumeCaps};
 use glam::DVec3;
 
 /// A volume in the list of what is drawn.
@@ -66,7 +66,7 @@ impl Looks {
     pub fn new(
         at: (&Stage, &ViewFrame),
         lattice: &Lattice,
-        settings: &StencilVolume,
+        settings: &Settings,
         extrusion: &Extrusion,
     ) -> Self {
         let viewer = Viewer::new(at, lattice, settings);
@@ -96,7 +96,7 @@ impl Looks {
         let mut entries = Vec::new();
         for (pass, objects) in extrusion.passes.iter().enumerate() {
             for object in objects.objects.iter().map(|o| &extrusion.objects[*o as usize]) {
-                let cutters = object.cut.iter().flat_map(|(volumes, ..)| volumes.clone());
+                let cutters = object.cutters.clone();
                 let all = cutters.map(|v| (v, true)).chain(object.volumes.clone().map(|v| (v, false)));
                 entries.extend(all.filter_map(|(volume, is_cutter)| {
                     let window = self.windows[volume as usize]?;
@@ -121,7 +121,7 @@ struct Viewer<'a> {
 }
 
 impl<'a> Viewer<'a> {
-    fn new((stage, frame): (&Stage, &'a ViewFrame), lattice: &'a Lattice, settings: &StencilVolume) -> Self {
+    fn new((stage, frame): (&Stage, &'a ViewFrame), lattice: &'a Lattice, settings: &Settings) -> Self {
         let is_sound = settings.overflow == Overflow::Wrap
             && settings.caps == VolumeCaps::Both
             && settings.method != Counting::ZPass

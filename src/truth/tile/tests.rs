@@ -2,18 +2,20 @@
 //! hold the point is found again from the definitions of `docs/semantics.md`, without a rounding.
 
 use super::*;
+use crate::draw_list::DrawList;
 use crate::footprint::{Footprints, PixelSize};
-use crate::scene::file::SceneFile;
 use crate::scene::{
-    Cap, Color, Feature, Fill, Join, Layer, Line, Outline, OutlineMode, Posts, Rule, Scene, Shape, Style,
-    Surface, Width,
+    Camera, Cap, Color, Feature, Fill, Join, Layer, Line, Outline, OutlineMode, Posts, Rule, Scene, Shape,
+    Style, Surface, Width,
 };
+use crate::scene_file::SceneFile;
 use crate::space::Plan;
+use crate::terrain::{SurfaceTriangle, SurfaceVertex};
 use crate::truth::Budget;
 use crate::truth::polygon::Polygon;
 use crate::truth::visible::SPECK;
 use dashu::rational::Relaxed;
-use glam::DVec2;
+use glam::{DMat2, DMat3, DVec2};
 
 type R = Relaxed;
 
@@ -102,8 +104,8 @@ fn layer(dice: &mut Dice) -> Layer {
     Layer::uniform("layer", style, features.collect())
 }
 
-/// A scene of a few rough triangles and a few features, seen from near.
-fn scene(dice: &mut Dice) -> (Scene, Surface) {
+/// A scene of a few rough triangles and a few features, seen from near; `None` where the triangles have no mesh.
+fn scene(dice: &mut Dice) -> Option<(Scene, Mesh)> {
     let text = "schema = 1\nimage = { width = 12, height = 9 }\nterrain.generate = { kind = \"plane\", posts = [3, 3], \
                 cell_m = 10.0 }\n[[layer]]\nfeatures = [ { line = [[0, 0], [5, 5]] } ]\nline = { color = \"#ff0000\", width_m = 1 }";
     let file = SceneFile::parse(text, None, &[]).unwrap();
@@ -128,7 +130,42 @@ fn scene(dice: &mut Dice) -> (Scene, Surface) {
         let all = corners.into_iter().chain(inner);
         Surface::Points(all.map(|p| World::new(p.x, p.y, dice.between(0.0, 15.0))).collect())
     };
-    (scene, surface)
+    let mesh = Mesh::new(surface, scene.diagonal).ok()?;
+    if dice.below(2) == 0 {
+        return Some((scene, mesh));
+    }
+    let mesh = leaning(dice, &mesh, &mut scene.camera);
+    Some((scene, mesh))
+}
+
+/// A mesh and a camera in a world that is turned, sheared and mirrored without a rounding (so that triangles cross no more than they
+/// did), over plan points that lie anywhere near: one in eight on a line.
+fn leaning(dice: &mut Dice, mesh: &Mesh, camera: &mut Camera) -> Mesh {
+    let mut numbers = |count: usize| (0..count).map(|_| dice.between(-1.25, 1.25)).collect::<Vec<f64>>();
+    let (of_world, of_plan) = (numbers(9), numbers(4));
+    let turn = DMat3::from_cols_slice(&of_world) + DMat3::IDENTITY;
+    let turn = if turn.determinant().abs() > 0.25 { turn } else { DMat3::IDENTITY };
+    let flat = DMat2::from_cols_slice(&of_plan);
+    let flat = if dice.below(8) == 0 { DMat2::from_cols(flat.x_axis, flat.x_axis) } else { flat };
+    // In a small world it is the plan that is known least.
+    let size = [1.0, 1.0 / 64.0][dice.below(2) as usize];
+    let place = |p: World| World::from(turn * p.to_vec() * size);
+    let vertices = mesh.vertices().map(|vertex| {
+        let off = DVec2::new(dice.between(-2.0, 2.0), dice.between(-2.0, 2.0));
+        SurfaceVertex {
+            world: place(vertex.world),
+            plan: Plan::from(flat * vertex.plan.to_vec() + off),
+            ..vertex
+        }
+    });
+    let vertices = vertices.collect();
+    let triangles = (0..mesh.triangle_ids()).filter_map(|id| mesh.corners(id)).collect();
+    (camera.eye, camera.target, camera.up) = (place(camera.eye), place(camera.target), turn * camera.up);
+    camera.near_m *= size;
+    if let crate::scene::Projection::Orthographic { height_m } = &mut camera.projection {
+        *height_m *= size;
+    }
+    Mesh::of_surface(vertices, triangles).unwrap()
 }
 
 type V3 = [R; 3];
@@ -183,10 +220,11 @@ fn passes_by(frame: &ViewFrame, at: [f64; 2], triangle: &[World; 3]) -> bool {
     sides.iter().any(|s| *s > 1e-6) && sides.iter().any(|s| *s < -1e-6)
 }
 
-/// Where a ray meets a triangle: its parameter, if it is at least `near`.
-fn meet(from: &V3, along: &V3, triangle: &[World; 3], near: f64) -> Option<R> {
+/// Where a ray meets a triangle: its parameter, if it is at least `near`, and the weights of the second and third corner.
+fn meet(from: &V3, along: &V3, triangle: &[World; 3], near: f64) -> Option<(R, [R; 2])> {
     let [a, b, c] = triangle.map(|p| vector(p.to_vec()));
-    let normal = cross(&minus(&b, &a), &minus(&c, &a));
+    let (u, v) = (minus(&b, &a), minus(&c, &a));
+    let normal = cross(&u, &v);
     let facing = dot(&normal, along);
     if facing == zero() {
         return None;
@@ -195,14 +233,11 @@ fn meet(from: &V3, along: &V3, triangle: &[World; 3], near: f64) -> Option<R> {
     if t < rational(near) {
         return None;
     }
-    let p = plus_times(from, along, &t);
-    let side = |u: &V3, v: &V3| {
-        let (e, f) = (minus(v, u), minus(&p, u));
-        e[0].clone() * f[1].clone() - e[1].clone() * f[0].clone()
-    };
-    let sides = [side(&a, &b), side(&b, &c), side(&c, &a)];
-    // Counter-clockwise in plan.
-    sides.iter().all(|s| *s >= zero()).then_some(t)
+    let from_a = minus(&plus_times(from, along, &t), &a);
+    let (of_b, of_c) = (dot(&cross(&v, &normal), &from_a), dot(&cross(&normal, &u), &from_a));
+    let whole = dot(&normal, &normal);
+    let is_met = of_b >= zero() && of_c >= zero() && of_b.clone() + of_c.clone() <= whole;
+    is_met.then(|| (t, [of_b / whole.clone(), of_c / whole].map(lean)))
 }
 
 type V2 = [R; 2];
@@ -399,17 +434,15 @@ fn violations(seed: u64, count: usize) -> Vec<String> {
     let (mut judged, mut wrong) = (0, Vec::new());
     while judged < count {
         let at_seed = dice.0;
-        let (scene, surface) = scene(&mut dice);
-        let (Ok(mesh), Ok(frame)) = (Mesh::new(surface, scene.diagonal), scene.camera.view(&scene.image))
-        else {
-            continue;
-        };
-        let size = PixelSize::of(&frame, mesh.heights());
-        let footprints = Footprints::new(&scene.layers, size, &|_| true);
+        let Some((scene, mesh)) = scene(&mut dice) else { continue };
+        let Ok(frame) = scene.camera.view(&scene.image) else { continue };
+        let size = PixelSize::of(&frame, &mesh);
+        let list = DrawList::new(&mut scene.layers.clone()).unwrap();
+        let footprints = Footprints::new(&list, size, &|_| true);
         let budget = Budget { width: 0.02, depth: 8, coverage: true };
         let setting = Setting::new(&scene, &mesh, (&footprints, size), budget);
-        let triangles: Vec<(u32, [World; 3])> =
-            (0..mesh.triangle_ids()).filter_map(|id| Some((id, mesh.triangle(id)?))).collect();
+        let triangles: Vec<(u32, SurfaceTriangle)> =
+            (0..mesh.triangle_ids()).filter_map(|id| Some((id, mesh.surface_triangle(id)?))).collect();
         let mut work = Work::new(&setting, &mesh, &frame, &TilePlace { corner: [0, 0], size: [12, 9] });
         let all: Vec<u32> = (0..work.leaves.len()).flat_map(|leaf| work.facets_of(leaf)).collect();
         for (x, y) in (0..9).flat_map(|y| (0..12).map(move |x| (x, y))) {
@@ -426,9 +459,10 @@ fn violations(seed: u64, count: usize) -> Vec<String> {
                 }
                 let p = point_in(piece, &mut dice);
                 judged += 1;
-                let told = judge(&scene, &frame, &triangles, [x as f64 + p[0], y as f64 + p[1]], {
-                    (facet.map(|facet| work.facets[facet as usize].id), &claims)
-                });
+                let at = [x as f64 + p[0], y as f64 + p[1]];
+                let facet = facet.map(|facet| &work.facets[facet as usize]);
+                let claimed = facet.map(|facet| (facet.id, facet.hit(&work.rays, at)));
+                let told = judge(&scene, &frame, &triangles, at, (claimed, &claims));
                 if let Err(what) = told {
                     wrong.push(format!("seed {at_seed:#x}, pixel {x},{y}, {p:?}: {what}"));
                 }
@@ -442,25 +476,37 @@ fn violations(seed: u64, count: usize) -> Vec<String> {
 fn judge(
     scene: &Scene,
     frame: &ViewFrame,
-    triangles: &[(u32, [World; 3])],
+    triangles: &[(u32, SurfaceTriangle)],
     at: [f64; 2],
-    (claimed, claims): (Option<u32>, &[(u32, Option<bool>)]),
+    (claimed, claims): (Option<(u32, Hit)>, &[(u32, Option<bool>)]),
 ) -> Result<(), String> {
     let (from, along) = ray(frame, at);
-    let near = triangles.iter().filter(|(_, t)| !passes_by(frame, at, t));
-    let hits = near.filter_map(|(id, t)| Some((meet(&from, &along, t, frame.near())?, *id)));
-    let hit = hits.min_by(|a, b| a.0.cmp(&b.0));
-    let (Some((t, id)), Some(claimed)) = (&hit, claimed) else {
+    let near = triangles.iter().filter(|(_, t)| !passes_by(frame, at, &t.world));
+    let hits = near.filter_map(|(id, t)| Some((*id, t, meet(&from, &along, &t.world, frame.near())?)));
+    let hit = hits.min_by(|a, b| a.2.0.cmp(&b.2.0));
+    let (Some((id, triangle, (t, weights))), Some((claimed, place))) = (&hit, claimed) else {
         let is_so = hit.is_none() && claimed.is_none();
-        return if is_so { Ok(()) } else { Err(format!("sees {:?}, not {claimed:?}", hit.map(|h| h.1))) };
+        return if is_so { Ok(()) } else { Err(format!("sees {:?}, not {claimed:?}", hit.map(|h| h.0))) };
     };
     if *id != claimed {
         return Err(format!("sees triangle {id}, not {claimed}"));
     }
     let p = plus_times(&from, &along, t).map(lean);
     let to_eye = minus(&p, &vector(frame.eye().to_vec()));
-    let [x, y, _] = p;
-    let seen = Seen { plan: [x, y], eye_squared: dot(&to_eye, &to_eye) };
+    let [a, b, c] = triangle.plan().map(flat);
+    let mean = |k: usize| {
+        let side = |corner: &V2, weight: &R| (corner[k].clone() - a[k].clone()) * weight.clone();
+        lean(a[k].clone() + side(&b, &weights[0]) + side(&c, &weights[1]))
+    };
+    let seen = Seen { plan: [mean(0), mean(1)], eye_squared: dot(&to_eye, &to_eye) };
+    let told = [place.plan.x, place.plan.y, place.world.x, place.world.y, place.world.z];
+    let off = |(exact, told): (&R, f64)| exact.clone() - rational(told);
+    for off in seen.plan.iter().chain(&p).zip(told).map(off).filter(|_| place.error < f64::INFINITY) {
+        let most = rational(place.error);
+        if off > most || -off > most {
+            return Err(format!("the point is not within {} of {place:?}", place.error));
+        }
+    }
     for (item, holds) in items_at(&scene.layers, frame, &seen).into_iter().enumerate() {
         let claim = claims.iter().find(|c| c.0 == item as u32).map_or(Some(false), |c| c.1);
         if claim.is_some_and(|claim| claim != holds) {

@@ -1,15 +1,16 @@
 //! The rings of areas.
 
-use super::{MOST, too_many};
+use super::{MOST, too_many_vertices};
 use crate::error::Result;
-use crate::scene::{Clipmap, PolygonRaster, Rule};
+use crate::scene::Rule;
 use crate::space::{Plan, PlanBox};
 use crate::technique::clipmap::simple;
+use crate::technique::clipmap::{PolygonRaster, Settings};
 
 /// A polygon.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::technique::clipmap) struct AreaRings {
-    /// The item of its feature's fill, whether it is filled or not.
+    /// The item that has it: its feature's fill, or the outline that is cut to it where there is no fill.
     pub(in crate::technique::clipmap) item: u32,
     rings: (u32, u32),
     /// Whether its winding numbers are 0 and 1.
@@ -35,12 +36,11 @@ impl Areas {
     pub(super) fn push(
         &mut self,
         item: u32,
-        rings: &[Vec<Plan>],
+        mut rings: Vec<Vec<Plan>>,
         rule: Rule,
         is_filled: bool,
-        settings: &Clipmap,
+        settings: &Settings,
     ) {
-        let mut rings: Vec<Vec<Plan>> = rings.iter().filter(|ring| ring.len() > 2).cloned().collect();
         let plan = PlanBox::around(rings.iter().flatten().copied());
         let is_simple = settings.polygons == PolygonRaster::Exact && simple::orient(&mut rings, rule);
         let first = self.ring_ends.len() as u32;
@@ -59,7 +59,7 @@ impl Areas {
     pub(super) fn append(&mut self, other: Self) -> Result<()> {
         let (rings, points) = (self.ring_ends.len() as u32, self.points.len());
         if points + other.points.len() > MOST {
-            return Err(too_many("vertices"));
+            return Err(too_many_vertices());
         }
         let moved =
             |area: &AreaRings| AreaRings { rings: (area.rings.0 + rings, area.rings.1 + rings), ..*area };
@@ -75,7 +75,7 @@ impl Areas {
         self.areas[area as usize]
     }
 
-    /// The polygon of a feature, by the item of its fill.
+    /// The polygon that an item has.
     pub(super) fn of_item(&self, item: u32) -> Option<AreaRings> {
         let at = self.areas.binary_search_by_key(&item, |area| area.item).ok()?;
         Some(self.areas[at])

@@ -1,8 +1,8 @@
-//! What is kept in memory of the layers: lines, polygons, both, lines with adjacency or with offsets (Taibo et al. 2014, 4.1 to 4.4),
+//! What is kept in memory of the items: lines, polygons, both, lines with adjacency or with offsets (Taibo et al. 2014, 4.1 to 4.4),
 //! and the rings of areas.
 //!
-//! Items are fills, outlines and lines, feature by feature in draw order; an item is one thing to be blended. Lines are cut into
-//! chunks of up to 32 segments, which the index finds; each chunk keeps its own strips.
+//! An item of the draw list is one thing to be blended. Lines are cut into chunks of up to 32 segments, which the index finds; each
+//! chunk keeps its own strips.
 
 mod areas;
 mod strokes;
@@ -10,36 +10,38 @@ mod style;
 
 pub(super) use areas::AreaRings;
 pub(super) use strokes::Chunk;
-pub(super) use style::{LayerItems, Role, StrokeStyle};
+pub(super) use style::{Drawn, StrokeStyle, Styles};
 
 use super::raster::Folded;
 use super::tessellation::Polyline;
+use crate::draw_list::{DrawList, Item};
 use crate::error::{Error, Result};
 use crate::index::BoxTree;
 use crate::math;
 use crate::parallel;
-use crate::scene::{
-    Clipmap, Compositing, Feature, Joints, Layer, OutlineMode, Rule, Shape, Solution, Width,
-    distinct_vertices,
-};
+use crate::scene::Compositing;
 use crate::space::{Plan, PlanBox};
+use crate::technique::clipmap::{Joints, Settings, Solution};
 use areas::Areas;
+use std::ops::Range;
 use strokes::Strokes;
+use style::Keep;
 
-/// Features that are prepared as one piece of work.
-const FEATURES_AT_A_TIME: usize = 1024;
+/// Items that are prepared as one piece of work.
+const ITEMS_AT_A_TIME: usize = 1024;
 
-/// The most vertices, and the most items.
+/// The most vertices.
 const MOST: usize = u32::MAX as usize / 2;
 
-fn too_many(what: &str) -> Error {
-    Error::new(format!("more {what} than this program can number")).help("give the terrain a `window`")
+fn too_many_vertices() -> Error {
+    Error::new("more vertices than this program can number").help("give the terrain a `window`")
 }
 
 /// Everything that tiles are made of.
 #[derive(Debug)]
-pub(super) struct Geometry {
-    layers: Vec<LayerItems>,
+pub(super) struct Geometry<'l> {
+    list: &'l DrawList,
+    styles: Styles,
     strokes: Strokes,
     stroke_index: BoxTree,
     areas: Areas,
@@ -47,39 +49,34 @@ pub(super) struct Geometry {
     joints: Joints,
 }
 
-impl Geometry {
-    /// Keeps what a solution needs of the layers.
+impl<'l> Geometry<'l> {
+    /// Keeps what a solution needs of the items.
     ///
     /// # Errors
     /// When there is more than can be numbered.
-    pub(super) fn new(layers: &[Layer], settings: &Clipmap, compositing: Compositing) -> Result<Self> {
-        let mut items = LayerItems::of_layers(layers, settings, compositing)?;
+    pub(super) fn new(list: &'l DrawList, settings: &Settings, compositing: Compositing) -> Result<Self> {
+        let mut styles = Styles::new(list, settings, compositing)?;
         let offsets = (settings.solution == Solution::Offsets).then_some(settings.offsets);
+        let items = list.items().len();
+        let made = parallel::map_indices(items.div_ceil(ITEMS_AT_A_TIME), |block| {
+            let first = block * ITEMS_AT_A_TIME;
+            let mut made =
+                Block { strokes: Strokes::new(offsets), areas: Areas::default(), reaches: Vec::new() };
+            made.add((list, &styles), settings, first..items.min(first + ITEMS_AT_A_TIME));
+            made
+        });
+        styles.widen(made.iter().flat_map(|block| block.reaches.iter().copied()));
         let (mut strokes, mut areas) = (Strokes::new(offsets), Areas::default());
-        for (styles, layer) in items.iter_mut().zip(layers) {
-            let blocks = layer.features.len().div_ceil(FEATURES_AT_A_TIME);
-            let made = parallel::map_indices(blocks, |block| {
-                let first = block * FEATURES_AT_A_TIME;
-                let end = layer.features.len().min(first + FEATURES_AT_A_TIME);
-                let mut made =
-                    Block { strokes: Strokes::new(offsets), areas: Areas::default(), reach: [1.0; 2] };
-                made.add(styles, settings, first, &layer.features[first..end]);
-                made
-            });
-            let reach = |role: usize| made.iter().map(|block| block.reach[role]).fold(1.0, math::max);
-            let [of_lines, of_outlines] = [reach(0), reach(1)];
-            styles.line.iter_mut().for_each(|style| style.reach = of_lines);
-            styles.outline.iter_mut().for_each(|style| style.reach = of_outlines);
-            for block in made {
-                strokes.append(block.strokes)?;
-                areas.append(block.areas)?;
-            }
+        for block in made {
+            strokes.append(block.strokes)?;
+            areas.append(block.areas)?;
         }
         strokes.finish();
         // Boxes are the index's.
         let (of_strokes, of_areas) = (std::mem::take(&mut strokes.boxes), std::mem::take(&mut areas.boxes));
         Ok(Self {
-            layers: items,
+            list,
+            styles,
             strokes,
             stroke_index: BoxTree::new(&of_strokes),
             areas,
@@ -93,9 +90,9 @@ impl Geometry {
         if self.joints == Joints::BevelQuads { Folded::Polygon } else { Folded::Triangles }
     }
 
-    /// All layers.
-    pub(super) fn layers(&self) -> &[LayerItems] {
-        &self.layers
+    /// How items are drawn.
+    pub(super) fn styles(&self) -> &Styles {
+        &self.styles
     }
 
     /// Bytes of what the solution keeps of lines and areas, without the index.
@@ -128,15 +125,14 @@ impl Geometry {
         self.strokes.chunk(chunk)
     }
 
-    /// What an item is.
-    pub(super) fn role(&self, item: u32) -> Option<Role<'_>> {
-        let at = self.layers.partition_point(|layer| layer.first_item <= item).checked_sub(1)?;
-        self.layers[at].role(item)
+    /// How an item is drawn.
+    pub(super) fn drawn(&self, item: u32) -> &Drawn {
+        self.styles.get(self.list.items()[item as usize].style)
     }
 
     /// The polygon that an outline is cut to.
     pub(super) fn cut_of(&self, outline: u32) -> Option<AreaRings> {
-        self.areas.of_item(outline.checked_sub(1)?)
+        self.areas.of_item(self.list.area_owner(outline))
     }
 
     /// The rings of an area.
@@ -147,16 +143,10 @@ impl Geometry {
     /// Changes all widths in metres. Pairs are scaled about their middles where the method allows it, or made anew from the lines that are
     /// kept beside them; everything else is tessellated whenever it is drawn. False where only making all anew would do.
     pub(super) fn change_width(&mut self, factor: f64) -> bool {
-        let styles = self.layers.iter_mut().flat_map(|layer| layer.outline.iter_mut().chain(&mut layer.line));
-        let mut keeps_strips_alone = false;
-        let mut keeps_strips = false;
-        for style in styles {
-            if let Width::Metres(width) = &mut style.width {
-                *width *= factor;
-            }
-            keeps_strips_alone |= style.keep == style::Keep::Strips;
-            keeps_strips |= matches!(style.keep, style::Keep::Strips | style::Keep::Both);
-        }
+        self.styles.scale(factor);
+        let keeps = |kept: &[Keep]| self.styles.strokes().any(|style| kept.contains(&style.keep));
+        let keeps_strips = keeps(&[Keep::Strips, Keep::Both]);
+        let keeps_strips_alone = keeps(&[Keep::Strips]);
         let is_scaled = match self.joints {
             Joints::Isolated | Joints::Corner | Joints::BevelStrip | Joints::BevelQuads => true,
             Joints::Combined | Joints::BevelInner | Joints::Style => false,
@@ -169,13 +159,10 @@ impl Geometry {
             }
             (true, false, true) => false,
             (true, false, false) => {
-                let layers = &self.layers;
-                self.strokes.retessellate(|item| {
-                    let at = layers.partition_point(|layer| layer.first_item <= item).checked_sub(1)?;
-                    match layers[at].role(item)? {
-                        Role::Stroke(style) => Some(style.clone()),
-                        Role::Fill(_) => None,
-                    }
+                let (list, styles) = (self.list, &self.styles);
+                self.strokes.retessellate(|item| match styles.get(list.items()[item as usize].style) {
+                    Drawn::Stroke(style) => Some(style),
+                    Drawn::Fill(_) => None,
                 });
                 true
             }
@@ -194,53 +181,47 @@ fn found_in(index: &BoxTree, wanted: &PlanBox) -> Vec<u32> {
     found
 }
 
-/// What some features become.
+/// What some items become.
 struct Block {
     strokes: Strokes,
     areas: Areas,
-    /// How far lines and outlines reach from their vertices, in half widths.
-    reach: [f64; 2],
+    /// How far strokes of a style reach from their vertices, in half widths: an entry for each run of items that have it.
+    reaches: Vec<(u32, f64)>,
 }
 
 impl Block {
-    /// Adds the items of features, of which the first has the number `first` in its layer.
-    fn add(&mut self, styles: &LayerItems, settings: &Clipmap, first: usize, features: &[Feature]) {
-        for (k, feature) in features.iter().enumerate() {
-            let [fill, outline, line] = styles.items(first + k);
-            match &feature.shape {
-                Shape::Line(parts) => {
-                    let Some(style) = &styles.line else { continue };
-                    for part in parts {
-                        let vertices = distinct_vertices(part);
-                        let returns = vertices.len() > 3 && vertices.first() == vertices.last();
-                        self.stroke(line, &vertices, returns, style, 0);
-                    }
+    /// Adds items.
+    fn add(&mut self, (list, styles): (&DrawList, &Styles), settings: &Settings, items: Range<usize>) {
+        for number in items {
+            let item = &list.items()[number];
+            let number = number as u32;
+            match styles.get(item.style) {
+                Drawn::Fill(fill) => {
+                    self.areas.push(number, rings_of(list, item), fill.rule, true, settings);
                 }
-                Shape::Polygon(rings) => {
-                    let is_cut = styles.outline.as_ref().is_some_and(|o| o.mode != OutlineMode::Normal);
-                    if styles.fill.is_some() || is_cut {
-                        let rule = styles.fill.map_or(Rule::EvenOdd, |fill| fill.rule);
-                        self.areas.push(fill, rings, rule, styles.fill.is_some(), settings);
+                Drawn::Stroke(style) => {
+                    if style.cut.is_some() && list.area_owner(number) == number {
+                        self.areas.push(number, rings_of(list, item), style.cut_rule, false, settings);
                     }
-                    let Some(style) = &styles.outline else { continue };
-                    for ring in rings {
-                        let mut vertices = distinct_vertices(ring);
-                        let start = vertices.first().copied();
-                        vertices.extend(start.filter(|start| vertices.last() != Some(start)));
-                        self.stroke(outline, &vertices, vertices.len() > 2, style, 1);
+                    for chain in list.strokes(item) {
+                        let line = Polyline { vertices: list.vertices_of(chain), is_loop: chain.is_closed };
+                        self.strokes.push(number, &line, style);
+                        self.reach(item.style, style.tessellation.reach(&line));
                     }
                 }
             }
         }
     }
 
-    /// Adds a stroke along vertices, of which the last is the first again in a loop.
-    fn stroke(&mut self, item: u32, vertices: &[Plan], is_loop: bool, style: &StrokeStyle, role: usize) {
-        let vertices = if is_loop { &vertices[..vertices.len() - 1] } else { vertices };
-        if !vertices.is_empty() {
-            let line = Polyline { vertices, is_loop };
-            self.strokes.push(item, &line, style);
-            self.reach[role] = math::max(style.tessellation.reach(&line), self.reach[role]);
+    fn reach(&mut self, style: u32, reach: f64) {
+        match self.reaches.last_mut().filter(|last| last.0 == style) {
+            Some(last) => last.1 = math::max(last.1, reach),
+            None => self.reaches.push((style, reach)),
         }
     }
+}
+
+/// The rings that bound an item's area.
+fn rings_of(list: &DrawList, item: &Item) -> Vec<Vec<Plan>> {
+    list.area(item).iter().map(|ring| list.vertices_of(ring).to_vec()).collect()
 }

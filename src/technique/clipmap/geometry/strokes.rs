@@ -1,11 +1,12 @@
 //! What is kept of lines, chunk by chunk.
 
 use super::style::{Keep, StrokeStyle};
-use super::{MOST, too_many};
+use super::{MOST, too_many_vertices};
 use crate::error::Result;
 use crate::math;
-use crate::scene::{OffsetForm, Width};
+use crate::scene::Width;
 use crate::space::{Plan, PlanBox};
+use crate::technique::clipmap::OffsetForm;
 use crate::technique::clipmap::tessellation::{OffsetVertex, Pair, Polyline, Sagitta, Strips};
 use glam::DVec2;
 use std::ops::Range;
@@ -168,6 +169,8 @@ impl Strokes {
             let vertices = (of_chunk.start..=of_chunk.end).map(|k| line.vertices[k % n]);
             self.boxes.push(PlanBox::around(vertices));
             if style.keep.has_strips() {
+                // Chunks without strips before one that has some: theirs are empty.
+                self.chunk_strips.resize(self.chunks.len() - 1, self.strip_ends.len() as u32);
                 self.store(line, of_chunk, style);
             }
         }
@@ -198,19 +201,17 @@ impl Strokes {
     pub(super) fn append(&mut self, other: Self) -> Result<()> {
         let (vertices, stored) = (self.vertices.len(), self.stored.len());
         if vertices + other.vertices.len() > MOST || stored + other.stored.len() > MOST {
-            return Err(too_many("vertices"));
+            return Err(too_many_vertices());
         }
         let (parts, strips) = (self.part_items.len() as u32, self.strip_ends.len() as u32);
         self.part_items.extend(other.part_items);
         self.part_starts.extend(other.part_starts.iter().map(|start| start + vertices as u32));
         self.vertices.extend(other.vertices);
+        if !other.chunk_strips.is_empty() {
+            self.chunk_strips.resize(self.chunks.len(), strips);
+        }
         self.chunks.extend(other.chunks.iter().map(|(part, place)| (part + parts, *place)));
         self.boxes.extend(other.boxes);
-        // Chunks without strips before those that have some: theirs are empty.
-        if !other.chunk_strips.is_empty() {
-            let chunks_before = self.chunks.len() - other.chunk_strips.len();
-            self.chunk_strips.resize(chunks_before, strips);
-        }
         self.chunk_strips.extend(other.chunk_strips.iter().map(|start| start + strips));
         self.strip_ends.extend(other.strip_ends.iter().map(|end| end + stored as u32));
         self.stored.append(other.stored);
@@ -240,7 +241,7 @@ impl Strokes {
     }
 
     /// Tessellates all stored strips anew from the lines that are kept beside them (methods 3b; 5.1).
-    pub(super) fn retessellate(&mut self, style_of: impl Fn(u32) -> Option<StrokeStyle> + Sync) {
+    pub(super) fn retessellate<'a>(&mut self, style_of: impl Fn(u32) -> Option<&'a StrokeStyle> + Sync) {
         let blocks = crate::parallel::map_indices(self.chunks.len().div_ceil(1 << 12), |block| {
             let chunks = block << 12..((block + 1) << 12).min(self.chunks.len());
             let mut made = Self::new(None);
@@ -252,7 +253,7 @@ impl Strokes {
                     Some(style) => {
                         let line = Polyline { vertices, is_loop };
                         let first = place as usize * CHUNK;
-                        made.store(&line, first..line.segments().min(first + CHUNK), &style);
+                        made.store(&line, first..line.segments().min(first + CHUNK), style);
                     }
                     // A chunk without strips: its width is in pixels.
                     None => made.chunk_strips.push(made.strip_ends.len() as u32),

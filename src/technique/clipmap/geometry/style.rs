@@ -1,13 +1,15 @@
-//! How the layers' items look, and what is kept of them.
+//! How items are drawn, and what is kept of them.
 
-use super::{MOST, too_many};
+use crate::draw_list::{DrawList, ItemStyle, Side};
 use crate::error::Result;
+use crate::math;
 use crate::resolve::Compositor;
-use crate::scene::{Clipmap, Compositing, Layer, Line, OutlineMode, Rule, Solution, Width};
+use crate::scene::{Compositing, Line, Rule, Width};
 use crate::technique::clipmap::raster::Ink;
 use crate::technique::clipmap::tessellation::Rule as Tessellation;
+use crate::technique::clipmap::{Settings, Solution};
 
-/// What a stroke's layer keeps.
+/// What is kept of a stroke.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::technique::clipmap) enum Keep {
     /// Vertices (solution 1).
@@ -42,7 +44,7 @@ impl Keep {
     }
 }
 
-/// How the strokes of a layer look.
+/// How strokes of one style are drawn.
 #[derive(Debug, Clone)]
 pub(in crate::technique::clipmap) struct StrokeStyle {
     /// How they are tessellated.
@@ -53,13 +55,15 @@ pub(in crate::technique::clipmap) struct StrokeStyle {
     pub(in crate::technique::clipmap) ink: Ink,
     /// What is kept of them.
     pub(in crate::technique::clipmap) keep: Keep,
-    /// What their polygon cuts off.
-    pub(in crate::technique::clipmap) mode: OutlineMode,
+    /// The side of their polygon that counts.
+    pub(in crate::technique::clipmap) cut: Option<Side>,
+    /// Which windings are inside that polygon.
+    pub(in crate::technique::clipmap) cut_rule: Rule,
     /// How far from their vertices they may reach, in half widths.
     pub(in crate::technique::clipmap) reach: f64,
 }
 
-/// How the areas of a layer look.
+/// How areas of one style are drawn.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::technique::clipmap) struct FillStyle {
     /// What they are painted with.
@@ -68,87 +72,103 @@ pub(in crate::technique::clipmap) struct FillStyle {
     pub(in crate::technique::clipmap) rule: Rule,
 }
 
-/// The items of a layer.
+/// How items of one style are drawn.
 #[derive(Debug, Clone)]
-pub(in crate::technique::clipmap) struct LayerItems {
-    pub(super) first_item: u32,
-    pub(in crate::technique::clipmap) fill: Option<FillStyle>,
-    pub(in crate::technique::clipmap) outline: Option<StrokeStyle>,
-    pub(in crate::technique::clipmap) line: Option<StrokeStyle>,
+pub(in crate::technique::clipmap) enum Drawn {
+    Fill(FillStyle),
+    Stroke(StrokeStyle),
 }
 
-/// What an item is of its feature.
-#[derive(Debug, Clone, Copy)]
-pub(in crate::technique::clipmap) enum Role<'g> {
-    Fill(&'g FillStyle),
-    Stroke(&'g StrokeStyle),
+/// How items are drawn, by the numbers of their styles in the draw list.
+#[derive(Debug)]
+pub(in crate::technique::clipmap) struct Styles {
+    all: Vec<Drawn>,
+    /// The farthest that strokes of widths in metres reach from their vertices, metres, and those of widths in pixels, pixels; `None`
+    /// where there are no such.
+    reach: [Option<f64>; 2],
 }
 
-/// Items of a feature where polygons are drawn: its fill, its outline, its line, most of them empty.
-const OF_POLYGONS: u32 = 3;
-
-impl LayerItems {
-    /// The styles of all layers and the numbers of their items.
+impl Styles {
+    /// The styles of a draw list.
     ///
     /// # Errors
-    /// When there are too many features.
-    pub(super) fn of_layers(
-        layers: &[Layer],
-        settings: &Clipmap,
-        compositing: Compositing,
-    ) -> Result<Vec<Self>> {
+    /// When lines cannot be tessellated so.
+    pub(super) fn new(list: &DrawList, settings: &Settings, compositing: Compositing) -> Result<Self> {
         let compositor = Compositor::new(compositing);
-        let mut first_item = 0;
-        let mut items = Vec::new();
-        for layer in layers {
-            let stroke = |line: &Line, mode: OutlineMode| -> Result<StrokeStyle> {
-                Ok(StrokeStyle {
-                    tessellation: Tessellation::of_line(settings.joints, settings.angle_deg, line)?,
-                    width: line.width,
-                    ink: Ink::new(compositor.paint(line.color), compositing.mode),
-                    keep: Keep::of(settings.solution, line.width),
-                    mode,
-                    reach: 1.0,
-                })
-            };
-            let style = &layer.styles[0];
-            let fill = style.fill.map(|f| FillStyle {
-                ink: Ink::new(compositor.paint(f.color), compositing.mode),
-                rule: f.rule,
-            });
-            let of_layer = Self {
-                first_item: first_item as u32,
-                fill,
-                outline: style.outline.map(|o| stroke(&o.line, o.mode)).transpose()?,
-                line: style.line.map(|line| stroke(&line, OutlineMode::Normal)).transpose()?,
-            };
-            first_item += of_layer.per_feature() as usize * layer.features.len();
-            if first_item > MOST {
-                return Err(too_many("features"));
+        let stroke = |style: &ItemStyle, line: &Line, ink: Ink| -> Result<StrokeStyle> {
+            Ok(StrokeStyle {
+                tessellation: Tessellation::of_line(settings.joints, settings.angle_deg, line)?,
+                width: line.width,
+                ink,
+                keep: Keep::of(settings.solution, line.width),
+                cut: style.cut,
+                cut_rule: style.rule,
+                reach: 1.0,
+            })
+        };
+        let drawn = |style: &ItemStyle| {
+            let ink = Ink::new(compositor.paint(style.paint), compositing.mode);
+            match &style.stroke {
+                None => Ok(Drawn::Fill(FillStyle { ink, rule: style.rule })),
+                Some(line) => stroke(style, line, ink).map(Drawn::Stroke),
             }
-            items.push(of_layer);
+        };
+        let mut styles =
+            Self { all: list.styles().iter().map(drawn).collect::<Result<_>>()?, reach: [None; 2] };
+        styles.measure();
+        Ok(styles)
+    }
+
+    /// How items of a style are drawn.
+    #[inline]
+    pub(in crate::technique::clipmap) fn get(&self, style: u32) -> &Drawn {
+        &self.all[style as usize]
+    }
+
+    /// The farthest that strokes of widths in metres reach from their vertices, metres, and those of widths in pixels, pixels; `None`
+    /// where there are no such.
+    pub(in crate::technique::clipmap) fn reach(&self) -> [Option<f64>; 2] {
+        self.reach
+    }
+
+    /// Takes note of how far strokes of a style reach, in half widths.
+    pub(super) fn widen(&mut self, reaches: impl IntoIterator<Item = (u32, f64)>) {
+        for (style, reach) in reaches {
+            if let Drawn::Stroke(stroke) = &mut self.all[style as usize] {
+                stroke.reach = math::max(stroke.reach, reach);
+            }
         }
-        Ok(items)
+        self.measure();
     }
 
-    /// How many items a feature has.
-    fn per_feature(&self) -> u32 {
-        if self.fill.is_some() || self.outline.is_some() { OF_POLYGONS } else { 1 }
-    }
-
-    /// The items of a feature: its fill's, its outline's, its line's.
-    pub(super) fn items(&self, feature: usize) -> [u32; 3] {
-        let first = self.first_item + self.per_feature() * feature as u32;
-        [first, first + 1, first + self.per_feature() - 1]
-    }
-
-    /// What an item of the layer is.
-    pub(super) fn role(&self, item: u32) -> Option<Role<'_>> {
-        let per_feature = self.per_feature();
-        match (per_feature, (item - self.first_item) % per_feature) {
-            (OF_POLYGONS, 0) => self.fill.as_ref().map(Role::Fill),
-            (OF_POLYGONS, 1) => self.outline.as_ref().map(Role::Stroke),
-            _ => self.line.as_ref().map(Role::Stroke),
+    /// Changes all widths in metres by a factor.
+    pub(super) fn scale(&mut self, factor: f64) {
+        for stroke in self.all.iter_mut() {
+            if let Drawn::Stroke(StrokeStyle { width: Width::Metres(width), .. }) = stroke {
+                *width *= factor;
+            }
         }
+        self.measure();
+    }
+
+    /// The styles of strokes.
+    pub(super) fn strokes(&self) -> impl Iterator<Item = &StrokeStyle> {
+        self.all.iter().filter_map(|drawn| match drawn {
+            Drawn::Stroke(stroke) => Some(stroke),
+            Drawn::Fill(_) => None,
+        })
+    }
+
+    fn measure(&mut self) {
+        let mut reach = [None; 2];
+        for stroke in self.strokes() {
+            let (unit, width) = match stroke.width {
+                Width::Metres(width) => (0, width),
+                Width::Pixels(width) => (1, width),
+            };
+            let own = 0.5 * width * stroke.reach;
+            reach[unit] = Some(reach[unit].map_or(own, |known| math::max(known, own)));
+        }
+        self.reach = reach;
     }
 }

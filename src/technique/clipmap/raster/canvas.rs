@@ -3,7 +3,8 @@
 use super::rows::{ByRows, FOUR, RowCoverage, Runs};
 use super::weight::Weight;
 use crate::resolve::Paint;
-use crate::scene::{BlendMode, TexelFormat};
+use crate::scene::BlendMode;
+use crate::technique::clipmap::TexelFormat;
 use std::ops::Range;
 
 /// A paint as texels are blended with it.

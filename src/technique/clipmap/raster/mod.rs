@@ -25,8 +25,9 @@ mod winding;
 pub use canvas::Ink;
 
 use super::tessellation::Pair;
-use crate::scene::{LineFilter, LinePrimitives, Overlaps, PolygonRaster, Rule, TexelFormat};
+use crate::scene::Rule;
 use crate::space::Texel;
+use crate::technique::clipmap::{LineFilter, LinePrimitives, Overlaps, PolygonRaster, TexelFormat};
 use canvas::Canvas;
 use centres::Centres;
 use exact::{Accumulator, Rings};

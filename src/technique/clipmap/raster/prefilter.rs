@@ -5,7 +5,7 @@
 //! prefiltered lines" (GPU Gems 2, 22): of a line's two sides together it is one table for a width, of 32 entries, interpolated.
 
 use crate::math;
-use crate::scene::LineFilter;
+use crate::technique::clipmap::LineFilter;
 
 /// Entries of a table.
 const ENTRIES: usize = 32;

@@ -11,8 +11,9 @@ mod style;
 mod tests;
 
 use crate::error::{Error, Result};
-use crate::scene::{Cap, Join, Joints, Line, Width};
+use crate::scene::{Cap, Join, Line, Width};
 use crate::space::Plan;
+use crate::technique::clipmap::Joints;
 use glam::DVec2;
 use joint::Corner;
 

@@ -1,0 +1,57 @@
+//! What is said of a plane: its name, the space of its numbers, how it looks.
+
+/// A plane that can be asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PlaneKind {
+    /// Its name in the contract.
+    pub name: &'static str,
+    /// Whether it holds plan coordinates: scene-local in memory, absolute in files.
+    pub is_in_plan: bool,
+    /// Its picture.
+    pub look: Look,
+}
+
+/// How a plane's numbers become a picture for people.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Look {
+    /// Not at all: it is a table.
+    Table,
+    /// Grey, dark where least, by the logarithm where all are positive: depths.
+    Grey,
+    /// A colour for each of some things that have numbers: triangles, tiles.
+    Number,
+    /// How many there are: dark to light by the logarithm of count + 1.
+    Count,
+    /// N, P and F pixels (She 2016).
+    Class,
+    /// The level of a texture: a hue each, mixed between two of them.
+    Level,
+    /// Plan points, x in red and y in green, repeated. Of several points the middle counts.
+    Place,
+    /// Colours 0..=1 as themselves.
+    Color,
+    /// Code values as themselves.
+    CodeValues,
+}
+
+impl PlaneKind {
+    /// View depth in metres, +inf in the sky.
+    pub const DEPTH: Self = Self::new("depth", Look::Grey);
+    /// Numbers of triangles, `u32::MAX` in the sky.
+    pub const TRIANGLE: Self = Self::new("triangle", Look::Number);
+    /// Plan points.
+    pub const PLAN: Self = Self::new("plan", Look::Place).in_plan();
+    /// RGBA, straight alpha.
+    pub const COLOR: Self = Self::new("color", Look::Color);
+
+    /// A plane whose numbers are no plan coordinates.
+    pub const fn new(name: &'static str, look: Look) -> Self {
+        Self { name, is_in_plan: false, look }
+    }
+
+    /// The same of plan coordinates.
+    #[must_use]
+    pub const fn in_plan(self) -> Self {
+        Self { is_in_plan: true, ..self }
+    }
+}

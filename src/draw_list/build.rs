@@ -1,0 +1,200 @@
+//! Features -> items, block by block.
+
+use super::style::{StyleParts, StyleTable};
+use super::vertices::{Ends, add_distinct, are_distinct};
+use super::{Chain, DrawList, Item, ItemStyle};
+use crate::error::{Error, Result};
+use crate::parallel;
+use crate::scene::{Feature, Layer, Shape};
+use crate::space::Plan;
+use std::ops::Range;
+
+/// Features that are one piece of work.
+const FEATURES_AT_A_TIME: usize = 1024;
+
+/// Blocks that are in memory together.
+const BLOCKS_AT_A_TIME: usize = 16;
+
+/// The most items, chains and vertices: twice an item's number, and what lies behind a chain's end, can be numbered too.
+const MOST: usize = u32::MAX as usize / 2;
+
+/// A border of fewer vertices encloses nothing.
+const FEWEST_OF_A_BORDER: usize = 3;
+
+/// Some features of a layer, one after the other.
+struct Block {
+    layer: usize,
+    /// The first one's place in the layer.
+    first: usize,
+    features: Vec<Feature>,
+}
+
+/// The list of some layers, whose features it takes.
+pub(super) fn of_layers(layers: &mut [Layer]) -> Result<DrawList> {
+    let mut table = StyleTable::default();
+    let parts: Vec<Vec<StyleParts>> = layers.iter().map(|layer| table.parts_of(layer)).collect();
+    let features = layers.iter().flat_map(|layer| &layer.features);
+    let mut all = DrawList::default();
+    all.vertices.reserve_exact(features.map(|feature| vertices_of(&feature.shape)).sum());
+    let mut blocks = blocks(layers).into_iter();
+    loop {
+        // Not all at once: a block's features go when its list is made, its list when it is added.
+        let some: Vec<Block> = blocks.by_ref().take(BLOCKS_AT_A_TIME).collect();
+        if some.is_empty() {
+            break;
+        }
+        let made = parallel::map_owned(some, |block| made(&parts[block.layer], block));
+        made.into_iter().try_for_each(|block| all.append(block))?;
+    }
+    all.take_styles(&table.styles);
+    Ok(all)
+}
+
+/// The features of all layers, which then have none.
+fn blocks(layers: &mut [Layer]) -> Vec<Block> {
+    let mut blocks = Vec::new();
+    for (layer, of) in layers.iter_mut().enumerate() {
+        let count = of.features.len();
+        let mut features = std::mem::take(&mut of.features).into_iter();
+        for first in (0..count).step_by(FEATURES_AT_A_TIME) {
+            let features = features.by_ref().take(FEATURES_AT_A_TIME).collect();
+            blocks.push(Block { layer, first, features });
+        }
+    }
+    blocks
+}
+
+/// What a block becomes.
+fn made(parts: &[StyleParts], block: Block) -> DrawList {
+    let mut list = DrawList::default();
+    list.vertices.reserve_exact(block.features.iter().map(|feature| vertices_of(&feature.shape)).sum());
+    for (k, feature) in block.features.into_iter().enumerate() {
+        let item = Item {
+            layer: block.layer as u32,
+            feature: (block.first + k) as u32,
+            number: feature.index as u32,
+            style: 0,
+            area: 0..0,
+            strokes: 0..0,
+        };
+        let style = &parts[feature.style as usize];
+        match feature.shape {
+            Shape::Polygon(rings) => list.add_polygon(item, style, &rings),
+            Shape::Line(lines) => list.add_line(item, style, &lines),
+        }
+    }
+    list
+}
+
+/// How many vertices of a shape are held, if none is left out or held twice.
+fn vertices_of(shape: &Shape) -> usize {
+    let (Shape::Polygon(parts) | Shape::Line(parts)) = shape;
+    parts.iter().map(|part| part.len() + 1).sum()
+}
+
+/// Whether so many can be numbered.
+fn check(count: usize, what: &str) -> Result<()> {
+    if count <= MOST {
+        return Ok(());
+    }
+    Err(Error::new(format!("more {what} than this program can number")).help("give the terrain a `window`"))
+}
+
+impl DrawList {
+    fn add_line(&mut self, item: Item, style: &StyleParts, lines: &[Vec<Plan>]) {
+        let Some(style) = style.line else { return };
+        let first = self.chains.len();
+        for (part, line) in lines.iter().enumerate() {
+            self.add_stroke(part, line, Ends::AsWritten);
+        }
+        self.items.push(Item { style, strokes: self.chains_from(first), ..item });
+    }
+
+    fn add_polygon(&mut self, item: Item, style: &StyleParts, rings: &[Vec<Plan>]) {
+        let first = self.chains.len();
+        if style.fill.is_some() || style.is_cut {
+            self.add_borders(rings);
+        }
+        let area = self.chains_from(first);
+        if let Some(style) = style.fill {
+            self.items.push(Item { style, area: area.clone(), ..item.clone() });
+        }
+        let is_cut = style.is_cut;
+        let Some(style) = style.outline else { return };
+        let strokes = self.add_outline(rings, &area);
+        let area = if is_cut { area } else { 0..0 };
+        self.items.push(Item { style, area, strokes, ..item });
+    }
+
+    fn add_borders(&mut self, rings: &[Vec<Plan>]) {
+        let rings = rings.iter().enumerate().filter(|(_, ring)| ring.len() >= FEWEST_OF_A_BORDER);
+        for (part, ring) in rings {
+            let first = self.vertices.len() as u32;
+            self.vertices.extend(ring);
+            self.vertices.push(ring[0]);
+            let (count, part) = (ring.len() as u32, part as u32);
+            self.chains.push(Chain { first, count, part, is_closed: true });
+        }
+    }
+
+    /// Adds the strokes along rings: along those of the area where their vertices are distinct.
+    fn add_outline(&mut self, rings: &[Vec<Plan>], area: &Range<u32>) -> Range<u32> {
+        let first = self.chains.len();
+        let mut borders = area.clone();
+        for (part, ring) in rings.iter().enumerate() {
+            let own = if ring.len() >= FEWEST_OF_A_BORDER { borders.next() } else { None };
+            match own.filter(|_| are_distinct(ring)) {
+                Some(border) => self.chains.push(self.chains[border as usize]),
+                None => self.add_stroke(part, ring, Ends::Joined),
+            }
+        }
+        if self.chains[first..] == self.chains[area.start as usize..area.end as usize] {
+            self.chains.truncate(first);
+            return area.clone();
+        }
+        self.chains_from(first)
+    }
+
+    fn add_stroke(&mut self, part: usize, points: &[Plan], ends: Ends) {
+        if !points.is_empty() {
+            let first = self.vertices.len() as u32;
+            let (count, is_closed) = add_distinct(points, ends, &mut self.vertices);
+            self.chains.push(Chain { first, count, part: part as u32, is_closed });
+        }
+    }
+
+    /// Takes those of some styles that items have, in the order of the items.
+    fn take_styles(&mut self, styles: &[ItemStyle]) {
+        let mut numbers = vec![None; styles.len()];
+        for item in &mut self.items {
+            let number = &mut numbers[item.style as usize];
+            item.style = *number.get_or_insert_with(|| {
+                self.styles.push(styles[item.style as usize]);
+                self.styles.len() as u32 - 1
+            });
+        }
+    }
+
+    fn chains_from(&self, first: usize) -> Range<u32> {
+        first as u32..self.chains.len() as u32
+    }
+
+    /// Adds a block after these.
+    fn append(&mut self, block: Self) -> Result<()> {
+        check(self.items.len() + block.items.len(), "features")?;
+        check(self.chains.len() + block.chains.len(), "lines and rings")?;
+        check(self.vertices.len() + block.vertices.len(), "vertices")?;
+        let (chains, vertices) = (self.chains.len() as u32, self.vertices.len() as u32);
+        let moved = |range: &Range<u32>| range.start + chains..range.end + chains;
+        let items = block.items.into_iter();
+        self.items.extend(items.map(|item| Item {
+            area: moved(&item.area),
+            strokes: moved(&item.strokes),
+            ..item
+        }));
+        let chain = |chain: Chain| Chain { first: chain.first + vertices, ..chain };
+        self.chains.extend(block.chains.into_iter().map(chain));
+        self.vertices.extend(block.vertices);
+        Ok(())
+    }
+}

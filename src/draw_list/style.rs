@@ -1,0 +1,128 @@
+//! How items look: the styles of layers, taken apart.
+
+use crate::scene::{Cap, Color, Join, Layer, Line, OutlineMode, Rule, Style, Width};
+use std::collections::BTreeMap;
+
+/// What an item is of its feature.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Role {
+    /// The inside of a polygon.
+    Fill,
+    /// The border of a polygon.
+    Outline,
+    /// A line.
+    Line,
+}
+
+/// A side of a polygon's border.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Side {
+    /// The points in the polygon.
+    Inside,
+    /// Those out of it.
+    Outside,
+}
+
+/// How an item looks.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ItemStyle {
+    /// What it is of its feature.
+    pub role: Role,
+    /// What it is painted with; the alpha has already been multiplied by the opacity.
+    pub paint: Color,
+    /// Which windings of its area's border are inside.
+    pub rule: Rule,
+    /// Of which side of its area's border its stroke counts; all of it where there is no such side.
+    pub cut: Option<Side>,
+    /// How its stroke is drawn; a fill has none.
+    pub stroke: Option<Line>,
+}
+
+impl ItemStyle {
+    /// Numbers that two styles share only if they are equal.
+    fn key(&self) -> [u64; 9] {
+        let [r, g, b, a] = self.paint.0.map(f64::to_bits);
+        let line = self.stroke.map_or([0; 3], |line| {
+            let (unit, width) = match line.width {
+                Width::Metres(width) => (1, width),
+                Width::Pixels(width) => (2, width),
+            };
+            let (join, limit) = match line.join {
+                Join::Round => (0, 0.0),
+                Join::Bevel => (1, 0.0),
+                Join::Miter { limit } => (2, limit),
+            };
+            let cap = match line.cap {
+                Cap::Butt => 0,
+                Cap::Square => 1,
+                Cap::Round => 2,
+            };
+            [width.to_bits(), limit.to_bits(), unit + 4 * join + 16 * cap]
+        });
+        let words = [self.role as u64, self.rule as u64, self.cut.map_or(0, |side| 1 + side as u64)];
+        [r, g, b, a, line[0], line[1], line[2], words[0], words[1] + 4 * words[2]]
+    }
+}
+
+/// The numbers of what a layer's style is taken apart into.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct StyleParts {
+    pub(super) fill: Option<u32>,
+    pub(super) outline: Option<u32>,
+    /// Whether the outline is cut to its polygon.
+    pub(super) is_cut: bool,
+    pub(super) line: Option<u32>,
+}
+
+/// Styles of items, each once.
+#[derive(Debug, Default)]
+pub(super) struct StyleTable {
+    pub(super) styles: Vec<ItemStyle>,
+    numbers: BTreeMap<[u64; 9], u32>,
+}
+
+impl StyleTable {
+    /// Takes the styles of a layer apart.
+    pub(super) fn parts_of(&mut self, layer: &Layer) -> Vec<StyleParts> {
+        layer.styles.iter().map(|style| self.parts(style)).collect()
+    }
+
+    fn parts(&mut self, style: &Style) -> StyleParts {
+        let rule = style.fill.map_or(Rule::EvenOdd, |fill| fill.rule);
+        let stroked = |role: Role, line: Line, cut: Option<Side>| {
+            let rule = if cut.is_some() { rule } else { Rule::EvenOdd };
+            ItemStyle { role, paint: line.color, rule, cut, stroke: Some(line) }
+        };
+        let fill = style.fill.map(|fill| ItemStyle {
+            role: Role::Fill,
+            paint: fill.color,
+            rule,
+            cut: None,
+            stroke: None,
+        });
+        let outline = style.outline.map(|outline| {
+            let cut = match outline.mode {
+                OutlineMode::Inset => Some(Side::Inside),
+                OutlineMode::Normal => None,
+                OutlineMode::Offset => Some(Side::Outside),
+            };
+            stroked(Role::Outline, outline.line, cut)
+        });
+        let line = style.line.map(|line| stroked(Role::Line, line, None));
+        StyleParts {
+            is_cut: outline.is_some_and(|outline| outline.cut.is_some()),
+            fill: fill.map(|style| self.number(style)),
+            outline: outline.map(|style| self.number(style)),
+            line: line.map(|style| self.number(style)),
+        }
+    }
+
+    fn number(&mut self, style: ItemStyle) -> u32 {
+        let fresh = self.styles.len() as u32;
+        let number = *self.numbers.entry(style.key()).or_insert(fresh);
+        if number == fresh {
+            self.styles.push(style);
+        }
+        number
+    }
+}

@@ -1,0 +1,192 @@
+//! The tables of layers.
+
+use super::{data_file, rectangle, stem};
+use crate::error::Result;
+use crate::scene::{Cap, Color, Fill, Join, Line, Outline, Shape, Style, Width};
+use crate::scene_file::names::{JoinName, VectorName};
+use crate::scene_file::section::{Section, Taken};
+use crate::scene_file::spec::{LayerSource, LayerSpec, VectorGenerator, VectorKind};
+use crate::space::Plan;
+use glam::DVec2;
+use std::path::Path;
+
+/// The most generated polygons.
+const MOST_POLYGONS: usize = 1_000_000;
+
+pub(super) fn layers(root: &mut Section<'_>) -> Result<Vec<LayerSpec>> {
+    let mut layers: Vec<LayerSpec> = Vec::new();
+    for node in root.tables("layer")?.unwrap_or_default() {
+        let place = node.place.clone();
+        let index = layers.len();
+        let layer = Section::read(root.origin(), node, |section| layer(section, index))?;
+        if layers.iter().any(|earlier| earlier.name == layer.name) {
+            let what = format!("two layers are called `{}`", layer.name);
+            return Err(root.error_at(&place, what).help("give each a `name` of its own"));
+        }
+        layers.push(layer);
+    }
+    Ok(layers)
+}
+
+fn layer(section: &mut Section<'_>, index: usize) -> Result<LayerSpec> {
+    let name = section.text("name")?;
+    let source = source(section)?;
+    let default = match &source {
+        LayerSource::File { file, layer } => default_name(Some(&file.written), layer.as_deref(), index),
+        _ => default_name(None, None, index),
+    };
+    Ok(LayerSpec {
+        name: name.unwrap_or(default),
+        source,
+        crs: section.text("crs")?,
+        offset: section.numbers("offset")?.map_or(DVec2::ZERO, DVec2::from_array),
+        style: style(section)?,
+    })
+}
+
+/// The name of a layer that states none.
+pub(in crate::scene_file) fn default_name(source: Option<&str>, layer: Option<&str>, index: usize) -> String {
+    let otherwise = || format!("layer-{index}");
+    match (source, layer) {
+        (Some(_), Some(layer)) => layer.into(),
+        (Some(source), None) => stem(Some(Path::new(source)), &otherwise()),
+        (None, _) => otherwise(),
+    }
+}
+
+fn source(section: &mut Section<'_>) -> Result<LayerSource> {
+    if let Some(taken) = section.text_at("source")? {
+        let file = data_file(section.origin(), taken);
+        return Ok(LayerSource::File { file, layer: section.text("layer")? });
+    }
+    if let Some((key, place)) = section.first_of(&["layer", "crs"]) {
+        return Err(section.error_at(place, format!("`{key}` goes with a layer's `source` only")));
+    }
+    if let Some(features) = section.tables("features")? {
+        let shape = |node| Section::read(section.origin(), node, inline);
+        return features.into_iter().map(shape).collect::<Result<_>>().map(LayerSource::Inline);
+    }
+    let node = section.take_or_empty("generate");
+    Section::read(section.origin(), node, generator).map(LayerSource::Generate)
+}
+
+/// A feature that is written in the scene file.
+fn inline(section: &mut Section<'_>) -> Result<Shape> {
+    if let Some(rings) = section.paths("polygon")? {
+        return Ok(Shape::Polygon(rings.into_iter().map(open).collect()));
+    }
+    Ok(Shape::Line(section.paths("line")?.unwrap_or_default()))
+}
+
+/// A ring without its closing vertex.
+fn open(mut ring: Vec<Plan>) -> Vec<Plan> {
+    if ring.len() > 1 && ring.first() == ring.last() {
+        ring.pop();
+    }
+    ring
+}
+
+fn generator(section: &mut Section<'_>) -> Result<VectorGenerator> {
+    let name = section.name("kind")?.unwrap_or(VectorName::Roads);
+    let foreign: &[(&[&str], &str)] = match name {
+        VectorName::Roads | VectorName::Paths => &[(&["class", "holes"], "kind = \"mosaic\" only")],
+        VectorName::Mosaic => &[(&["segment_m"], "kind = \"roads\" or \"paths\" only")],
+        VectorName::Parcels => &[
+            (&["class", "holes"], "kind = \"mosaic\" only"),
+            (&["segment_m"], "kind = \"roads\" or \"paths\" only"),
+        ],
+    };
+    for (keys, with) in foreign {
+        if let Some((key, place)) = section.first_of(keys) {
+            return Err(section.error_at(place, format!("`{key}` goes with {with}")));
+        }
+    }
+    let kind = match name {
+        VectorName::Roads => VectorKind::Roads { segment_m: section.number("segment_m")? },
+        VectorName::Paths => VectorKind::Paths { segment_m: section.number("segment_m")? },
+        VectorName::Parcels => VectorKind::Parcels,
+        VectorName::Mosaic => {
+            VectorKind::Mosaic { class: class(section)?, holes: section.number("holes")?.unwrap_or(0.1) }
+        }
+    };
+    Ok(VectorGenerator {
+        kind,
+        seed: section.integer("seed")?.unwrap_or(1),
+        count: count(section, name)?,
+        window: rectangle(section, "window")?,
+    })
+}
+
+/// Polygons have many vertices each: fewer of them fit into memory than segments of roads.
+fn count(section: &mut Section<'_>, name: VectorName) -> Result<usize> {
+    match section.integer_at("count")? {
+        Some(Taken { value, place })
+            if matches!(name, VectorName::Mosaic | VectorName::Parcels) && value > MOST_POLYGONS =>
+        {
+            let what = if name == VectorName::Mosaic { "a mosaic has" } else { "there are" };
+            Err(section.error_at(&place, format!("{what} at most {MOST_POLYGONS} polygons")))
+        }
+        taken => Ok(taken.map_or(1000, |taken| taken.value)),
+    }
+}
+
+fn class(section: &mut Section<'_>) -> Result<Option<(u32, u32)>> {
+    match section.integers_at("class")? {
+        Some(Taken { value: [class, of], place }) if class >= of => {
+            Err(section.error_at(&place, format!("class {class} of {of}: classes are counted from 0")))
+        }
+        taken => Ok(taken.map(|taken| (taken.value[0] as u32, taken.value[1] as u32))),
+    }
+}
+
+fn style(section: &mut Section<'_>) -> Result<Style> {
+    let origin = section.origin();
+    Ok(Style {
+        fill: section.take("fill").map(|node| Section::read(origin, node, fill)).transpose()?,
+        outline: section.take("outline").map(|node| Section::read(origin, node, outline)).transpose()?,
+        line: section.take("line").map(|node| Section::read(origin, node, line)).transpose()?,
+    })
+}
+
+fn fill(section: &mut Section<'_>) -> Result<Fill> {
+    Ok(Fill { color: color(section)?, rule: section.name("rule")?.unwrap_or_default() })
+}
+
+fn outline(section: &mut Section<'_>) -> Result<Outline> {
+    let line = Line { color: color(section)?, width: width(section)?, join: join(section)?, cap: Cap::Butt };
+    Ok(Outline { line, mode: section.name("mode")?.unwrap_or_default() })
+}
+
+fn line(section: &mut Section<'_>) -> Result<Line> {
+    Ok(Line {
+        color: color(section)?,
+        width: width(section)?,
+        join: join(section)?,
+        cap: section.name("cap")?.unwrap_or_default(),
+    })
+}
+
+fn color(section: &mut Section<'_>) -> Result<Color> {
+    let opacity = section.number("opacity")?.unwrap_or(1.0);
+    Ok(section.color("color")?.unwrap_or(Color([0.0, 0.0, 0.0, 1.0])).with_opacity(opacity))
+}
+
+fn width(section: &mut Section<'_>) -> Result<Width> {
+    let metres = section.number("width_m")?;
+    let pixels = section.number("width_px")?;
+    Ok(pixels.map_or(Width::Metres(metres.unwrap_or(1.0)), Width::Pixels))
+}
+
+fn join(section: &mut Section<'_>) -> Result<Join> {
+    let name = section.name("join")?.unwrap_or(JoinName::Round);
+    if name != JoinName::Miter
+        && let Some((key, place)) = section.first_of(&["miter_limit"])
+    {
+        return Err(section.error_at(place, format!("`{key}` goes with join = \"miter\" only")));
+    }
+    Ok(match name {
+        JoinName::Round => Join::Round,
+        JoinName::Bevel => Join::Bevel,
+        JoinName::Miter => Join::Miter { limit: section.number("miter_limit")?.unwrap_or(4.0) },
+    })
+}

@@ -1,0 +1,118 @@
+//! The keys of a layer.
+
+use super::{POSITIVE, SEED, SHARE};
+use crate::parameter::{Range, Rule as Keys, Shape, TableShape, choice, key};
+use crate::scene::{Cap, OutlineMode, Rule};
+use crate::scene_file::names::{JoinName, VectorName};
+
+pub(super) static LAYER: TableShape = TableShape {
+    keys: &[
+        key("name", Shape::Text, "The layer's name. Default: the file's name without its extension."),
+        key(
+            "source",
+            Shape::Text,
+            "A vector file: .geojson .json .shp .fgb .gpkg. Relative to the scene file.",
+        ),
+        key("features", Shape::Tables(&FEATURE), "Features written here, in plan coordinates."),
+        key("generate", Shape::Table(&GENERATE_LAYER), "Features by a generator."),
+        key("layer", Shape::Text, "Which layer of a file that has several (GeoPackage)."),
+        key("crs", Shape::Text, "The CRS of the data, over what the file says."),
+        key(
+            "offset",
+            Shape::Numbers(2),
+            "Moves the layer in plan space: [dx, dy] in metres. Default: [0, 0].",
+        ),
+        key("fill", Shape::Table(&FILL), "The inside of polygons."),
+        key("outline", Shape::Table(&OUTLINE), "The border of polygons, over the fill."),
+        key("line", Shape::Table(&LINE), "Lines."),
+    ],
+    rules: &[Keys::One(&["source", "features", "generate"]), Keys::Some(&["fill", "outline", "line"])],
+};
+
+static FEATURE: TableShape = TableShape {
+    keys: &[
+        key(
+            "polygon",
+            Shape::Paths,
+            "One ring [[x, y], ...] or several (the layer's rule says what is inside).",
+        ),
+        key("line", Shape::Paths, "One polyline [[x, y], ...] or several."),
+    ],
+    rules: &[Keys::One(&["polygon", "line"])],
+};
+
+static GENERATE_LAYER: TableShape = TableShape {
+    keys: &[
+        key("kind", choice::<VectorName>(), "What is made.").required(),
+        key("seed", SEED, "Picks the shapes. Default: 1."),
+        key(
+            "count",
+            Shape::Integer(1, 30_000_000),
+            "How many segments (roads, paths) or polygons (parcels; mosaic, of all classes; at most 10^6). Default: 1000.",
+        ),
+        key(
+            "window",
+            Shape::Numbers(4),
+            "The rectangle [x0, y0, x1, y1] of the plan to fill. Default: the terrain's.",
+        ),
+        key(
+            "segment_m",
+            POSITIVE,
+            "roads, paths: the length of a segment. Default: a 200th, a 5000th of the window's longer side.",
+        ),
+        key(
+            "class",
+            Shape::Integers(2, 0, 1000),
+            "mosaic: [k, n]: only class k (from 0) of n classes. Default: all.",
+        ),
+        key("holes", SHARE, "mosaic: the share of polygons with a lake as a hole. Default: 0.1."),
+    ],
+    rules: &[],
+};
+
+static FILL: TableShape = TableShape {
+    keys: &[
+        key("color", Shape::Color, "The colour.").required(),
+        key("opacity", SHARE, "Multiplies the colour's alpha. Default: 1."),
+        key("rule", choice::<Rule>(), "What rings enclose. Default: \"even-odd\"."),
+    ],
+    rules: &[],
+};
+
+static OUTLINE: TableShape = TableShape {
+    keys: &[
+        key("color", Shape::Color, "The colour.").required(),
+        key("opacity", SHARE, "Multiplies the colour's alpha. Default: 1."),
+        key("width_m", POSITIVE, "The whole width in metres of the plan."),
+        key("width_px", POSITIVE, "The whole width in pixels of the screen."),
+        key(
+            "mode",
+            choice::<OutlineMode>(),
+            "Which side of the border is drawn. Default: \"normal\" (both).",
+        ),
+        key("join", choice::<JoinName>(), "How segments meet. Default: \"round\"."),
+        key(
+            "miter_limit",
+            Shape::Number(Range::FromOne),
+            "join = \"miter\": the largest ratio of miter length to width. Default: 4.",
+        ),
+    ],
+    rules: &[Keys::One(&["width_m", "width_px"])],
+};
+
+static LINE: TableShape = TableShape {
+    keys: &[
+        key("color", Shape::Color, "The colour.").required(),
+        key("opacity", SHARE, "Multiplies the colour's alpha. Default: 1."),
+        key("width_m", POSITIVE, "The whole width in metres of the plan (static)."),
+        key("width_px", POSITIVE, "The whole width in pixels of the screen (dynamic)."),
+        key("join", choice::<JoinName>(), "How segments meet. Default: \"round\"."),
+        key(
+            "miter_limit",
+            Shape::Number(Range::FromOne),
+            "join = \"miter\": the largest ratio of miter length to width. Default: 4.",
+        ),
+        key("cap", choice::<Cap>(), "How the line ends. Default: \"butt\"."),
+    ],
+    rules: &[Keys::One(&["width_m", "width_px"])],
+};

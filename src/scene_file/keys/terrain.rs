@@ -1,0 +1,88 @@
+//! The keys of the terrain.
+
+use super::{POSITIVE, SEED};
+use crate::parameter::{Range, Rule as Keys, Shape, TableShape, choice, key};
+use crate::scene::Diagonal;
+use crate::scene_file::names::{ShadeName, TerrainName};
+use crate::scene_file::spec::HeightEncoding;
+
+pub(super) static TERRAIN: TableShape = TableShape {
+    keys: &[
+        key("source", Shape::Text, "A height file: .tif .hgt .asc .png .xyz. Relative to the scene file."),
+        key("generate", Shape::Table(&GENERATE_TERRAIN), "Heights by a formula instead."),
+        key(
+            "window",
+            Shape::Numbers(4),
+            "Read only this part: [x0, y0, x1, y1] in the file's own coordinates.",
+        ),
+        key(
+            "offset",
+            Shape::PairOrTriple,
+            "Moves the data in plan space, and up: [dx, dy] or [dx, dy, dz] in metres. Default: [0, 0, 0].",
+        ),
+        key("crs", Shape::Text, "The CRS of the data, over what the file says."),
+        key(
+            "bounds",
+            Shape::Numbers(4),
+            "The rectangle [x0, y0, x1, y1] that the data covers, for a file that does not say it (PNG).",
+        ),
+        key("encoding", choice::<HeightEncoding>(), "How a PNG encodes heights."),
+        key("diagonal", choice::<Diagonal>(), "How cells are split. Default: \"sw-ne\"."),
+        key(
+            "vertical_scale",
+            Shape::Number(Range::NotNegative),
+            "Heights are multiplied by this. Default: 1.",
+        ),
+        key("color", Shape::Color, "The ground's colour. Default: \"#c8b89a\"."),
+        key(
+            "shade",
+            choice::<ShadeName>(),
+            "\"hillshade\": the colour lit from the north-west. Default: \"flat\".",
+        ),
+        key("imagery", Shape::Text, "An image over the terrain's rectangle instead of a colour."),
+    ],
+    rules: &[
+        Keys::One(&["source", "generate"]),
+        Keys::AtMostOne(&["imagery", "color"]),
+        Keys::AtMostOne(&["imagery", "shade"]),
+    ],
+};
+
+static GENERATE_TERRAIN: TableShape = TableShape {
+    keys: &[
+        key("kind", choice::<TerrainName>(), "The formula.").required(),
+        key(
+            "posts",
+            Shape::Integers(2, 2, 32768),
+            "Posts from west to east and from south to north, at most 2^28 in all. Default: [257, 257].",
+        ),
+        key("cell_m", POSITIVE, "The distance of neighbouring posts. Default: 30."),
+        key(
+            "height_m",
+            Shape::Number(Range::Finite),
+            "The height of the highest forms; of the plane; of the southern edge of a ramp. Default: 500, plane and ramp 0.",
+        ),
+        key(
+            "slope_deg",
+            Shape::Number(Range::Between(-90.0, 90.0)),
+            "ramp: its angle, rising to the north. Default: 10.",
+        ),
+        key(
+            "wavelength_m",
+            POSITIVE,
+            "sine: from crest to crest; fbm: the size of the largest forms. Default: a quarter and a half of the longer side.",
+        ),
+        key(
+            "radius_m",
+            POSITIVE,
+            "cone: the radius of its foot; tent: from the ridge to its foot. Default: a quarter of the shorter side.",
+        ),
+        key("seed", SEED, "fbm: picks the mountains. Default: 1."),
+        key(
+            "octaves",
+            Shape::Integer(1, 16),
+            "fbm: how many times the noise is added at half the size. Default: 9.",
+        ),
+    ],
+    rules: &[],
+};
