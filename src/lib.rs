@@ -37,7 +37,7 @@
 //!
 //! Internals, public for the tests and benches of this repository, which may change in any version: [`crs`], [`source`] (files become
 //! scenes), [`draw_list`] (what is painted), [`parameter`] (what is declared of settings), [`terrain`] (a mesh with bounding boxes of heights), [`raster`] and [`visibility`] (which triangle each sample sees, exactly),
-//! [`resolve`] (colours are composed), [`sampling`] (plain supersampling), [`math`]; and what is not public at all.
+//! [`resolve`] (colours are composed), [`index`], [`tiling`] and [`canvas`] (what frames are made of), [`certainty`] (how doubt composes), [`sampling`] (plain supersampling), [`math`]; and what is not public at all.
 //!
 //! # Features
 //!
@@ -47,6 +47,10 @@
 #![cfg_attr(not(test), warn(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
 pub mod buffer;
+#[cfg(feature = "render")]
+pub mod canvas;
+#[cfg(feature = "render")]
+pub mod certainty;
 pub mod compare;
 #[cfg(feature = "render")]
 pub mod crs;
@@ -59,6 +63,8 @@ pub mod export;
 pub(crate) mod footprint;
 #[cfg(feature = "render")]
 pub mod golden;
+#[cfg(feature = "render")]
+pub mod index;
 #[cfg(feature = "render")]
 pub(crate) mod interval;
 pub mod math;
@@ -95,6 +101,8 @@ pub mod stage;
 pub mod technique;
 #[cfg(feature = "render")]
 pub mod terrain;
+#[cfg(feature = "render")]
+pub mod tiling;
 #[cfg(feature = "render")]
 pub mod truth;
 #[cfg(feature = "render")]

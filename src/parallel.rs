@@ -5,6 +5,7 @@
 
 use crate::error::{Error, Result};
 use rayon::prelude::*;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// `f` of every item, in the order of the items.
 pub fn map<T: Sync, U: Send>(items: &[T], f: impl Fn(&T) -> U + Send + Sync) -> Vec<U> {
@@ -19,6 +20,40 @@ pub fn map_owned<T: Send, U: Send>(items: Vec<T>, f: impl Fn(T) -> U + Send + Sy
 /// `f` of every index below `n`, in order.
 pub fn map_indices<U: Send>(n: usize, f: impl Fn(usize) -> U + Send + Sync) -> Vec<U> {
     (0..n).into_par_iter().map(f).collect()
+}
+
+/// `f` of every index below `n`, in order; `tell` is called with the share that is done (0..=1) after each, from any thread.
+pub fn map_telling<U: Send>(
+    n: usize,
+    tell: &(dyn Fn(f64) + Sync),
+    f: impl Fn(usize) -> U + Send + Sync,
+) -> Vec<U> {
+    let progress = Progress::new(n, tell);
+    map_indices(n, |k| {
+        let made = f(k);
+        progress.step();
+        made
+    })
+}
+
+/// Counts pieces of work as they are done, from any thread.
+pub struct Progress<'a> {
+    pieces: usize,
+    tell: &'a (dyn Fn(f64) + Sync),
+    done: AtomicUsize,
+}
+
+impl<'a> Progress<'a> {
+    /// Nothing is done of so many pieces; `tell` is to be called with the share that is done (0..=1).
+    pub fn new(pieces: usize, tell: &'a (dyn Fn(f64) + Sync)) -> Self {
+        Self { pieces, tell, done: AtomicUsize::new(0) }
+    }
+
+    /// A piece more is done.
+    pub fn step(&self) {
+        let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
+        (self.tell)(done as f64 / self.pieces as f64);
+    }
 }
 
 /// `f` of every item, in the order of the items, with something of its own for each thread at work, which no result depends on.
@@ -64,4 +99,20 @@ pub fn with_threads<U: Send>(threads: usize, f: impl FnOnce() -> U + Send) -> Re
             .help("use a smaller --threads")
     })?;
     Ok(pool.install(f))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::Mutex;
+
+    #[test]
+    fn progress_is_told_once_a_piece_and_ends_with_all() {
+        let told = Mutex::new(Vec::new());
+        let squares = map_telling(5, &|share| told.lock().unwrap().push(share), |k| k * k);
+        assert_eq!(squares, [0, 1, 4, 9, 16]);
+        let mut told = told.into_inner().unwrap();
+        told.sort_by(f64::total_cmp);
+        assert_eq!(told, [0.2, 0.4, 0.6, 0.8, 1.0]);
+    }
 }

@@ -10,23 +10,32 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("math", &[]),
     ("buffer", &[]),
     ("parallel", &[]),
+    ("tiling", &[]),
     ("space", &[]),
     ("predicate", &["space"]),
+    ("index", &["space", "parallel", "tiling"]),
     ("crs", &["space"]),
     ("parameter", &[]),
     ("scene", &["space", "parameter", "buffer"]),
     // The techniques for their declarations.
     ("scene_file", &["technique", "scene", "space", "parameter"]),
     ("source", &["scene_file", "scene", "space", "crs", "buffer", "parallel"]),
-    ("terrain", &["scene", "space", "parallel"]),
+    ("terrain", &["scene", "space", "index", "parallel"]),
     ("draw_list", &["scene", "space", "parallel"]),
     ("stage", &["draw_list", "terrain", "scene", "space"]),
     ("raster", &["terrain", "scene", "space", "predicate", "parallel"]),
-    ("visibility", &["raster", "terrain", "scene", "space", "predicate", "parallel", "buffer"]),
+    (
+        "visibility",
+        &["raster", "terrain", "scene", "space", "predicate", "index", "tiling", "parallel", "buffer"],
+    ),
     ("resolve", &["terrain", "scene", "space", "buffer"]),
+    // How uncertainty composes, not who decides: judges and what they judge may share it.
+    ("certainty", &["resolve", "scene"]),
+    ("canvas", &["visibility", "resolve", "raster", "terrain", "scene", "space", "parallel", "buffer"]),
     (
         "technique",
         &[
+            "canvas",
             "visibility",
             "resolve",
             "raster",
@@ -36,6 +45,8 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "scene",
             "space",
             "predicate",
+            "index",
+            "tiling",
             "parallel",
             "parameter",
             "buffer",
@@ -43,13 +54,14 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ),
     ("output", &["buffer"]),
     ("interval", &[]),
-    ("footprint", &["draw_list", "terrain", "scene", "space", "interval", "predicate", "parallel"]),
-    // No technique, and nothing that decides for one: neither `raster` nor `visibility`.
+    ("footprint", &["draw_list", "terrain", "scene", "space", "interval", "predicate", "index", "parallel"]),
+    // No technique, and nothing that decides for one: neither `raster`, `visibility` nor `canvas`.
     (
         "truth",
         &[
             "footprint",
             "interval",
+            "certainty",
             "resolve",
             "stage",
             "draw_list",
@@ -57,6 +69,8 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "scene",
             "space",
             "predicate",
+            "index",
+            "tiling",
             "parallel",
             "buffer",
         ],
@@ -82,6 +96,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     (
         "sampling",
         &[
+            "canvas",
             "visibility",
             "footprint",
             "resolve",
@@ -91,6 +106,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "terrain",
             "scene",
             "space",
+            "tiling",
             "parallel",
             "buffer",
         ],

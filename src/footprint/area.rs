@@ -1,6 +1,7 @@
 //! Exact winding numbers of a polygon, by buckets of its height.
 
 use crate::draw_list::{DrawList, Item};
+use crate::index::CellLists;
 use crate::predicate::orient2d;
 use crate::space::{Plan, PlanBox};
 use std::ops::Range;
@@ -11,11 +12,33 @@ const EDGES_A_BUCKET: usize = 4;
 /// A polygon's edges, sorted into buckets of y.
 #[derive(Debug)]
 pub(super) struct Area {
+    heights: Heights,
     bounds: PlanBox,
-    /// Where each bucket begins in `edges`, and where the last ends.
-    starts: Vec<u32>,
-    /// The first points of edges.
-    edges: Vec<u32>,
+    /// The first points of edges, by bucket.
+    edges: CellLists<u32>,
+}
+
+/// A range of y cut into buckets.
+#[derive(Debug, Clone, Copy)]
+struct Heights {
+    low: f64,
+    high: f64,
+    buckets: usize,
+}
+
+impl Heights {
+    /// The bucket of a height: it never falls as the height grows, so that an edge is in each bucket it crosses.
+    fn bucket(&self, y: f64) -> usize {
+        // The cast saturates: NaN (no height at all) and what is below are 0.
+        (((y - self.low) / (self.high - self.low) * self.buckets as f64) as usize).min(self.buckets - 1)
+    }
+
+    /// The buckets that the edge from a point meets.
+    fn buckets_of(&self, points: &[Plan], k: u32) -> Range<usize> {
+        let (a, b) = (points[k as usize].y, points[k as usize + 1].y);
+        let (low, high) = if a < b { (a, b) } else { (b, a) };
+        self.bucket(low)..self.bucket(high) + 1
+    }
 }
 
 impl Area {
@@ -25,54 +48,19 @@ impl Area {
         let vertices = || list.area(item).iter().flat_map(|ring| ring.first..ring.first + ring.count);
         let bounds = PlanBox::around(vertices().map(|k| points[k as usize]));
         let count = vertices().count();
-        let mut buckets = (count / EDGES_A_BUCKET).max(1);
-        loop {
-            let area = Self { bounds, starts: vec![0; buckets + 1], edges: Vec::new() };
-            let entries: usize = vertices().map(|k| area.buckets_of(points, k).count()).sum();
-            // Long edges lie in many buckets: fewer buckets keep the whole linear in the number of edges.
-            if entries <= 4 * count || buckets == 1 {
-                return area.filled(points, vertices, entries);
+        let buckets = (count / EDGES_A_BUCKET).max(1);
+        let mut heights = Heights { low: bounds.min.y, high: bounds.max.y, buckets };
+        // Long edges lie in many buckets: fewer buckets keep the whole linear in the number of edges.
+        let entries = |heights: &Heights| vertices().map(|k| heights.buckets_of(points, k).len()).sum();
+        while heights.buckets > 1 && 4 * count < entries(&heights) {
+            heights.buckets /= 2;
+        }
+        let edges = CellLists::new(heights.buckets, |edges| {
+            for k in vertices() {
+                heights.buckets_of(points, k).for_each(|bucket| edges.put(bucket, k));
             }
-            buckets /= 2;
-        }
-    }
-
-    fn filled<I: Iterator<Item = u32>>(
-        mut self,
-        points: &[Plan],
-        vertices: impl Fn() -> I,
-        entries: usize,
-    ) -> Self {
-        for k in vertices() {
-            self.buckets_of(points, k).for_each(|b| self.starts[b + 1] += 1);
-        }
-        for b in 1..self.starts.len() {
-            self.starts[b] += self.starts[b - 1];
-        }
-        let mut next = self.starts.clone();
-        self.edges = vec![0; entries];
-        for k in vertices() {
-            for b in self.buckets_of(points, k) {
-                self.edges[next[b] as usize] = k;
-                next[b] += 1;
-            }
-        }
-        self
-    }
-
-    /// The buckets that the edge from a point meets.
-    fn buckets_of(&self, points: &[Plan], k: u32) -> Range<usize> {
-        let (a, b) = (points[k as usize].y, points[k as usize + 1].y);
-        let (low, high) = if a < b { (a, b) } else { (b, a) };
-        self.bucket(low)..self.bucket(high) + 1
-    }
-
-    /// The bucket of a height: it never falls as the height grows, so that an edge is in each bucket it crosses.
-    fn bucket(&self, y: f64) -> usize {
-        let count = self.starts.len() - 1;
-        let (low, high) = (self.bounds.min.y, self.bounds.max.y);
-        // The cast saturates: NaN (no height at all) and what is below are 0.
-        (((y - low) / (high - low) * count as f64) as usize).min(count - 1)
+        });
+        Self { heights, bounds, edges }
     }
 
     /// The box around it.
@@ -81,7 +69,7 @@ impl Area {
     }
 
     pub(super) fn bytes(&self) -> usize {
-        size_of::<Self>() + size_of_val(&self.starts[..]) + size_of_val(&self.edges[..])
+        size_of::<Self>() + self.edges.bytes()
     }
 
     /// How often the rings turn around a point that lies on none of them: a ray to the east counts the edges that it crosses,
@@ -91,10 +79,8 @@ impl Area {
         if !inside || at.x > self.bounds.max.x || at.x < self.bounds.min.x {
             return 0;
         }
-        let b = self.bucket(at.y);
-        let edges = &self.edges[self.starts[b] as usize..self.starts[b + 1] as usize];
         let mut turns = 0;
-        for &k in edges {
+        for &k in self.edges.of(self.heights.bucket(at.y)) {
             let (from, to) = (points[k as usize], points[k as usize + 1]);
             if (from.y <= at.y) != (to.y <= at.y) {
                 let side = orient2d(from, to, at);

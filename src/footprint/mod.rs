@@ -5,14 +5,13 @@
 //! vertices. Refuses: nothing; degenerate rings and segments of no length have no points, or those that `docs/semantics.md` says.
 
 mod area;
-mod box_tree;
 mod primitive;
 mod stroke;
 
-pub use box_tree::BoxTree;
 pub use primitive::{HalfPlane, MOST_SIDES, Primitive};
 
 use crate::draw_list::{Chain, DrawList, Role, Side};
+use crate::index::BoxTree;
 use crate::parallel;
 use crate::scene::{Line, Width};
 use crate::space::{Lens, Plan, PlanBox, ViewFrame, World};

@@ -32,6 +32,13 @@ impl Lattice {
         Self { x: 0.0, y: 0.0, step: 1.0, columns: frame.width() + 1, rows: frame.height() + 1 }
     }
 
+    /// n x n samples a pixel, in the middles of as many equal squares, of the rectangle of pixels at `corner`.
+    pub fn samples(corner: [usize; 2], size: [usize; 2], n: usize) -> Self {
+        let step = 1.0 / n as f64;
+        let [x, y] = corner.map(|pixel| pixel as f64 + 0.5 * step);
+        Self { x, y, step, columns: size[0] * n, rows: size[1] * n }
+    }
+
     /// The screen point of a sample.
     #[inline(always)]
     pub fn at(&self, column: usize, row: usize) -> Screen {

@@ -9,6 +9,7 @@ pub use ground::GroundPaint;
 
 use crate::math;
 use crate::scene::{BlendMode, BlendSpace, Color, Compositing};
+use std::fmt;
 
 /// A colour in the working space (encoded or linear values, as the scene says), premultiplied by its alpha.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,6 +37,13 @@ impl Paint {
     pub fn plus(self, other: Self) -> Self {
         let ([a, b, c, d], [e, f, g, h]) = (self.0, other.0);
         Self([a + e, b + f, c + g, d + h])
+    }
+}
+
+impl fmt::Display for Paint {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let [r, g, b, a] = self.0;
+        write!(f, "[{r:.4} {g:.4} {b:.4} {a:.4}]")
     }
 }
 

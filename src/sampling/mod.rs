@@ -9,17 +9,17 @@
 mod nearby;
 
 use crate::buffer::Buffer;
+use crate::canvas::{Backdrop, GBuffer, LastGround, mean};
 use crate::footprint::{Footprints, PixelSize};
 use crate::parallel;
 use crate::raster::Lattice;
-use crate::resolve::{Compositor, GroundPaint, Paint};
+use crate::resolve::Paint;
 use crate::scene::Device;
-use crate::space::{Plan, ViewFrame};
+use crate::space::ViewFrame;
 use crate::stage::Stage;
 use crate::terrain::{Mesh, SKY};
-use crate::visibility::Sight;
+use crate::tiling::{TilePlace, Tiling};
 use nearby::Nearby;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Samples a side of a block that is seen at once.
 const BLOCK: usize = 256;
@@ -42,25 +42,9 @@ pub fn sample(stage: &Stage, view: &ViewFrame, n: usize, progress: &(dyn Fn(f64)
     let footprints = Footprints::new(draw_list, size, &|plan| plan.meets(&bounds));
     let sampler = Sampler::new((stage, mesh), view, &footprints, n.max(1));
     let (width, height) = (view.width(), view.height());
-    let side = (BLOCK / n.max(1)).max(1);
-    let columns = width.div_ceil(side);
-    let count = columns * height.div_ceil(side);
-    let done = AtomicUsize::new(0);
-    let blocks = parallel::map_indices(count, |k| {
-        let corner = [k % columns * side, k / columns * side];
-        let colors = sampler.block(corner, [side.min(width - corner[0]), side.min(height - corner[1])]);
-        progress((done.fetch_add(1, Ordering::Relaxed) + 1) as f64 / count as f64);
-        colors
-    });
-    let mut colors = vec![[0.0; 4]; width * height];
-    for (k, block) in blocks.into_iter().enumerate() {
-        let corner = [k % columns * side, k / columns * side];
-        let of_row = side.min(width - corner[0]);
-        for (r, row) in block.chunks_exact(of_row).enumerate() {
-            let to = (corner[1] + r) * width + corner[0];
-            colors[to..to + of_row].copy_from_slice(row);
-        }
-    }
+    let tiling = Tiling::new(width, height, BLOCK / n.max(1));
+    let blocks = parallel::map_telling(tiling.count(), progress, |k| sampler.block(&tiling.place(k)));
+    let colors = tiling.assembled([0.0; 4], blocks.iter().map(Vec::as_slice));
     Sampled { colors: Buffer::from_values(width, height, colors), structure_bytes: footprints.bytes() }
 }
 
@@ -70,18 +54,9 @@ struct Sampler<'a> {
     view: &'a ViewFrame,
     footprints: &'a Footprints<'a>,
     n: usize,
-    compositor: Compositor,
-    ground: GroundPaint<'a>,
+    backdrop: Backdrop<'a>,
     /// The paint of each style of items.
     paints: Vec<Paint>,
-    sky: Paint,
-}
-
-/// What the samples of some pixels see.
-struct Seen<'a> {
-    sight: Sight<'a>,
-    plan: Vec<Plan>,
-    columns: usize,
 }
 
 impl<'a> Sampler<'a> {
@@ -91,85 +66,64 @@ impl<'a> Sampler<'a> {
         footprints: &'a Footprints<'a>,
         n: usize,
     ) -> Self {
-        let Stage { scene, draw_list, .. } = stage;
-        let compositor = Compositor::new(scene.compositing);
-        Self {
-            mesh,
-            view,
-            footprints,
-            n,
-            compositor,
-            ground: GroundPaint::new(&scene.ground, mesh, compositor),
-            paints: draw_list.styles().iter().map(|style| compositor.paint(style.paint)).collect(),
-            sky: compositor.paint(scene.image.background),
-        }
+        let backdrop = Backdrop::of(&stage.scene, mesh);
+        let styles = stage.draw_list.styles().iter();
+        let paints = styles.map(|style| backdrop.compositor.paint(style.paint)).collect();
+        Self { mesh, view, footprints, n, paints, backdrop }
     }
 
     /// The colours of a rectangle of pixels, rows from the top.
-    fn block(&self, corner: [usize; 2], size: [usize; 2]) -> Vec<[f64; 4]> {
-        let seen = self.see(corner, size);
-        let mut nearby = Nearby::default();
-        let pixels = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| [x, y]));
-        pixels.map(|pixel| self.compositor.encoded(self.pixel(&seen, pixel, &mut nearby))).collect()
+    fn block(&self, place: &TilePlace) -> Vec<[f64; 4]> {
+        let seen = self.see(place);
+        let (mut nearby, mut last) = (Nearby::default(), self.backdrop.no_ground());
+        let [width, height] = place.size;
+        let pixels = (0..height).flat_map(|y| (0..width).map(move |x| [x, y]));
+        let paints = pixels.map(|pixel| self.pixel(&seen, pixel, &mut nearby, &mut last));
+        paints.map(|paint| self.backdrop.compositor.encoded(paint)).collect()
     }
 
     /// What the samples of a rectangle of pixels see.
-    fn see(&self, corner: [usize; 2], size: [usize; 2]) -> Seen<'a> {
-        let step = 1.0 / self.n as f64;
-        let (columns, rows) = (size[0] * self.n, size[1] * self.n);
-        let (x, y) = (corner[0] as f64 + 0.5 * step, corner[1] as f64 + 0.5 * step);
-        let lattice = Lattice { x, y, step, columns, rows };
-        let mut sight = Sight::new(self.view, self.mesh, &Device::default(), lattice, BLOCK);
-        sight.see();
-        let mut plan = vec![Plan::default(); columns * rows];
-        for (row, points) in plan.chunks_exact_mut(columns).enumerate() {
-            sight.plan_of_row(row, points);
-        }
-        Seen { sight, plan, columns }
+    fn see(&self, place: &TilePlace) -> GBuffer<'a> {
+        let lattice = Lattice::samples(place.corner, place.size, self.n);
+        GBuffer::new(self.view, self.mesh, &Device::default(), lattice, BLOCK)
     }
 
-    /// The mean paint of a pixel's samples.
-    fn pixel(&self, seen: &Seen, [x, y]: [usize; 2], nearby: &mut Nearby) -> Paint {
+    /// The mean paint of a pixel's samples; `last` is the ground of the sample before.
+    fn pixel(&self, seen: &GBuffer, [x, y]: [usize; 2], nearby: &mut Nearby, last: &mut LastGround) -> Paint {
         let n = self.n;
-        let samples = (y * n..(y + 1) * n).flat_map(|r| (x * n..(x + 1) * n).map(move |c| [c, r]));
-        let points = samples.map(|at| seen.plan_at(at)).filter(|at| at.is_finite());
+        let samples = (y * n..(y + 1) * n).flat_map(|r| (x * n..(x + 1) * n).map(move |c| (c, r)));
+        let points = samples.map(|(c, r)| seen.plan(c, r)).filter(|at| at.is_finite());
         let has_all = nearby.find(self.footprints, points);
-        let mut sum = Paint::CLEAR;
-        for r in y * n..(y + 1) * n {
-            // Rows are summed first: fewer roundings.
-            let mut of_row = Paint::CLEAR;
-            for c in x * n..(x + 1) * n {
-                if !has_all {
-                    // The samples lie far apart: each has its own neighbourhood.
-                    nearby.find_all(self.footprints, seen.plan_at([c, r]));
-                }
-                of_row = of_row.plus(self.paint(seen, [c, r], nearby));
+        mean(n, |c, r| {
+            let (c, r) = (x * n + c, y * n + r);
+            if !has_all {
+                // The samples lie far apart: each has its own neighbourhood.
+                nearby.find_all(self.footprints, seen.plan(c, r));
             }
-            sum = sum.plus(of_row);
-        }
-        sum.divided_by((n * n) as f64)
+            self.paint(seen, (c, r), nearby, last)
+        })
     }
 
     /// The composed paint of a sample.
-    fn paint(&self, seen: &Seen, [column, row]: [usize; 2], nearby: &Nearby) -> Paint {
-        let (id, plan) = (seen.sight.triangle(column, row), seen.plan_at([column, row]));
+    fn paint(
+        &self,
+        seen: &GBuffer,
+        (column, row): (usize, usize),
+        nearby: &Nearby,
+        last: &mut LastGround,
+    ) -> Paint {
+        let (id, plan) = (seen.triangle(column, row), seen.plan(column, row));
         if id == SKY || !plan.is_finite() {
-            return self.sky;
+            return self.backdrop.sky;
         }
         let from_eye =
-            || seen.sight.hit(column, row).map_or(0.0, |hit| (hit.world - self.view.eye()).length());
+            || seen.sight().hit(column, row).map_or(0.0, |hit| (hit.world - self.view.eye()).length());
         let holding =
             nearby.items().iter().filter(|item| nearby.holds(self.footprints, item, (plan, &from_eye)));
-        holding.fold(self.ground.at(id, plan), |below, item| {
+        holding.fold(self.backdrop.paint_at(last, id, || plan), |below, item| {
             let style = self.footprints.list().items()[item.number as usize].style;
-            self.compositor.over(below, self.paints[style as usize])
+            self.backdrop.compositor.over(below, self.paints[style as usize])
         })
-    }
-}
-
-impl Seen<'_> {
-    fn plan_at(&self, [column, row]: [usize; 2]) -> Plan {
-        self.plan[row * self.columns + column]
     }
 }
 

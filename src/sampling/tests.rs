@@ -59,12 +59,14 @@ fn a_sample_alone_is_judged_as_one_among_many() {
     let sampler = Sampler::new((&stage, &stage.mesh), &view, &footprints, 2);
     let mut nearby = Nearby::default();
     for [x, y] in [[0, 0], [20, 16], [24, 17], [30, 20], [11, 19]] {
-        let seen = sampler.see([x, y], [1, 1]);
+        let seen = sampler.see(&TilePlace { corner: [x, y], size: [1, 1] });
+        let mut last = sampler.backdrop.no_ground();
         let mut sum = Paint::CLEAR;
-        for at in [[0, 0], [1, 0], [0, 1], [1, 1]] {
-            nearby.find_all(&footprints, seen.plan_at(at));
-            sum = sum.plus(sampler.paint(&seen, at, &nearby));
+        for at in [(0, 0), (1, 0), (0, 1), (1, 1)] {
+            nearby.find_all(&footprints, seen.plan(at.0, at.1));
+            sum = sum.plus(sampler.paint(&seen, at, &nearby, &mut last));
         }
-        assert_eq!(sampler.compositor.encoded(sum.divided_by(4.0)), *whole.colors.at(x, y), "{x} {y}");
+        let color = sampler.backdrop.compositor.encoded(sum.divided_by(4.0));
+        assert_eq!(color, *whole.colors.at(x, y), "{x} {y}");
     }
 }

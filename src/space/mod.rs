@@ -35,6 +35,7 @@ pub use small_box::SmallBox;
 pub use view::{Lens, Ray, ViewFrame, Viewpoint};
 
 use glam::{DVec2, DVec3};
+use std::fmt;
 use std::ops::{Add, Sub};
 
 macro_rules! point_2d {
@@ -80,6 +81,17 @@ macro_rules! point_2d {
             #[inline(always)]
             fn sub(self, other: Self) -> DVec2 {
                 DVec2::new(self.x - other.x, self.y - other.y)
+            }
+        }
+
+        impl fmt::Display for $name {
+            /// Both coordinates with the precision asked for.
+            fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("(")?;
+                fmt::Display::fmt(&self.x, f)?;
+                f.write_str(", ")?;
+                fmt::Display::fmt(&self.y, f)?;
+                f.write_str(")")
             }
         }
 

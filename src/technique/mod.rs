@@ -15,11 +15,12 @@ pub mod sweep;
 
 pub use declaration::{Contradiction, Declaration, Parameters};
 
-use crate::buffer::{Buffer, Plane};
-use crate::error::Result;
+pub use crate::canvas::{Frame, FrameOptions};
+
+use crate::error::{Error, Result};
 use crate::space::ViewFrame;
 use crate::stage::Stage;
-use crate::visibility::TILE;
+use std::fmt;
 
 declaration::techniques! {
     Clipmap is clipmap,
@@ -45,35 +46,6 @@ impl Kind {
     }
 }
 
-/// How a frame is drawn; nothing here changes a pixel.
-#[derive(Clone, Copy)]
-pub struct FrameOptions<'a> {
-    /// Side of a tile in pixels.
-    pub tile: usize,
-    /// The names of the buffers that are wanted.
-    pub buffers: &'a [String],
-    /// Called with the share of the frame that is done (0..=1), from any thread.
-    pub progress: &'a (dyn Fn(f64) + Sync),
-}
-
-impl Default for FrameOptions<'_> {
-    /// The picture alone, in tiles of the usual size.
-    fn default() -> Self {
-        Self { tile: TILE, buffers: &[], progress: &|_| {} }
-    }
-}
-
-/// What a technique draws.
-#[derive(Debug)]
-pub struct Frame {
-    /// The picture: RGBA, straight alpha, 8-bit code values.
-    pub image: Buffer<[u8; 4]>,
-    /// The buffers that were asked for and exist. Coordinates in them are scene-local.
-    pub planes: Vec<Plane>,
-    /// What was counted, by name.
-    pub counts: Vec<(&'static str, u64)>,
-}
-
 /// A technique with its structures built.
 pub trait Prepared: Sync {
     /// Draws a frame of a view.
@@ -82,8 +54,52 @@ pub trait Prepared: Sync {
     /// When the technique has no room for so large a picture, or a buffer that is asked for cannot be made.
     fn frame(&self, view: &ViewFrame, options: &FrameOptions) -> Result<Frame>;
 
+    /// Decides one pixel of a view's picture again, as a frame does, and keeps the steps; see [`explain`].
+    ///
+    /// # Errors
+    /// As [`Prepared::frame`].
+    fn steps(&self, view: &ViewFrame, pixel: [usize; 2]) -> Result<Explanation>;
+
     /// Bytes of the structures that the technique built (without the terrain's).
     fn structure_bytes(&self) -> usize;
+}
+
+/// A step of a technique on the way to a pixel's colour: data of its own that has a short text.
+pub trait Step: fmt::Debug + fmt::Display + Send {}
+
+impl<S: fmt::Debug + fmt::Display + Send> Step for S {}
+
+/// Why a pixel has its colour.
+#[derive(Debug)]
+pub struct Explanation {
+    /// What the technique did, in order. Coordinates are scene-local, paints premultiplied in the working space.
+    pub steps: Vec<Box<dyn Step>>,
+    /// The pixel's code values, those of the frame.
+    pub code: [u8; 4],
+}
+
+impl Explanation {
+    /// Of a technique's own steps.
+    fn new<S: Step + 'static>(steps: Vec<S>, code: [u8; 4]) -> Self {
+        let boxed = |step| -> Box<dyn Step> { Box::new(step) };
+        Self { steps: steps.into_iter().map(boxed).collect(), code }
+    }
+}
+
+/// Why a pixel (column, row) of a technique's picture has its colour: what draws frames decides this pixel again and keeps its steps.
+///
+/// # Errors
+/// When the picture has no such pixel, or the technique cannot draw it.
+pub fn explain(prepared: &dyn Prepared, view: &ViewFrame, pixel: [usize; 2]) -> Result<Explanation> {
+    let (width, height) = (view.width(), view.height());
+    if pixel[0] >= width || pixel[1] >= height {
+        return Err(Error::new(format!(
+            "there is no pixel {},{} in a picture of {width} x {height}",
+            pixel[0], pixel[1]
+        ))
+        .help("pixels are counted from 0, columns from the left, rows from the top"));
+    }
+    prepared.steps(view, pixel)
 }
 
 /// Builds a technique's structures.

@@ -3,6 +3,7 @@
 
 use super::{Bounds, Drape, MOST_CHILDREN, Node, SurfaceTriangle, SurfaceVertex};
 use crate::error::{Error, Result};
+use crate::index::{morton, packed_levels};
 use crate::math;
 use crate::parallel;
 use crate::space::{Plan, PlanBox, World};
@@ -233,17 +234,6 @@ fn order_by_place<P: Copy + Into<Plan> + Sync>(points: &[P], triangles: &mut [[u
     });
 }
 
-/// The bits of two 16-bit numbers in alternation.
-fn morton(x: u32, y: u32) -> u32 {
-    let spread = |v: u32| {
-        let v = (v | v << 8) & 0x00ff_00ff;
-        let v = (v | v << 4) & 0x0f0f_0f0f;
-        let v = (v | v << 2) & 0x3333_3333;
-        (v | v << 1) & 0x5555_5555
-    };
-    spread(x) | spread(y) << 1
-}
-
 /// The lowest and highest corner of each node, from the leaves up.
 fn box_levels(points: &[World], triangles: &[[u32; 3]]) -> Vec<Vec<(DVec3, DVec3)>> {
     let around = |corners: &mut dyn Iterator<Item = (DVec3, DVec3)>| {
@@ -261,12 +251,7 @@ fn levels_of<B>(
     leaf: impl Fn(&[[u32; 3]]) -> B,
     join: impl Fn(&[B]) -> B,
 ) -> Vec<Vec<B>> {
-    let mut levels = vec![triangles.chunks(CLUSTER).map(leaf).collect::<Vec<_>>()];
-    while let Some(top) = levels.last().filter(|l| l.len() > 1) {
-        let next = top.chunks(MOST_CHILDREN).map(&join).collect();
-        levels.push(next);
-    }
-    levels
+    packed_levels(triangles.chunks(CLUSTER).map(leaf).collect(), MOST_CHILDREN, join)
 }
 
 #[cfg(test)]

@@ -4,16 +4,9 @@ use super::facet::{Facet, TileRays};
 use super::polygon::middle;
 use super::setting::Setting;
 use super::shape::{Ground, distance};
+use crate::certainty::Known;
 use crate::footprint::Primitive;
 use crate::space::PlanBox;
-
-/// Three-valued.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Known {
-    In,
-    Out,
-    Open,
-}
 
 /// What a piece knows of an item.
 #[derive(Debug, Clone, Copy)]
@@ -28,11 +21,7 @@ pub(super) struct State {
 
 impl State {
     pub(super) fn known(&self) -> Known {
-        match (self.polygon, self.stroke) {
-            (Known::Out, _) | (_, Known::Out) => Known::Out,
-            (Known::In, Known::In) => Known::In,
-            _ => Known::Open,
-        }
+        self.polygon.and(self.stroke)
     }
 }
 
@@ -67,16 +56,12 @@ pub(super) fn first_state(
         Some(_) if has_edges => Known::Open,
         // No edge is near: the polygon holds all of the fragment, or none.
         Some(wanted) => match ground.hit(middle(points)) {
-            hit if hit.error < f64::INFINITY => known(footprints.polygon_holds(item, hit.plan) == wanted),
+            hit if hit.error < f64::INFINITY => Known::of(footprints.polygon_holds(item, hit.plan) == wanted),
             _ => Known::Open,
         },
     };
     let stroke = if footprints.wants_stroke(item) { Known::Open } else { Known::In };
     State { item, polygon, stroke, first, count }
-}
-
-pub(super) fn known(is_in: bool) -> Known {
-    if is_in { Known::In } else { Known::Out }
 }
 
 /// Whether a piece that no edge of an item's polygon crosses lies where the item wants it, decided exactly at a point of it.
@@ -102,7 +87,7 @@ pub(super) fn polygon_at(pixel: &Pixel, ground: &Ground, points: &[[f64; 2]], it
     });
     let wanted = footprints.wants_polygon(item);
     match wanted.filter(|_| is_clear) {
-        Some(wanted) => known(footprints.polygon_holds(item, hit.plan) == wanted),
+        Some(wanted) => Known::of(footprints.polygon_holds(item, hit.plan) == wanted),
         None => Known::Open,
     }
 }

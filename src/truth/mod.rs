@@ -10,7 +10,7 @@
 //!   facet.rs    a triangle on the tile: sides, nearness, its map to the plan (draped.rs), with bounds of their errors (form.rs)
 //!   visible.rs  the pixel cut into convex fragments that see one triangle (polygon.rs), and sky
 //!   refine.rs   fragments cut along footprints' borders (shape.rs) until little is unknown of which items hold them
-//!               (knowledge.rs); colours between bounds (color.rs)
+//!               (knowledge.rs); colours between bounds (crate::certainty)
 //! ```
 //!
 //! How it is certified: a border that is straight in the plan is straight on the screen within one triangle. Its line is computed
@@ -19,7 +19,6 @@
 //! is in or out by bounds of the distance, or open. No decision is shared with a technique but the signs of
 //! [`crate::predicate`].
 
-mod color;
 mod draped;
 mod facet;
 mod form;
@@ -41,9 +40,9 @@ use crate::resolve::code_values;
 use crate::space::{Plan, ViewFrame, World};
 use crate::stage::Stage;
 use crate::terrain::SKY;
+use crate::tiling::Tiling;
 use seen::SeenPlan;
 use setting::Setting;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use tile::{TILE, TileTruth, certify_tile};
 
 /// The truth's name among the techniques', on the command line and in files.
@@ -232,21 +231,17 @@ pub fn certify(stage: &Stage, view: &ViewFrame, budget: &Budget, progress: &(dyn
     let seen = SeenPlan::new(mesh, view);
     let footprints = Footprints::new(draw_list, size, &|plan| seen.meets(plan));
     let setting = Setting::new(scene, mesh, (&footprints, size), *budget);
-    let (columns, rows) = (width.div_ceil(TILE), height.div_ceil(TILE));
-    let done = AtomicUsize::new(0);
-    let tiles = parallel::map_indices(columns * rows, |k| {
-        let corner = [k % columns * TILE, k / columns * TILE];
-        let size = [TILE.min(width - corner[0]), TILE.min(height - corner[1])];
-        let tile = certify_tile(&setting, mesh, view, (corner, size));
-        progress((done.fetch_add(1, Ordering::Relaxed) + 1) as f64 / (columns * rows) as f64);
-        (corner, size, tile)
+    let tiling = Tiling::new(width, height, TILE);
+    let tiles = parallel::map_telling(tiling.count(), progress, |k| {
+        certify_tile(&setting, mesh, view, &tiling.place(k))
     });
-    assembled(tiles, view, &footprints, budget)
+    assembled(tiles, &tiling, view, &footprints, budget)
 }
 
 /// The tiles as one picture.
 fn assembled(
-    tiles: Vec<([usize; 2], [usize; 2], TileTruth)>,
+    tiles: Vec<TileTruth>,
+    tiling: &Tiling,
     view: &ViewFrame,
     footprints: &Footprints,
     budget: &Budget,
@@ -257,9 +252,9 @@ fn assembled(
     let mut bounds = [vec![[0.0; 4]; count], vec![[0.0; 4]; count], vec![[0.0; 4]; count]];
     let mut coverage = if budget.coverage { vec![PixelCoverage::default(); count] } else { Vec::new() };
     let mut tally = Tally::default();
-    for (corner, size, mut tile) in tiles {
-        for (k, colors) in tile.colors.iter().enumerate() {
-            let at = (corner[1] + k / size[0]) * width + corner[0] + k % size[0];
+    for (k, mut tile) in tiles.into_iter().enumerate() {
+        let places = tiling.rows(k).flatten();
+        for ((k, colors), at) in tile.colors.iter().enumerate().zip(places) {
             for (bound, color) in bounds.iter_mut().zip(colors) {
                 bound[at] = *color;
             }

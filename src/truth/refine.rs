@@ -3,14 +3,14 @@
 //! A piece sees one triangle and knows, of each item near it, whether it lies in or out of it, or which primitives could still
 //! tell. The piece with the most unknown in it is cut first: along a primitive's line, so that the two halves know more.
 
-use super::color::{Mean, PaintRange};
 use super::form::Line;
-use super::knowledge::{Known, Pixel, State, first_state, known, polygon_at};
+use super::knowledge::{Pixel, State, first_state, polygon_at};
 use super::polygon::{Halves, Pieces, Polygon, ROUNDING};
 use super::setting::Setting;
 use super::shape::{Ground, Shape, Verdict};
 use super::visible::{Fragment, SPECK, Sight};
 use super::{ItemCoverage, PixelCoverage};
+use crate::certainty::{Known, PaintMean, PaintRange};
 use crate::footprint::{Part, Primitive};
 use crate::resolve::Paint;
 use crate::space::PlanBox;
@@ -95,7 +95,7 @@ impl Refinery {
     /// The colour of a pixel that sees this: lower bounds, upper bounds, estimate.
     pub(super) fn refine(&mut self, pixel: &Pixel, pieces: &mut Pieces, sight: &Sight) -> [[f64; 4]; 3] {
         self.clear(sight.slop);
-        let mut mean = Mean::NOTHING;
+        let mut mean = PaintMean::NOTHING;
         for sky in &sight.sky {
             let area = pieces.area(*sky);
             mean.add(&PaintRange::exact(pixel.setting.sky), area);
@@ -116,7 +116,7 @@ impl Refinery {
     }
 
     /// Whether what is open of the pixel is within the budget.
-    fn is_enough(&self, setting: &Setting, mean: &Mean) -> bool {
+    fn is_enough(&self, setting: &Setting, mean: &PaintMean) -> bool {
         let width = setting.budget.width;
         let doubt = 2.0 * self.slop;
         // Where the doubt alone is over the budget, the rest is still brought down to it.
@@ -169,7 +169,7 @@ impl Refinery {
     }
 
     /// Cuts a piece in two.
-    fn halve(&mut self, pixel: &Pixel, pieces: &mut Pieces, piece: Piece, mean: &mut Mean) {
+    fn halve(&mut self, pixel: &Pixel, pieces: &mut Pieces, piece: Piece, mean: &mut PaintMean) {
         let Some(line) = piece.cut else { return self.closed.push(piece) };
         mean.remove(&piece.paint, piece.area);
         let mut halves = pieces.cut(piece.shape, &line, &mut self.slop);
@@ -191,7 +191,7 @@ impl Refinery {
     }
 
     /// Finds the items near a piece that has not been looked at.
-    fn look(&mut self, pixel: &Pixel, pieces: &Pieces, piece: Piece, mean: &mut Mean) {
+    fn look(&mut self, pixel: &Pixel, pieces: &Pieces, piece: Piece, mean: &mut PaintMean) {
         if piece.area < SPECK {
             return self.doubt(piece, mean);
         }
@@ -219,7 +219,7 @@ impl Refinery {
     }
 
     /// A speck: it may have any colour.
-    fn doubt(&mut self, piece: Piece, mean: &mut Mean) {
+    fn doubt(&mut self, piece: Piece, mean: &mut PaintMean) {
         mean.add(&PaintRange::exact(Paint::CLEAR), piece.area);
         self.slop += piece.area + ROUNDING;
     }
@@ -280,7 +280,7 @@ impl Refinery {
                     Some(Verdict::In) => stroke = Known::In,
                     Some(Verdict::Out) => continue,
                     _ if is_edge => has_edges = true,
-                    _ => stroke = Known::Open,
+                    _ => stroke = stroke.or(Known::Open),
                 }
                 self.lists.push(self.shapes.len() as u32);
                 self.shapes.push(shape);
@@ -301,7 +301,7 @@ impl Refinery {
         pieces: &Pieces,
         mut piece: Piece,
         (first, count): (u32, u32),
-        mean: &mut Mean,
+        mean: &mut PaintMean,
     ) {
         if piece.area < SPECK {
             return self.doubt(piece, mean);
@@ -349,8 +349,7 @@ impl Refinery {
         state: &mut State,
     ) -> Option<Line> {
         let first = self.lists.len() as u32;
-        let (mut edges, mut strokes) = (0u32, 0u32);
-        let (mut cut, mut is_in) = (None, false);
+        let (mut cut, mut has_edges, mut stroke) = (None, false, Known::Out);
         for k in state.first..state.first + state.count {
             let index = self.lists[k as usize];
             let shape = self.shapes[index as usize];
@@ -361,20 +360,24 @@ impl Refinery {
             match shape.verdict(ground, points, &mut self.slop) {
                 Verdict::Out => continue,
                 Verdict::In => {
-                    is_in = true;
+                    stroke = Known::In;
                     continue;
                 }
                 Verdict::Cut(line) => cut = cut.or(Some(line)),
                 Verdict::Stuck => {}
             }
-            *(if is_edge { &mut edges } else { &mut strokes }) += 1;
+            if is_edge {
+                has_edges = true
+            } else {
+                stroke = stroke.or(Known::Open)
+            }
             self.lists.push(index);
         }
         (state.first, state.count) = (first, self.lists.len() as u32 - first);
-        if state.stroke == Known::Open && (is_in || strokes == 0) {
-            state.stroke = known(is_in);
+        if state.stroke == Known::Open {
+            state.stroke = stroke;
         }
-        if state.polygon == Known::Open && edges == 0 {
+        if state.polygon == Known::Open && !has_edges {
             state.polygon = polygon_at(pixel, ground, points, state.item);
             if state.polygon == Known::Open {
                 return Some(ground.halving_line(points));
@@ -384,7 +387,7 @@ impl Refinery {
     }
 
     /// Counts a piece as it is, and remembers it if more can be learnt.
-    fn keep(&mut self, setting: &Setting, mut piece: Piece, mean: &mut Mean) {
+    fn keep(&mut self, setting: &Setting, mut piece: Piece, mean: &mut PaintMean) {
         self.count += 1;
         self.slop += ROUNDING;
         mean.add(&piece.paint, piece.area);
@@ -407,7 +410,6 @@ pub(super) type Claim = (Polygon, u32, Vec<(u32, Option<bool>)>);
 /// The paint of a piece's items over a base.
 fn composed(setting: &Setting, base: PaintRange, states: &[State]) -> PaintRange {
     states.iter().fold(base, |below, state| {
-        let over = below.under(setting.paint_of(state.item), setting.mode);
-        if state.known() == Known::In { over } else { over.hull(&below) }
+        below.under_known(state.known(), setting.paint_of(state.item), setting.mode)
     })
 }

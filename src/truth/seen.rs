@@ -1,7 +1,7 @@
 //! Which boxes of the plan a view may see, so that footprints elsewhere are left out.
 
 use super::tile::Frustum;
-use crate::footprint::BoxTree;
+use crate::index::BoxTree;
 use crate::space::{PlanBox, ViewFrame};
 use crate::terrain::Mesh;
 

@@ -1,9 +1,9 @@
 //! What stays the same for all pixels of a picture: footprints, paints, the budget.
 
 use super::Budget;
-use super::color::PaintRange;
 use super::form::{Line, Side};
 use super::shape::Ground;
+use crate::certainty::PaintRange;
 use crate::footprint::{Footprints, HalfPlane, PixelSize};
 use crate::interval::Ball;
 use crate::resolve::{Compositor, GroundPaint, Paint};

@@ -10,6 +10,7 @@ use super::{Centre, PixelCoverage, Tally};
 use crate::math;
 use crate::space::{Lens, PlanBox, ViewFrame, World};
 use crate::terrain::{self, Bounds, Mesh, Node};
+use crate::tiling::TilePlace;
 use glam::DVec3;
 use std::ops::Range;
 
@@ -137,14 +138,15 @@ struct Work<'a> {
     out: TileTruth,
 }
 
-/// The truth of a tile whose first pixel is `corner` and which has `size` pixels in the picture.
+/// The truth of a tile of the picture.
 pub(super) fn certify_tile(
     setting: &Setting,
     mesh: &Mesh,
     frame: &ViewFrame,
-    (corner, size): ([usize; 2], [usize; 2]),
+    place: &TilePlace,
 ) -> TileTruth {
-    let mut work = Work::new(setting, mesh, frame, (corner, size));
+    let size = place.size;
+    let mut work = Work::new(setting, mesh, frame, place);
     for y in (0..size[1]).step_by(BLOCK) {
         for x in (0..size[0]).step_by(BLOCK) {
             work.block([x, y]);
@@ -288,7 +290,7 @@ impl<'a> Work<'a> {
         setting: &'a Setting<'a>,
         mesh: &'a Mesh,
         frame: &ViewFrame,
-        (corner, size): ([usize; 2], [usize; 2]),
+        &TilePlace { corner, size }: &TilePlace,
     ) -> Self {
         let start = corner.map(|v| v as f64);
         let rays = TileRays::new(frame, start, TILE as f64);

@@ -5,6 +5,7 @@
 //! triangle passes through the machine, in order of its number, and only a strictly nearer one replaces another.
 
 use super::{Hit, Visible, VisibleTile};
+use crate::index::bins;
 use crate::parallel;
 use crate::raster::device::{Pipeline, Primitive, Real, Window};
 use crate::raster::{Counts, Lattice};
@@ -98,9 +99,14 @@ fn hit_of<T: Real>(
 fn see_through<T: Real>(pipeline: &Pipeline<T>, visible: &mut Visible, mesh: &Mesh) {
     let lattice = visible.lattice;
     let primitives = primitives(pipeline, mesh, &lattice);
-    let bins = bins(&primitives, &lattice, visible.tile);
-    let mut work: Vec<_> = visible.tiles.iter_mut().zip(&bins).collect();
-    parallel::for_each(&mut work, |(tile, bin)| {
+    let windows = parallel::map(&primitives, |primitive| primitive.window(&lattice));
+    let numbered = (0u32..).zip(&windows);
+    let seen = numbered.filter_map(|(k, window)| Some((k, window.as_ref()?)));
+    let bins =
+        bins(&visible.tiling(), seen.map(|(k, window)| (k, [window.columns.clone(), window.rows.clone()])));
+    let mut work: Vec<_> = visible.tiles.iter_mut().enumerate().collect();
+    parallel::for_each(&mut work, |(number, tile)| {
+        let bin = bins.of(*number);
         pipeline.clear(&mut tile.samples, (tile.width, tile.height));
         let in_tile = bin.iter().map(|&k| &primitives[k as usize]);
         pipeline.draw(in_tile, (&lattice, &window(tile)), &mut tile.samples);
@@ -116,23 +122,6 @@ fn primitives<T: Real>(pipeline: &Pipeline<T>, mesh: &Mesh, lattice: &Lattice) -
         pipeline.primitives(mesh, first..count.min(first.saturating_add(CHUNK)), lattice)
     });
     chunks.concat()
-}
-
-/// The numbers of the primitives that may cover a sample of each tile, in order.
-fn bins<T: Real>(primitives: &[Primitive<T>], lattice: &Lattice, size: usize) -> Vec<Vec<u32>> {
-    let (columns, rows) = (lattice.columns.div_ceil(size), lattice.rows.div_ceil(size));
-    let mut bins = vec![Vec::new(); columns * rows];
-    for (k, primitive) in primitives.iter().enumerate() {
-        let Some(window) = primitive.window(lattice) else {
-            continue;
-        };
-        for y in window.rows.start / size..window.rows.end.div_ceil(size) {
-            for x in window.columns.start / size..window.columns.end.div_ceil(size) {
-                bins[y * columns + x].push(k as u32);
-            }
-        }
-    }
-    bins
 }
 
 fn window(tile: &VisibleTile) -> Window {

@@ -43,7 +43,7 @@ impl<'a> FootprintPlane<'a> {
     }
 
     /// The footprint of a screen point; `None` where the plane is seen edge-on.
-    #[inline]
+    #[inline(always)]
     pub fn footprint(&self, at: Screen) -> Option<PixelFootprint> {
         let frame = self.frame;
         let (along, reach) = match frame.lens() {

@@ -19,6 +19,7 @@ use crate::parallel;
 use crate::raster::{Counts, Facet, Lattice, MISSING, Patch, Samples, Tile, TileView, outcodes};
 use crate::space::ViewFrame;
 use crate::terrain::{Grid, Leaf, MOST_CHILDREN, Mesh, Node, SKY};
+use crate::tiling::{TilePlace, Tiling};
 
 /// The default side of a tile in samples: its keys and triangles fit the second-level cache.
 pub const TILE: usize = 128;
@@ -55,14 +56,17 @@ impl Visible {
     /// Room for a lattice in tiles of `tile` samples a side (1 to 512).
     pub fn new(lattice: &Lattice, tile: usize) -> Self {
         let tile = tile.clamp(1, 512);
-        let mut tiles = Vec::new();
-        for row in (0..lattice.rows).step_by(tile) {
-            for column in (0..lattice.columns).step_by(tile) {
-                let (width, height) = (tile.min(lattice.columns - column), tile.min(lattice.rows - row));
-                tiles.push(VisibleTile { column, row, width, height, ..VisibleTile::default() });
-            }
-        }
-        Self { lattice: *lattice, tile, tiles }
+        let tiling = Tiling::new(lattice.columns, lattice.rows, tile);
+        let tiles = (0..tiling.count()).map(|k| {
+            let TilePlace { corner: [column, row], size: [width, height] } = tiling.place(k);
+            VisibleTile { column, row, width, height, ..VisibleTile::default() }
+        });
+        Self { lattice: *lattice, tile, tiles: tiles.collect() }
+    }
+
+    /// How the lattice is cut into tiles.
+    fn tiling(&self) -> Tiling {
+        Tiling::new(self.lattice.columns, self.lattice.rows, self.tile)
     }
 
     /// Finds what each sample sees.
@@ -93,11 +97,12 @@ impl Visible {
 
     fn gather<T: Copy>(&self, empty: T, of: impl Fn(&Samples) -> &Vec<T>) -> Vec<T> {
         let mut all = vec![empty; self.lattice.columns * self.lattice.rows];
-        for tile in &self.tiles {
-            for r in 0..tile.height {
-                let to = (tile.row + r) * self.lattice.columns + tile.column;
-                let from = r * tile.samples.stride();
-                all[to..to + tile.width].copy_from_slice(&of(&tile.samples)[from..from + tile.width]);
+        let tiling = self.tiling();
+        for (k, tile) in self.tiles.iter().enumerate() {
+            // A tile that has not been drawn has a stride of 0, and no rows.
+            let rows = of(&tile.samples).chunks(tile.samples.stride().max(1));
+            for (to, from) in tiling.rows(k).zip(rows) {
+                all[to].copy_from_slice(&from[..tile.width]);
             }
         }
         all

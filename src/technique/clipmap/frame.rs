@@ -2,20 +2,24 @@
 
 use super::Prepare;
 use super::cache::CacheCounts;
-use super::sampling::{Probes, Quad, Sampler};
+use super::pixel::{NO_TILE, PixelPainter, Reading};
+use super::sampling::Sampler;
+use super::step::Step;
+use super::table::Table;
 use super::texture::{ClipRegion, TILE, TileKey};
 use super::tile::{Tile, TileCounts, TileMaker, Workbench};
 use crate::buffer::{Buffer, Plane, Values};
+use crate::canvas::{
+    Backdrop, Frame, FrameOptions, Kept, Pixels, joined, picture_plane, sight_counts, surface_plane,
+};
 use crate::error::Result;
-use crate::parallel;
+use crate::parallel::{self, Progress};
 use crate::raster::Lattice;
-use crate::resolve::{Compositor, GroundPaint, Paint, code_values};
+use crate::resolve::{Paint, code_values};
 use crate::space::{Plan, ViewFrame, World};
-use crate::technique::{Frame, FrameOptions};
-use crate::terrain::{Mesh, SKY};
-use crate::visibility::{FootprintPlane, Hit, Sight};
+use crate::terrain::Mesh;
+use crate::visibility::{self, Hit, Sight};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Draws a frame of a view; says what the cache did.
 ///
@@ -26,72 +30,69 @@ pub(super) fn draw(
     view: &ViewFrame,
     options: &FrameOptions,
 ) -> Result<(Frame, CacheCounts)> {
-    let stage = prepared.stage;
-    let mesh = &*stage.mesh_for(view);
-    let lattice = Lattice::centres(view, 0);
-    let mut sight = Sight::new(view, mesh, &stage.scene.device, lattice, options.tile);
-    sight.see();
+    let mesh = &*prepared.stage.mesh_for(view);
+    let sight = see(prepared, (mesh, view), options.tile);
     (options.progress)(0.2);
-    let drawing = Drawing::new(prepared, (mesh, view), sight, options);
-    drawing.frame(options)
+    Drawing::new(prepared, (mesh, view), sight).frame(options)
 }
 
-/// Everything that pixels are made from.
+/// Decides one pixel of a view as a frame does, with the tiles that it reads: its steps and its code values.
+pub(super) fn explain(prepared: &Prepare, view: &ViewFrame, [x, y]: [usize; 2]) -> (Vec<Step>, [u8; 4]) {
+    let mesh = &*prepared.stage.mesh_for(view);
+    let drawing = Drawing::new(prepared, (mesh, view), see(prepared, (mesh, view), visibility::TILE));
+    let (painter, mut steps) = (&drawing.painter, Vec::new());
+    let plan = painter.sight.hit(x, y).map_or(Plan::new(f64::INFINITY, f64::INFINITY), |hit| hit.plan);
+    let reading = painter.reading((x, y), plan, &mut None, &mut steps);
+    let paint = reading.map_or(painter.backdrop.sky, |reading| {
+        let mut keys = Vec::new();
+        painter.tiles(&reading, |key| keys.push(key), &mut steps);
+        keys.sort_unstable();
+        keys.dedup();
+        let mut cache = prepared.take_cache();
+        cache.prepare(drawing.maker.followed_pixel_m(), &drawing.region);
+        let make = |missing: &[TileKey]| drawing.make(missing, &|_| {});
+        let tiles = cache.tiles(&keys, prepared.budget(), &mut CacheCounts::default(), make);
+        prepared.return_cache(cache);
+        let table = Table::new(&keys, tiles, prepared.texture.levels());
+        painter.paint(&reading, &table, &mut painter.backdrop.no_ground(), &mut steps).0
+    });
+    (steps, code_values(painter.backdrop.compositor.encoded(paint)))
+}
+
+/// What the pixels' centres see, found in tiles of `tile` samples a side.
+fn see<'a>(prepared: &Prepare, (mesh, view): (&'a Mesh, &'a ViewFrame), tile: usize) -> Sight<'a> {
+    let device = &prepared.stage.scene.device;
+    let mut sight = Sight::new(view, mesh, device, Lattice::centres(view, 0), tile);
+    sight.see();
+    sight
+}
+
+/// What a frame is made from.
 struct Drawing<'a> {
     prepared: &'a Prepare<'a>,
-    mesh: &'a Mesh,
     view: &'a ViewFrame,
-    sight: Sight<'a>,
-    sampler: Sampler,
+    painter: PixelPainter<'a>,
     maker: TileMaker<'a>,
     region: ClipRegion,
-    compositor: Compositor,
-    ground: GroundPaint<'a>,
-    sky: Paint,
-    wants: Wanted,
 }
 
-/// The tiles at hand while pixels are coloured, by level, row and column.
-struct Table {
-    levels: Vec<LevelTiles>,
-}
-
-/// A rectangle of a level's tiles, with gaps.
-#[derive(Clone, Default)]
-struct LevelTiles {
-    west: u32,
-    north: u32,
-    columns: u32,
-    tiles: Vec<Option<Arc<Tile>>>,
-}
-
-/// What a row of pixels sees, and asks of the texture.
+/// Where a row of pixels reads the texture.
 #[derive(Default)]
-struct Seen {
+struct RowReadings {
     /// Its pixels.
-    looks: Vec<Option<Look>>,
+    readings: Vec<Option<Reading>>,
     /// Their tiles, each once, in order.
     keys: Vec<TileKey>,
     /// Pixels that read a coarser level than they ask for.
     fallbacks: u64,
 }
 
-/// What a pixel sees, and where it reads the texture.
-#[derive(Clone, Copy)]
-struct Look {
-    triangle: u32,
-    plan: Plan,
-    probes: Probes,
-}
-
 /// A row of finished pixels.
-#[derive(Default)]
 struct Row {
-    image: Vec<[u8; 4]>,
-    colors: Vec<f64>,
-    levels: Vec<f64>,
-    tiles: Vec<TileKey>,
-    texels: Vec<u32>,
+    pixels: Pixels,
+    levels: Kept<f64>,
+    tiles: Kept<TileKey>,
+    texels: Kept<u32>,
     texels_read: u64,
 }
 
@@ -103,20 +104,8 @@ struct Made {
     tile: Option<Arc<Tile>>,
 }
 
-/// Which buffers are kept on the way because someone asked for them.
-struct Wanted {
-    colors: bool,
-    levels: bool,
-    tile: bool,
-    texels: bool,
-    tiles: bool,
-}
-
-/// Pixels whose [`Look`]s are in memory together, unless a row has more.
+/// Pixels whose [`Reading`]s are in memory together, unless a row has more.
 const PIXELS_AT_A_TIME: usize = 1 << 20;
-
-/// A tile that no pixel has.
-const NO_TILE: TileKey = TileKey { level: u32::MAX, row: 0, column: 0 };
 
 /// Tiles a row of the picture of all tiles.
 const TILES_A_ROW: usize = 16;
@@ -124,55 +113,8 @@ const TILES_A_ROW: usize = 16;
 /// The most tiles in a picture of all tiles: 1 GiB while they are held.
 const MOST_SHOWN: usize = 1024;
 
-impl Wanted {
-    fn of(options: &FrameOptions) -> Self {
-        let is_wanted = |wanted: &str| options.buffers.iter().any(|name| name == wanted);
-        Self {
-            colors: is_wanted("color"),
-            levels: is_wanted("level"),
-            tile: is_wanted("tile"),
-            texels: is_wanted("texels"),
-            tiles: is_wanted("tiles"),
-        }
-    }
-}
-
-impl Table {
-    fn new(keys: &[TileKey], tiles: Vec<Arc<Tile>>, levels: u32) -> Self {
-        let mut table = Self { levels: vec![LevelTiles::default(); levels as usize] };
-        let mut tiles = keys.iter().zip(tiles).peekable();
-        for of_level in keys.chunk_by(|a, b| a.level == b.level) {
-            let range = |of: fn(&TileKey) -> u32| {
-                let values = || of_level.iter().map(of);
-                (values().min().unwrap_or(0), values().max().unwrap_or(0))
-            };
-            let ((west, east), (north, south)) = (range(|key| key.column), range(|key| key.row));
-            let columns = east - west + 1;
-            let mut found = vec![None; (columns * (south - north + 1)) as usize];
-            for (key, tile) in tiles.by_ref().take(of_level.len()) {
-                found[((key.row - north) * columns + key.column - west) as usize] = Some(tile);
-            }
-            table.levels[of_level[0].level as usize] = LevelTiles { west, north, columns, tiles: found };
-        }
-        table
-    }
-
-    #[inline]
-    fn get(&self, key: TileKey) -> Option<&Tile> {
-        let level = self.levels.get(key.level as usize)?;
-        let column = key.column.checked_sub(level.west).filter(|column| *column < level.columns)?;
-        let row = key.row.checked_sub(level.north)?;
-        level.tiles.get((row * level.columns + column) as usize)?.as_deref()
-    }
-}
-
 impl<'a> Drawing<'a> {
-    fn new(
-        prepared: &'a Prepare,
-        (mesh, view): (&'a Mesh, &'a ViewFrame),
-        sight: Sight<'a>,
-        options: &FrameOptions,
-    ) -> Self {
+    fn new(prepared: &'a Prepare, (mesh, view): (&'a Mesh, &'a ViewFrame), sight: Sight<'a>) -> Self {
         let (scene, settings) = (&prepared.stage.scene, prepared.settings);
         let nearest = nearest(&sight, view);
         let center = match settings.center {
@@ -181,19 +123,19 @@ impl<'a> Drawing<'a> {
         };
         let region = ClipRegion::new(&prepared.texture, center, settings.clip_size);
         let middle = sight.hit(view.width() / 2, view.height() / 2).or(nearest);
-        let compositor = Compositor::new(scene.compositing);
         Self {
             prepared,
-            mesh,
             view,
-            sampler: Sampler::new(prepared.texture, &region, &settings, &scene.device),
+            painter: PixelPainter {
+                mesh,
+                view,
+                texture: prepared.texture,
+                sampler: Sampler::new(prepared.texture, &region, &settings, &scene.device),
+                backdrop: Backdrop::of(scene, mesh),
+                sight,
+            },
             maker: prepared.maker(middle.map_or(1.0, |hit| view.pixel_m(hit.world))),
             region,
-            compositor,
-            ground: GroundPaint::new(&scene.ground, mesh, compositor),
-            sky: compositor.paint(scene.image.background),
-            wants: Wanted::of(options),
-            sight,
         }
     }
 
@@ -206,21 +148,19 @@ impl<'a> Drawing<'a> {
         let (width, height) = (self.view.width(), self.view.height());
         let band = (PIXELS_AT_A_TIME / width).max(1);
         for first in (0..height).step_by(band) {
-            let seen = parallel::map_indices(band.min(height - first), |k| self.seen(first + k));
-            fallbacks += seen.iter().map(|row| row.fallbacks).sum::<u64>();
-            for pass in passes(&seen, budget / self.prepared.settings.tile_bytes()) {
-                let seen = &seen[pass.clone()];
-                let keys = union(seen);
-                let done = AtomicUsize::new(0);
-                let tiles = cache.tiles(&keys, budget, &mut cached, |missing| {
-                    self.make(missing, &|| {
-                        let share = done.fetch_add(1, Ordering::Relaxed) as f64 / missing.len() as f64;
-                        let before = (first + pass.start) as f64 + 0.8 * share * pass.len() as f64;
-                        (options.progress)(0.2 + 0.8 * before / height as f64);
-                    })
-                });
+            let readings = parallel::map_indices(band.min(height - first), |k| self.readings(first + k));
+            fallbacks += readings.iter().map(|row| row.fallbacks).sum::<u64>();
+            for pass in passes(&readings, budget / self.prepared.settings.tile_bytes()) {
+                let readings = &readings[pass.clone()];
+                let keys = union(readings);
+                let tell = |share: f64| {
+                    let before = (first + pass.start) as f64 + 0.8 * share * pass.len() as f64;
+                    (options.progress)(0.2 + 0.8 * before / height as f64);
+                };
+                let make = |missing: &[TileKey]| self.make(missing, &tell);
+                let tiles = cache.tiles(&keys, budget, &mut cached, make);
                 // Without a use for its texels, the cache may give a tile up; no more are shown than fit.
-                let is_kept = self.wants.tiles;
+                let is_kept = options.wants("tiles");
                 made.extend(keys.iter().zip(&tiles).map(|(key, tile)| Made {
                     key: *key,
                     counts: tile.counts,
@@ -232,232 +172,140 @@ impl<'a> Drawing<'a> {
                     made.iter_mut().skip(MOST_SHOWN).for_each(|tile| tile.tile = None);
                 }
                 let table = Table::new(&keys, tiles, self.prepared.texture.levels());
-                rows.extend(parallel::map(seen, |row| self.row(row, &table)));
+                rows.extend(parallel::map(readings, |row| self.row(row, &table, options)));
             }
         }
         self.prepared.return_cache(cache);
         made.sort_by_key(|tile| tile.key);
         made.dedup_by_key(|tile| tile.key);
-        Ok((self.finish(rows, &made, fallbacks, options)?, cached))
+        Ok((self.finish(&rows, &made, fallbacks, options)?, cached))
     }
 
-    fn make(&self, keys: &[TileKey], done: &(dyn Fn() + Sync)) -> Vec<Tile> {
+    fn make(&self, keys: &[TileKey], tell: &(dyn Fn(f64) + Sync)) -> Vec<Tile> {
+        let progress = Progress::new(keys.len(), tell);
         let make = |bench: &mut Option<Workbench>, key: &TileKey| {
             let tile = self.maker.make_on(*key, bench);
-            done();
+            progress.step();
             tile
         };
         parallel::map_with(keys, || None, make)
     }
 
-    /// What a row of pixels sees and asks for.
-    fn seen(&self, y: usize) -> Seen {
+    /// Where a row of pixels reads the texture.
+    fn readings(&self, y: usize) -> RowReadings {
         let width = self.view.width();
         let mut points = vec![Plan::default(); width];
-        self.sight.plan_of_row(y, &mut points);
-        let mut seen = Seen { looks: Vec::with_capacity(width), ..Seen::default() };
-        // Neighbours often see the same triangle, and touch the same tiles.
-        let mut plane = None;
-        let mut last = [NO_TILE; 4];
+        self.painter.sight.plan_of_row(y, &mut points);
+        let mut row = RowReadings { readings: Vec::with_capacity(width), ..RowReadings::default() };
+        // Neighbours often touch the same tiles.
+        let (mut plane, mut last) = (None, [NO_TILE; 4]);
         for (x, plan) in points.into_iter().enumerate() {
-            let triangle = self.sight.triangle(x, y);
-            if triangle == SKY || !plan.is_finite() {
-                seen.looks.push(None);
-                continue;
-            }
-            if plane.as_ref().is_none_or(|(of, _)| *of != triangle) {
-                let seen = self.mesh.surface_triangle(triangle);
-                plane = Some((triangle, seen.map(|seen| FootprintPlane::new(self.view, &seen))));
-            }
-            let at = self.sight.lattice().at(x, y);
-            let footprint = plane.as_ref().and_then(|(_, plane)| plane.as_ref()?.footprint(at));
-            let probes = self.sampler.probes(plan, footprint.as_ref());
-            let mut is_coarser = false;
-            self.sampler.quads(&probes, &mut |quad| {
-                is_coarser |= quad.is_fallback;
-                let tiles = self.sampler.tiles_of(&quad);
-                for row in tiles.rows.0..=tiles.rows.1 {
-                    for column in tiles.columns.0..=tiles.columns.1 {
-                        let key = TileKey { level: quad.level, row, column };
-                        if !last.contains(&key) {
-                            seen.keys.push(key);
-                            last = [key, last[0], last[1], last[2]];
-                        }
+            let reading = self.painter.reading((x, y), plan, &mut plane, &mut ());
+            if let Some(reading) = &reading {
+                let visit = |key| {
+                    if !last.contains(&key) {
+                        row.keys.push(key);
+                        last = [key, last[0], last[1], last[2]];
                     }
-                }
-            });
-            seen.fallbacks += u64::from(is_coarser);
-            seen.looks.push(Some(Look { triangle, plan, probes }));
+                };
+                let is_coarser = self.painter.tiles(reading, visit, &mut ());
+                row.fallbacks += u64::from(is_coarser);
+            }
+            row.readings.push(reading);
         }
-        seen.keys.sort_unstable();
-        seen.keys.dedup();
-        seen
-    }
-
-    fn row(&self, seen: &Seen, table: &Table) -> Row {
-        let mut row = Row::default();
-        row.image.reserve(seen.looks.len());
-        let mut last = (self.sky, code_values(self.compositor.encoded(self.sky)));
-        for look in &seen.looks {
-            let (mut paint, mut texels) = (self.sky, 0);
-            if let Some(Look { triangle, plan, probes }) = look {
-                let texture = self.texture_at(probes, table, &mut texels);
-                paint = self.compositor.over(self.ground.at(*triangle, *plan), texture);
-            }
-            if paint != last.0 {
-                last = (paint, code_values(self.compositor.encoded(paint)));
-            }
-            row.image.push(last.1);
-            row.texels_read += u64::from(texels);
-            if self.wants.texels {
-                row.texels.push(texels);
-            }
-            if self.wants.levels {
-                row.levels.push(look.map_or(f64::INFINITY, |look| look.probes.level));
-            }
-            if self.wants.tile {
-                row.tiles.push(look.map_or(NO_TILE, |look| self.shown_tile(&look, table)));
-            }
-            if self.wants.colors {
-                row.colors.extend(self.compositor.encoded(paint));
-            }
-        }
+        row.keys.sort_unstable();
+        row.keys.dedup();
         row
     }
 
-    /// The finest tile that a pixel reads at its centre.
-    fn shown_tile(&self, look: &Look, table: &Table) -> TileKey {
-        let mut finest: Option<Quad> = None;
-        self.sampler.quads(&look.probes, &mut |quad| {
-            finest = Some(finest.filter(|known| known.level <= quad.level).unwrap_or(quad));
-        });
-        let finest = finest.map_or(0, |quad| quad.level);
-        let tile_of = |level: u32| {
-            let texel = self.prepared.texture.texel(level, look.plan);
-            self.sampler.tile_of(level, texel.x.floor() as i64, texel.y.floor() as i64).0
+    fn row(&self, row: &RowReadings, table: &Table, options: &FrameOptions) -> Row {
+        let backdrop = &self.painter.backdrop;
+        let mut done = Row {
+            pixels: Pixels::new(backdrop.compositor, row.readings.len(), options.wants("color")),
+            levels: Kept::new(options.wants("level")),
+            tiles: Kept::new(options.wants("tile")),
+            texels: Kept::new(options.wants("texels")),
+            texels_read: 0,
         };
-        // Where only probes aside read the finest level, the middle's tile is coarser.
-        let levels = finest..self.prepared.texture.levels();
-        levels.map(tile_of).find(|key| table.get(*key).is_some()).unwrap_or(NO_TILE)
-    }
-
-    /// The texture's paint where a pixel reads it.
-    fn texture_at(&self, probes: &Probes, table: &Table, texels: &mut u32) -> Paint {
-        let mut sum = [0.0; 4];
-        let mut add = |texel: [f32; 4], weight: f64| {
-            for k in 0..4 {
-                sum[k] += weight * f64::from(texel[k]);
-            }
-        };
-        self.sampler.quads(probes, &mut |Quad { level, at: (column, row), shares, weight, .. }| {
-            let (key, (c, r)) = self.sampler.tile_of(level, column, row);
-            let Some((east, south)) = shares else {
-                *texels += 1;
-                table.get(key).into_iter().for_each(|tile| add(tile.at(c, r), weight));
-                return;
+        let mut last = backdrop.no_ground();
+        for reading in &row.readings {
+            let (paint, texels) = match reading {
+                Some(reading) => self.painter.paint(reading, table, &mut last, &mut ()),
+                None => (backdrop.sky, 0),
             };
-            *texels += 4;
-            let weights = [
-                weight * (1.0 - east) * (1.0 - south),
-                weight * east * (1.0 - south),
-                weight * (1.0 - east) * south,
-                weight * east * south,
-            ];
-            // Mostly all four lie in one tile, away from the texture's rim.
-            if column >= 0
-                && row >= 0
-                && let Some(tile) = table.get(key)
-                && c + 1 < tile.size
-                && r + 1 < tile.size
-            {
-                let places = [(c, r), (c + 1, r), (c, r + 1), (c + 1, r + 1)];
-                places.into_iter().zip(weights).for_each(|((c, r), weight)| add(tile.at(c, r), weight));
-                return;
-            }
-            for ((dx, dy), weight) in [(0, 0), (1, 0), (0, 1), (1, 1)].into_iter().zip(weights) {
-                let (key, (c, r)) = self.sampler.tile_of(level, column + dx, row + dy);
-                table.get(key).into_iter().for_each(|tile| add(tile.at(c, r), weight));
-            }
-        });
-        Paint(sum)
+            done.pixels.push(paint);
+            done.texels_read += u64::from(texels);
+            done.texels.push(|| texels);
+            done.levels.push(|| reading.map_or(f64::INFINITY, |reading| reading.probes.level));
+            let shown = |reading: &Reading| self.painter.shown_tile(reading, table);
+            done.tiles.push(|| reading.as_ref().map_or(NO_TILE, shown));
+        }
+        done
     }
 
-    fn finish(&self, rows: Vec<Row>, made: &[Made], fallbacks: u64, options: &FrameOptions) -> Result<Frame> {
-        let (width, height) = (self.view.width(), self.view.height());
-        let planes: Result<Vec<Option<Plane>>> =
-            options.buffers.iter().map(|name| self.plane(name, &rows, made)).collect();
-        let counts = self.counts(&rows, made, fallbacks);
-        let image = rows.into_iter().flat_map(|row| row.image).collect();
-        let planes = planes?.into_iter().flatten().collect();
-        Ok(Frame { image: Buffer::from_values(width, height, image), planes, counts })
+    fn finish(&self, rows: &[Row], made: &[Made], fallbacks: u64, options: &FrameOptions) -> Result<Frame> {
+        let planes = options.buffers.iter().filter_map(|name| self.plane(name, rows, made).transpose());
+        let codes = joined(rows.iter().map(|row| row.pixels.codes()));
+        Ok(Frame {
+            image: Buffer::from_values(self.view.width(), self.view.height(), codes),
+            planes: planes.collect::<Result<_>>()?,
+            counts: self.counts(rows, made, fallbacks),
+        })
     }
 
     fn counts(&self, rows: &[Row], made: &[Made], fallbacks: u64) -> Vec<(&'static str, u64)> {
         let drawn = made.iter().fold(TileCounts::default(), |sum, tile| sum.plus(tile.counts));
-        let texels = rows.iter().map(|row| row.texels_read).sum();
-        let seen = self.sight.counts();
         let levels = made.iter().map(|tile| tile.key.level);
-        vec![
+        let own = [
             ("tiles", made.len() as u64),
             ("finest_level", u64::from(levels.clone().min().unwrap_or(0))),
             ("coarsest_level", u64::from(levels.max().unwrap_or(0))),
-            ("texels_read", texels),
+            ("texels_read", rows.iter().map(|row| row.texels_read).sum()),
             ("fallbacks", fallbacks),
             ("line_primitives", drawn.lines),
             ("wide_items", drawn.wide_items),
             ("quads", drawn.quads),
             ("areas", drawn.areas),
             ("geometry_bytes", self.prepared.geometry.bytes() as u64),
-            ("triangles_drawn", seen.triangles),
-            ("exact_decisions", seen.exact_decisions),
-        ]
+        ];
+        own.into_iter().chain(sight_counts(&self.painter.sight.counts())).collect()
     }
 
     fn plane(&self, name: &str, rows: &[Row], made: &[Made]) -> Result<Option<Plane>> {
-        let (width, height) = (self.view.width(), self.view.height());
-        let of_pixels = |name, components, values| Plane { name, width, height, components, values };
+        let size = [self.view.width(), self.view.height()];
         Ok(Some(match name {
             "vertices" => self.prepared.sequences(self.maker.pixel_m)?.vertices_plane(),
             "strips" => self.prepared.sequences(self.maker.pixel_m)?.strips_plane(),
-            "triangle" => of_pixels("triangle", 1, Values::U32(self.sight.triangles().to_vec())),
-            "depth" => of_pixels("depth", 1, Values::F64(self.of_hits(|hit| [hit.depth]))),
-            "plan" => of_pixels("plan", 2, Values::F64(self.of_hits(|hit| [hit.plan.x, hit.plan.y]))),
             "level" => {
-                let levels = rows.iter().flat_map(|row| row.levels.iter().copied()).collect();
-                of_pixels("level", 1, Values::F64(levels))
+                let levels = joined(rows.iter().map(|row| row.levels.values()));
+                picture_plane("level", size, 1, Values::F64(levels))
             }
             "tile" => {
                 let number = |key: &TileKey| made.binary_search_by_key(key, |tile| tile.key);
-                let tiles = rows.iter().flat_map(|row| &row.tiles);
-                let numbers = tiles.map(|key| number(key).map_or(u32::MAX, |at| at as u32)).collect();
-                of_pixels("tile", 1, Values::U32(numbers))
+                let tiles = rows.iter().flat_map(|row| row.tiles.values());
+                let numbers = tiles.map(|key| number(key).map_or(u32::MAX, |at| at as u32));
+                picture_plane("tile", size, 1, Values::U32(numbers.collect()))
             }
             "texels" => {
-                let texels = rows.iter().flat_map(|row| row.texels.iter().copied()).collect();
-                of_pixels("texels", 1, Values::U32(texels))
+                let texels = joined(rows.iter().map(|row| row.texels.values()));
+                picture_plane("texels", size, 1, Values::U32(texels))
             }
             "tile-keys" => {
-                let keys =
-                    made.iter().flat_map(|Made { key, .. }| [key.level, key.column, key.row]).collect();
-                Plane {
-                    name: "tile-keys",
-                    width: 3,
-                    height: made.len(),
-                    components: 1,
-                    values: Values::U32(keys),
-                }
+                let keys = made.iter().flat_map(|Made { key, .. }| [key.level, key.column, key.row]);
+                picture_plane("tile-keys", [3, made.len()], 1, Values::U32(keys.collect()))
             }
             "tiles" => self.tiles_plane(made),
             "color" => {
-                let colors = rows.iter().flat_map(|row| row.colors.iter().copied()).collect();
-                of_pixels("color", 4, Values::F64(colors))
+                let colors = joined(rows.iter().map(|row| row.pixels.colors().as_flattened()));
+                picture_plane("color", size, 4, Values::F64(colors))
             }
-            _ => return Ok(None),
+            _ => return Ok(surface_plane(name, &self.painter.sight, 0)),
         }))
     }
 
     /// All tiles beside and below one another, in the order of their keys.
     fn tiles_plane(&self, made: &[Made]) -> Plane {
+        let compositor = &self.painter.backdrop.compositor;
         let made = &made[..made.len().min(MOST_SHOWN)];
         let columns = made.len().clamp(1, TILES_A_ROW);
         let (width, height) = (columns * TILE, made.len().div_ceil(columns) * TILE);
@@ -467,20 +315,12 @@ impl<'a> Drawing<'a> {
             for row in 0..tile.size {
                 for column in 0..tile.size {
                     let texel = Paint(tile.at(column, row).map(f64::from));
-                    let code = code_values(self.compositor.encoded(texel));
+                    let code = code_values(compositor.encoded(texel));
                     values[((y + row) * width + x + column) * 4..][..4].copy_from_slice(&code);
                 }
             }
         }
-        Plane { name: "tiles", width, height, components: 4, values: Values::U8(values) }
-    }
-
-    fn of_hits<const N: usize>(&self, f: impl Fn(Hit) -> [f64; N] + Sync) -> Vec<f64> {
-        let rows = parallel::map_indices(self.view.height(), |y| {
-            let hits = (0..self.view.width()).map(|x| self.sight.hit(x, y));
-            hits.flat_map(|hit| hit.map_or([f64::INFINITY; N], &f)).collect::<Vec<_>>()
-        });
-        rows.concat()
+        picture_plane("tiles", [width, height], 4, Values::U8(values))
     }
 }
 
@@ -502,18 +342,18 @@ fn nearest(sight: &Sight, view: &ViewFrame) -> Option<Hit> {
 }
 
 /// The tiles of some rows, each once, in order.
-fn union(seen: &[Seen]) -> Vec<TileKey> {
-    let mut keys: Vec<TileKey> = seen.iter().flat_map(|row| row.keys.iter().copied()).collect();
+fn union(rows: &[RowReadings]) -> Vec<TileKey> {
+    let mut keys: Vec<TileKey> = rows.iter().flat_map(|row| row.keys.iter().copied()).collect();
     keys.sort_unstable();
     keys.dedup();
     keys
 }
 
 /// Rows of pixels that are coloured together: as many as touch no more than so many tiles, at least one.
-fn passes(seen: &[Seen], tiles: usize) -> Vec<std::ops::Range<usize>> {
+fn passes(rows: &[RowReadings], tiles: usize) -> Vec<std::ops::Range<usize>> {
     let mut passes = Vec::new();
     let (mut start, mut keys): (usize, Vec<TileKey>) = (0, Vec::new());
-    for (y, row) in seen.iter().enumerate() {
+    for (y, row) in rows.iter().enumerate() {
         let mut with_row = [&keys[..], &row.keys].concat();
         with_row.sort_unstable();
         with_row.dedup();
@@ -523,6 +363,6 @@ fn passes(seen: &[Seen], tiles: usize) -> Vec<std::ops::Range<usize>> {
         }
         keys = with_row;
     }
-    passes.push(start..seen.len());
+    passes.push(start..rows.len());
     passes
 }

@@ -4,7 +4,7 @@
 //! Input: a [`Stage`]. Output: a picture whose ground carries a texture of the vectors:
 //! 1. the items are kept in memory as one of the paper's solutions needs them (`geometry`, 4.1 to 4.4), lines tessellated into strips
 //!    ([`tessellation`], 4.2);
-//! 2. the texture is virtual: levels cut into tiles ([`texture`], 2); a frame finds which tiles its pixels touch (`sampling`, `frame`);
+//! 2. the texture is virtual: levels cut into tiles ([`texture`], 2); a frame finds which tiles its pixels touch (`sampling`, `pixel`, `frame`);
 //! 3. those are made, each once ([`tile`]): layers in order, thin lines as line primitives, the others as polygons (Algorithm 2),
 //!    rasterized in one of several ways ([`raster`]), and kept (`cache`);
 //! 4. each pixel samples the texture at its centre and composes it over the ground.
@@ -28,7 +28,7 @@
 mod cache;
 mod frame;
 mod geometry;
-mod quadtree;
+mod pixel;
 pub mod raster;
 #[cfg(test)]
 mod rational;
@@ -36,7 +36,9 @@ mod sampling;
 mod sequences;
 mod settings;
 mod simple;
+mod step;
 mod sweep;
+mod table;
 pub mod tessellation;
 pub mod texture;
 pub mod tile;
@@ -47,8 +49,9 @@ pub use settings::{
     Joints, LineFilter, LinePrimitives, OffsetForm, Overlaps, PixelWidth, PolygonRaster, Settings, Solution,
     TILE_TEXELS, TexelFormat, TextureFilter, WideLines,
 };
+pub use step::Step;
 
-use super::{Declaration, Frame, FrameOptions, Parameters, Prepared};
+use super::{Declaration, Explanation, Frame, FrameOptions, Parameters, Prepared};
 use crate::buffer::{Look, PlaneKind};
 use crate::error::Result;
 use crate::parallel;
@@ -104,7 +107,7 @@ impl<'s> Prepare<'s> {
         let scene = &stage.scene;
         let settings: Settings = scene.technique.get();
         let texture = VirtualTexture::over(&stage.mesh.plan_bounds(), settings.virtual_size);
-        let geometry = Geometry::new(&stage.draw_list, &settings, scene.compositing, &texture.bounds())?;
+        let geometry = Geometry::new(&stage.draw_list, &settings, scene.compositing)?;
         Ok(Self { stage, settings, texture, geometry, cache: Mutex::default() })
     }
 
@@ -112,6 +115,11 @@ impl<'s> Prepare<'s> {
     /// what the cache did.
     pub fn frame_of(&self, view: &ViewFrame, options: &FrameOptions) -> Result<(Frame, CacheCounts)> {
         frame::draw(self, view, options)
+    }
+
+    /// The steps of a pixel (column, row) of a view's picture, and its code values; see [`super::explain`].
+    pub fn steps_of(&self, view: &ViewFrame, pixel: [usize; 2]) -> (Vec<Step>, [u8; 4]) {
+        frame::explain(self, view, pixel)
     }
 
     /// The virtual texture.
@@ -181,6 +189,11 @@ pub fn applies(_stage: &Stage) -> Result<()> {
 impl Prepared for Prepare<'_> {
     fn frame(&self, view: &ViewFrame, options: &FrameOptions) -> Result<Frame> {
         Ok(self.frame_of(view, options)?.0)
+    }
+
+    fn steps(&self, view: &ViewFrame, pixel: [usize; 2]) -> Result<Explanation> {
+        let (steps, code) = self.steps_of(view, pixel);
+        Ok(Explanation::new(steps, code))
     }
 
     fn structure_bytes(&self) -> usize {

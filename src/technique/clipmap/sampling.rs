@@ -34,9 +34,9 @@ pub(super) struct Probes {
     /// The level that is asked for, between two of them.
     pub(super) level: f64,
     /// The first probe, in the texels of level 0.
-    first: Texel,
+    pub(super) first: Texel,
     /// From a probe to the next.
-    step: DVec2,
+    pub(super) step: DVec2,
     /// How many there are.
     pub(super) count: u32,
 }
@@ -81,6 +81,7 @@ impl Sampler {
     }
 
     /// The probes of a pixel that sees a plan point; without a footprint it sees the ground edge-on.
+    #[inline(always)]
     pub(super) fn probes(&self, at: Plan, footprint: Option<&PixelFootprint>) -> Probes {
         let center = self.texture.texel(0, at);
         let coarsest = f64::from(self.texture.levels() - 1);

@@ -8,6 +8,7 @@ use super::expansion::{AreaId, Edge, expanded};
 use super::quadrilateral::Quadrilateral;
 use crate::draw_list::{DrawList, Role, Side};
 use crate::error::{Error, Result};
+use crate::index::CellLists;
 use crate::math;
 use crate::parallel;
 use crate::predicate::orient2d;
@@ -30,18 +31,16 @@ pub struct EdgeIndex<'l> {
     per_metre: f64,
     columns: usize,
     rows: usize,
-    /// Where each cell's edges start in `members`; one more entry than cells.
-    member_starts: Vec<u32>,
-    members: Vec<u32>,
-    /// Where each cell's covering areas start in `covers`; one more entry than cells.
-    cover_starts: Vec<u32>,
-    covers: Vec<Winding>,
+    /// The edges that meet each cell.
+    members: CellLists<u32>,
+    /// The areas that wind around each cell's corner.
+    covers: CellLists<Winding>,
     /// `sums[r * (columns + 1) + c]`: how many members the cells of rows below r and columns below c have.
     sums: Vec<u64>,
 }
 
 /// How often an area winds around a point.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Winding {
     /// The area.
     pub area: AreaId,
@@ -67,10 +66,8 @@ impl<'l> EdgeIndex<'l> {
             per_metre: 1.0 / layout.cell,
             columns: layout.columns,
             rows: layout.rows,
-            member_starts: Vec::new(),
-            members: Vec::new(),
-            cover_starts: Vec::new(),
-            covers: Vec::new(),
+            members: CellLists::default(),
+            covers: CellLists::default(),
             sums: Vec::new(),
             list,
             area_count: area_count(list),
@@ -126,8 +123,8 @@ impl<'l> EdgeIndex<'l> {
     /// Bytes held.
     pub fn bytes(&self) -> usize {
         size_of_val(&self.edges[..])
-            + 4 * (self.member_starts.len() + self.members.len() + self.cover_starts.len())
-            + size_of_val(&self.covers[..])
+            + self.members.bytes()
+            + self.covers.bytes()
             + size_of_val(&self.sums[..])
     }
 
@@ -164,14 +161,12 @@ impl<'l> EdgeIndex<'l> {
 
     #[inline]
     fn members_of(&self, column: usize, row: usize) -> &[u32] {
-        let cell = row * self.columns + column;
-        &self.members[self.member_starts[cell] as usize..self.member_starts[cell + 1] as usize]
+        self.members.of(row * self.columns + column)
     }
 
     #[inline]
     fn covers_of(&self, column: usize, row: usize) -> &[Winding] {
-        let cell = row * self.columns + column;
-        &self.covers[self.cover_starts[cell] as usize..self.cover_starts[cell + 1] as usize]
+        self.covers.of(row * self.columns + column)
     }
 
     /// Collects the edges whose boxes meet a quadrilateral's in the cells that it touches, each once, in order.
@@ -307,54 +302,34 @@ impl<'l> EdgeIndex<'l> {
     }
 
     fn list_members(&mut self) {
-        let cells = self.columns * self.rows;
-        let mut starts = vec![0u32; cells + 1];
-        for edge in &self.edges {
-            self.for_each_cell(edge, |cell| starts[cell + 1] += 1);
-        }
-        for cell in 0..cells {
-            starts[cell + 1] += starts[cell];
-        }
-        let mut next = starts.clone();
-        let mut members = vec![0u32; starts[cells] as usize];
-        for (index, edge) in self.edges.iter().enumerate() {
-            self.for_each_cell(edge, |cell| {
-                members[next[cell] as usize] = index as u32;
-                next[cell] += 1;
-            });
-        }
+        let members = CellLists::new(self.columns * self.rows, |members| {
+            for (index, edge) in self.edges.iter().enumerate() {
+                self.for_each_cell(edge, |cell| members.put(cell, index as u32));
+            }
+        });
         let stride = self.columns + 1;
         let mut sums = vec![0u64; stride * (self.rows + 1)];
         for row in 0..self.rows {
             for column in 0..self.columns {
-                let cell = row * self.columns + column;
-                sums[(row + 1) * stride + column + 1] = u64::from(starts[cell + 1] - starts[cell])
+                sums[(row + 1) * stride + column + 1] = members.of(row * self.columns + column).len() as u64
                     + sums[(row + 1) * stride + column]
                     + sums[row * stride + column + 1]
                     - sums[row * stride + column];
             }
         }
-        (self.member_starts, self.members, self.sums) = (starts, members, sums);
+        (self.members, self.sums) = (members, sums);
     }
 
     /// Finds the windings at the cells' corners, row by row: what an area winds around changes where one of its edges
     /// crosses the row's line.
     fn list_covers(&mut self) {
-        let mut crossings: Vec<Vec<u32>> = vec![Vec::new(); self.rows];
-        for (index, edge) in self.edges.iter().enumerate() {
-            for row in self.rows_crossed(edge) {
-                crossings[row].push(index as u32);
+        let crossings = CellLists::new(self.rows, |crossings| {
+            for (index, edge) in self.edges.iter().enumerate() {
+                self.rows_crossed(edge).for_each(|row| crossings.put(row, index as u32));
             }
-        }
-        let rows = parallel::map_indices(self.rows, |row| self.covers_in_row(row, &crossings[row]));
-        self.cover_starts = Vec::with_capacity(self.columns * self.rows + 1);
-        self.cover_starts.push(0);
-        for (counts, covers) in rows {
-            for count in counts {
-                self.cover_starts.push(self.cover_starts[self.cover_starts.len() - 1] + count);
-            }
-            self.covers.extend(covers);
-        }
+        });
+        let rows = parallel::map_indices(self.rows, |row| self.covers_in_row(row, crossings.of(row)));
+        rows.iter().for_each(|row| self.covers.append(row));
     }
 
     /// The rows whose southern line an edge crosses (half-open: a line through an end counts as just below it).
@@ -368,8 +343,8 @@ impl<'l> EdgeIndex<'l> {
         })
     }
 
-    /// The number of covering areas of each cell of a row, and the areas, given the edges that cross the row's line.
-    fn covers_in_row(&self, row: usize, crossings: &[u32]) -> (Vec<u32>, Vec<Winding>) {
+    /// The covering areas of each cell of a row, given the edges that cross the row's line.
+    fn covers_in_row(&self, row: usize, crossings: &[u32]) -> CellLists<Winding> {
         let mut changes: Vec<(AreaId, usize, i32)> = crossings
             .iter()
             .map(|&index| {
@@ -389,28 +364,12 @@ impl<'l> EdgeIndex<'l> {
             turns = change + if next_area == area { turns } else { 0 };
             (area, from) = (next_area, column);
         }
-        self.spread(&runs)
-    }
-
-    /// Runs of covered cells (in the order of areas) as one list a cell.
-    fn spread(&self, runs: &[(Range<usize>, Winding)]) -> (Vec<u32>, Vec<Winding>) {
-        let mut counts = vec![0u32; self.columns];
-        for (columns, _) in runs {
-            counts[columns.clone()].iter_mut().for_each(|count| *count += 1);
-        }
-        let mut next = vec![0u32; self.columns];
-        for column in 1..self.columns {
-            next[column] = next[column - 1] + counts[column - 1];
-        }
-        let total = counts.iter().map(|c| *c as usize).sum();
-        let mut covers = vec![Winding { area: AreaId::LAST, turns: 0 }; total];
-        for (columns, winding) in runs {
-            for column in columns.clone() {
-                covers[next[column] as usize] = *winding;
-                next[column] += 1;
+        // Runs come in the order of areas.
+        CellLists::new(self.columns, |covers| {
+            for (columns, winding) in &runs {
+                columns.clone().for_each(|column| covers.put(column, *winding));
             }
-        }
-        (counts, covers)
+        })
     }
 
     /// The first column whose corner on a row's line lies east of where an edge crosses the line.

@@ -8,9 +8,10 @@ use crate::draw_list::{Chain, DrawList, Item};
 use crate::scene::{Cap, Line, Width};
 use crate::space::Plan;
 use glam::DVec2;
+use std::fmt;
 
 /// A set of plan points that edges bound: an item's polygon, or its expanded stroke. In draw order.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
 pub struct AreaId(u32);
 
 impl AreaId {
@@ -37,6 +38,13 @@ impl AreaId {
     #[inline]
     pub fn is_stroke(self) -> bool {
         self.0 % 2 == 1
+    }
+}
+
+impl fmt::Display for AreaId {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let what = if self.is_stroke() { "stroke" } else { "polygon" };
+        write!(f, "the {what} of item {}", self.item())
     }
 }
 

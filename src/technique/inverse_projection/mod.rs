@@ -4,7 +4,7 @@
 //! Input: a [`Stage`]. Output: a picture whose every pixel asks the plan for its colour:
 //! 1. preprocess: lines are expanded to polygons of edges with normals (`expansion`, 3.1);
 //! 2. the depth buffer gives each pixel a quadrilateral in the plan (`quadrilateral`, 3.2);
-//! 3. pixels are N (no area), F (wholly in areas) or P (an edge meets the quadrilateral) (`frame`, 3.3);
+//! 3. pixels are N (no area), F (wholly in areas) or P (an edge meets the quadrilateral) (`pixel`, 3.3);
 //! 4. P pixels take n x n samples, bilinear in the quadrilateral (3.4), judged by edge normals (`judgment`, 3.5)
 //!    and averaged.
 //!
@@ -23,22 +23,22 @@ mod edge_index;
 mod expansion;
 mod frame;
 mod judgment;
+mod pixel;
 mod quadrilateral;
 mod settings;
+mod step;
 mod sweep;
 
+pub use expansion::AreaId;
 pub use settings::{Corners, PointInPolygon, Settings, Silhouette};
+pub use step::{EdgeOf, PixelClass, Refusal, Step};
 
-use super::{Declaration, Frame, FrameOptions, Parameters, Prepared};
+use super::{Declaration, Explanation, Frame, FrameOptions, Parameters, Prepared};
 use crate::buffer::{Look, PlaneKind};
 use crate::error::{Error, Result};
 use crate::space::ViewFrame;
 use crate::stage::Stage;
 use edge_index::EdgeIndex;
-
-/// A quadrilateral's side may be so many times longer than the longer of the sides that the planes of its two ends
-/// would give it, before it counts as spanning a silhouette.
-const SILHOUETTE_RATIO: f64 = 8.0;
 
 /// The technique, said once.
 pub const DECLARATION: Declaration = Declaration {
@@ -78,6 +78,11 @@ impl<'s> Prepare<'s> {
         let index = EdgeIndex::new(&stage.draw_list, &stage.mesh.plan_bounds())?;
         Ok(Self { stage, settings: stage.scene.technique.get(), index })
     }
+
+    /// The steps of a pixel (column, row) of a view's picture, and its code values; see [`super::explain`].
+    pub fn steps_of(&self, view: &ViewFrame, pixel: [usize; 2]) -> (Vec<Step>, [u8; 4]) {
+        frame::explain((self.stage, view), &self.settings, &self.index, pixel)
+    }
 }
 
 /// Whether the technique can draw the scene.
@@ -98,6 +103,11 @@ pub fn applies(stage: &Stage) -> Result<()> {
 impl Prepared for Prepare<'_> {
     fn frame(&self, view: &ViewFrame, options: &FrameOptions) -> Result<Frame> {
         Ok(frame::draw((self.stage, view), &self.settings, &self.index, options))
+    }
+
+    fn steps(&self, view: &ViewFrame, pixel: [usize; 2]) -> Result<Explanation> {
+        let (steps, code) = self.steps_of(view, pixel);
+        Ok(Explanation::new(steps, code))
     }
 
     fn structure_bytes(&self) -> usize {

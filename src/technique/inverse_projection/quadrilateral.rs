@@ -95,10 +95,15 @@ impl Quadrilateral {
         Plan::new(mix(a.x, b.x, c.x, d.x), mix(a.y, b.y, c.y, d.y))
     }
 
-    /// She 3.4: the n x n positions of mean sampling, rows from the lower edge.
-    pub fn samples(&self, n: u32) -> impl Iterator<Item = Plan> {
-        let at = move |k: u32| (f64::from(k) + 0.5) / f64::from(n);
-        (0..n).flat_map(move |row| (0..n).map(move |column| self.sample(at(column), at(row))))
+    /// She 3.4: calls `visit` with the n x n positions of mean sampling, rows from the lower edge.
+    #[inline(always)]
+    pub fn for_each_sample(&self, n: u32, mut visit: impl FnMut(Plan)) {
+        let at = |k: u32| (f64::from(k) + 0.5) / f64::from(n);
+        for row in 0..n {
+            for column in 0..n {
+                visit(self.sample(at(column), at(row)));
+            }
+        }
     }
 }
 
@@ -125,7 +130,8 @@ mod tests {
     #[test]
     fn the_samples_of_a_square_are_the_middles_of_its_parts() {
         let square = quad([(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0)]);
-        let samples: Vec<_> = square.samples(2).map(|p| (p.x, p.y)).collect();
+        let mut samples = Vec::new();
+        square.for_each_sample(2, |p| samples.push((p.x, p.y)));
         assert_eq!(samples, [(0.5, 0.5), (1.5, 0.5), (0.5, 1.5), (1.5, 1.5)]);
     }
 

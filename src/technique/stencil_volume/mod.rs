@@ -4,8 +4,8 @@
 //! Input: a [`Stage`]. Output: a picture whose features are masks that faces of polyhedra have counted:
 //! 1. extrusion: vector data becomes polyhedra between levels just below and above the terrain (`extrusion`, `stroke`, `heights`; 4.1);
 //! 2. the view: which method counts each polyhedron (`view`, 4.2.1);
-//! 3. counting: the faces' fragments before or behind the terrain go into the stencil (`face`, `block`, `stencil`; 3.1, 4.2.1);
-//! 4. the mask is applied through the polyhedra's boxes and zeroed on the way (`tile`, 4.2.2).
+//! 3. counting: the faces' fragments before or behind the terrain go into the stencil (`face`, `fragments`, `block`, `stencil`; 3.1, 4.2.1);
+//! 4. the mask is applied through the polyhedra's boxes and zeroed on the way (`passes`, 4.2.2).
 //!
 //! With exact mathematics (the default device) the mask is the footprint: a sample is in it exactly when its surface
 //! point's plan point is. Where the paper is silent, see `extrusion`, `view` and `docs/semantics.md`.
@@ -15,12 +15,17 @@
 //! their polygon where the stencil has one bit.
 
 mod block;
+mod context;
 mod extrusion;
 mod face;
+mod fragments;
 mod frame;
 mod heights;
+mod passes;
+mod points;
 mod settings;
 mod stencil;
+mod step;
 mod stroke;
 mod sweep;
 #[cfg(test)]
@@ -29,8 +34,9 @@ mod tile;
 mod view;
 
 pub use settings::{Counting, FarPlane, Grouping, Overflow, Settings, VolumeCaps, VolumeJoins};
+pub use step::Step;
 
-use super::{Declaration, Frame, FrameOptions, Parameters, Prepared};
+use super::{Declaration, Explanation, Frame, FrameOptions, Parameters, Prepared};
 use crate::buffer::{Look, PlaneKind};
 use crate::error::{Error, Result};
 use crate::scene::{Layer, OutlineMode};
@@ -95,6 +101,15 @@ impl<'s> Prepare<'s> {
         }
         Ok(Self { stage, settings, extrusion })
     }
+
+    /// The steps of a pixel (column, row) of a view's picture, and its code values; see [`super::explain`].
+    ///
+    /// # Errors
+    /// When there is no room for the samples of the picture.
+    pub fn steps_of(&self, view: &ViewFrame, pixel: [usize; 2]) -> Result<(Vec<Step>, [u8; 4])> {
+        has_room((view.width(), view.height()), self.settings.samples)?;
+        Ok(frame::explain((self.stage, view), &self.extrusion, pixel))
+    }
 }
 
 /// Whether the technique can draw the scene.
@@ -148,6 +163,11 @@ impl Prepared for Prepare<'_> {
     fn frame(&self, view: &ViewFrame, options: &FrameOptions) -> Result<Frame> {
         has_room((view.width(), view.height()), self.settings.samples)?;
         Ok(frame::draw((self.stage, view), &self.extrusion, options))
+    }
+
+    fn steps(&self, view: &ViewFrame, pixel: [usize; 2]) -> Result<Explanation> {
+        let (steps, code) = self.steps_of(view, pixel)?;
+        Ok(Explanation::new(steps, code))
     }
 
     fn structure_bytes(&self) -> usize {

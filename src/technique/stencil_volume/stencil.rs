@@ -54,7 +54,10 @@ impl Width {
     }
 }
 
-/// Planes for the curious, over all samples of a tile.
+/// The planes that show how the stencil came about.
+pub const TRACES: [&str; 4] = ["stencil", "stencil-front", "stencil-back", "overdraw"];
+
+/// The planes of [`TRACES`] over all samples of a tile.
 #[derive(Debug, Clone)]
 pub struct Traces {
     /// The count when the mask was applied.

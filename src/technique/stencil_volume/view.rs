@@ -16,7 +16,7 @@ use crate::technique::stencil_volume::{Counting, FarPlane, Overflow, Settings, V
 use glam::DVec3;
 
 /// A volume in the list of what is drawn.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Entry {
     /// Which mask it belongs to.
     pub pass: u32,

@@ -443,7 +443,7 @@ fn violations(seed: u64, count: usize) -> Vec<String> {
         let setting = Setting::new(&scene, &mesh, (&footprints, size), budget);
         let triangles: Vec<(u32, SurfaceTriangle)> =
             (0..mesh.triangle_ids()).filter_map(|id| Some((id, mesh.surface_triangle(id)?))).collect();
-        let mut work = Work::new(&setting, &mesh, &frame, ([0, 0], [12, 9]));
+        let mut work = Work::new(&setting, &mesh, &frame, &TilePlace { corner: [0, 0], size: [12, 9] });
         let all: Vec<u32> = (0..work.leaves.len()).flat_map(|leaf| work.facets_of(leaf)).collect();
         for (x, y) in (0..9).flat_map(|y| (0..12).map(move |x| (x, y))) {
             let near = narrowed((&work.facets, &work.boxes), &all, [x as f64, y as f64], 1.0);

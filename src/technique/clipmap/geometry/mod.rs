@@ -12,11 +12,11 @@ pub(super) use areas::AreaRings;
 pub(super) use strokes::Chunk;
 pub(super) use style::{Drawn, StrokeStyle, Styles};
 
-use super::quadtree::Quadtree;
 use super::raster::Folded;
 use super::tessellation::Polyline;
 use crate::draw_list::{DrawList, Item};
 use crate::error::{Error, Result};
+use crate::index::BoxTree;
 use crate::math;
 use crate::parallel;
 use crate::scene::Compositing;
@@ -43,23 +43,18 @@ pub(super) struct Geometry<'l> {
     list: &'l DrawList,
     styles: Styles,
     strokes: Strokes,
-    stroke_index: Quadtree,
+    stroke_index: BoxTree,
     areas: Areas,
-    area_index: Quadtree,
+    area_index: BoxTree,
     joints: Joints,
 }
 
 impl<'l> Geometry<'l> {
-    /// Keeps what a solution needs of the items, indexed by the cells of a square.
+    /// Keeps what a solution needs of the items.
     ///
     /// # Errors
     /// When there is more than can be numbered.
-    pub(super) fn new(
-        list: &'l DrawList,
-        settings: &Settings,
-        compositing: Compositing,
-        square: &PlanBox,
-    ) -> Result<Self> {
+    pub(super) fn new(list: &'l DrawList, settings: &Settings, compositing: Compositing) -> Result<Self> {
         let mut styles = Styles::new(list, settings, compositing)?;
         let offsets = (settings.solution == Solution::Offsets).then_some(settings.offsets);
         let items = list.items().len();
@@ -83,9 +78,9 @@ impl<'l> Geometry<'l> {
             list,
             styles,
             strokes,
-            stroke_index: Quadtree::new(&of_strokes, *square),
+            stroke_index: BoxTree::new(&of_strokes),
             areas,
-            area_index: Quadtree::new(&of_areas, *square),
+            area_index: BoxTree::new(&of_areas),
             joints: settings.joints,
         })
     }
@@ -117,18 +112,12 @@ impl<'l> Geometry<'l> {
 
     /// The chunks of strokes whose vertices' boxes meet one, in draw order.
     pub(super) fn chunks_near(&self, wanted: &PlanBox) -> Vec<u32> {
-        let mut found = Vec::new();
-        self.stroke_index.query(wanted, &mut found);
-        found.sort_unstable();
-        found
+        found_in(&self.stroke_index, wanted)
     }
 
     /// The filled areas whose boxes meet one, in draw order.
     pub(super) fn areas_near(&self, wanted: &PlanBox) -> Vec<AreaRings> {
-        let mut found = Vec::new();
-        self.area_index.query(wanted, &mut found);
-        found.sort_unstable();
-        found.into_iter().map(|area| self.areas.get(area)).collect()
+        found_in(&self.area_index, wanted).into_iter().map(|area| self.areas.get(area)).collect()
     }
 
     /// A chunk.
@@ -179,6 +168,17 @@ impl<'l> Geometry<'l> {
             }
         }
     }
+}
+
+/// The numbers of the boxes that meet one, in order.
+fn found_in(index: &BoxTree, wanted: &PlanBox) -> Vec<u32> {
+    let mut found = Vec::new();
+    index.query(wanted, |number| {
+        found.push(number);
+        true
+    });
+    found.sort_unstable();
+    found
 }
 
 /// What some items become.

@@ -1,34 +1,33 @@
 //! The surface points that a tile's samples see.
 
-use super::super::block::{Block, COLUMNS, ROWS};
-use super::super::face::Place;
-use super::super::frame::Drawing;
-use super::super::view::Entry;
-use super::Way;
+use super::block::{Block, COLUMNS, ROWS};
+use super::context::{FrameContext, Way};
+use super::face::Place;
+use super::view::Entry;
 use crate::math;
 use crate::raster::TileView;
 use crate::space::{Lens, World};
 use std::ops::Range;
 
 /// The surface points of a tile that volumes may touch, in blocks, and where they lie.
-pub(super) fn seen(drawing: &Drawing, view: &TileView, entries: &[Entry]) -> (Place, Vec<Block>) {
+pub fn seen(context: &FrameContext, view: &TileView, entries: &[Entry]) -> (Place, Vec<Block>) {
     let size = (view.width, view.height);
     let mut blocks = Vec::new();
     for row in (0..view.height).step_by(ROWS) {
         blocks.extend((0..view.width).step_by(COLUMNS).map(|column| Block::new((column, row), size)));
     }
     let mut origin = None;
-    if drawing.way != Way::Machine {
+    if context.way != Way::Machine {
         let mut points = vec![World::default(); view.width];
         for r in rows_of(view, entries) {
-            drawing.sight.world_of_row((view.column, view.row + r), &mut points);
+            context.sight.world_of_row((view.column, view.row + r), &mut points);
             origin = origin.or_else(|| points.iter().copied().find(|p| p.is_finite()));
             let Some(origin) = origin else { continue };
             let from = r / ROWS * view.width.div_ceil(COLUMNS);
-            drawing.arch.dispatch(Take { points: &points, r: r % ROWS, origin, blocks: &mut blocks[from..] });
+            context.arch.dispatch(Take { points: &points, r: r % ROWS, origin, blocks: &mut blocks[from..] });
         }
     }
-    drawing.arch.dispatch(Close { blocks: &mut blocks });
+    context.arch.dispatch(Close { blocks: &mut blocks });
     let reach = blocks.iter().fold(0.0, |most, block| math::max_f32(block.reach(), most));
     (place(view, origin.unwrap_or_default(), f64::from(reach)), blocks)
 }

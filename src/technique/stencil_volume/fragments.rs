@@ -1,32 +1,33 @@
 //! The fragments of a face in a tile: by the filter and the exact predicates, or by the imitated machine.
 
-use super::super::block::{BEFORE, BEHIND, COLUMNS, NONE, OPEN, ROWS};
-use super::super::face::{Face, Fragment, Outline};
-use super::super::stencil::Method;
-use super::super::view::Entry;
-use super::{Tile, Way};
+use super::block::{BEFORE, BEHIND, COLUMNS, NONE, OPEN, ROWS};
+use super::context::Way;
+use super::face::{Face, Fragment, Outline};
+use super::stencil::Method;
+use super::tile::{Tile, sample_of};
+use super::view::Entry;
 use crate::predicate;
 use crate::raster::device::Window;
 use crate::space::{Lens, Ray};
 use crate::terrain::SKY;
 
 /// Takes the fragments of a face.
-pub(super) type Visit<'v, 'a> = dyn FnMut(&mut Tile<'a>, (usize, usize), Fragment) + 'v;
+pub type Visit<'v, 'a, R> = dyn FnMut(&mut Tile<'a, R>, (usize, usize), Fragment) + 'v;
 
-impl<'a> Tile<'a> {
+impl<'a, R> Tile<'a, R> {
     /// Calls `visit` with each fragment of a face that is no volume's own (a box's).
-    pub(super) fn for_each_fragment(&mut self, outline: &Outline, entry: &Entry, visit: &mut Visit<'_, 'a>) {
-        if self.drawing.way == Way::Machine {
+    pub fn for_each_fragment(&mut self, outline: &Outline, entry: &Entry, visit: &mut Visit<'_, 'a, R>) {
+        if self.context.way == Way::Machine {
             return self.visit_on_machine(outline, visit);
         }
-        let face = self.setup().face(*outline, self.drawing.is_cut(entry.volume));
+        let face = self.setup().face(*outline, self.context.is_cut(entry.volume));
         if let Some(face) = face {
             self.visit_face(&face, visit);
         }
     }
 
     /// Calls `visit` with each fragment of a face, exactly.
-    pub(super) fn visit_face(&mut self, face: &Face, visit: &mut Visit<'_, 'a>) {
+    pub fn visit_face(&mut self, face: &Face, visit: &mut Visit<'_, 'a, R>) {
         let mut states = [NONE; COLUMNS];
         for y in face.rows.0 / ROWS..=face.rows.1 / ROWS {
             for x in face.columns.0 / COLUMNS..=face.columns.1 / COLUMNS {
@@ -56,10 +57,10 @@ impl<'a> Tile<'a> {
     #[cold]
     fn decide(&mut self, face: &Face, at: (usize, usize)) -> Option<Fragment> {
         self.counts.exact_decisions += 1;
-        let (c, r) = self.sample(at);
+        let [c, r] = sample_of(&self.blocks, at);
         let ray = self.view.ray(c, r);
-        let id = self.drawing.sight.triangle(self.view.column + c, self.view.row + r);
-        let ground = if id == SKY { None } else { self.drawing.mesh.triangle(id) };
+        let id = self.context.sight.triangle(self.view.column + c, self.view.row + r);
+        let ground = if id == SKY { None } else { self.context.mesh.triangle(id) };
         let seen = match self.view.frame.lens() {
             Lens::Central { .. } => face.facing,
             Lens::Parallel { .. } => None,
@@ -70,7 +71,7 @@ impl<'a> Tile<'a> {
 
     /// Whether the near and the far plane leave a fragment of a face standing.
     fn is_unclipped(&self, face: &Face, ray: &Ray) -> bool {
-        if !self.drawing.clips() {
+        if !self.context.clips() {
             return true;
         }
         let frame = &self.view.frame;
@@ -80,17 +81,17 @@ impl<'a> Tile<'a> {
     }
 
     /// Calls `visit` with each fragment of a face that the imitated machine draws.
-    pub(super) fn visit_on_machine(&mut self, outline: &Outline, visit: &mut Visit<'_, 'a>) {
-        let drawing = self.drawing;
-        let Some(machine) = drawing.sight.machine() else { return };
+    pub fn visit_on_machine(&mut self, outline: &Outline, visit: &mut Visit<'_, 'a, R>) {
+        let context = self.context;
+        let Some(machine) = context.sight.machine() else { return };
         let (column, row) = (self.view.column, self.view.row);
         let window = Window { columns: column..column + self.view.width, rows: row..row + self.view.height };
         let corners = outline.corners();
         for k in 2..corners.len() {
             let triangle = [corners[0], corners[k - 1], corners[k]];
-            let place = (drawing.sight.lattice(), &window);
-            machine.rasterize(&triangle, !drawing.clips(), place, &mut |(c, r), facing, depth| {
-                let stored = drawing.sight.stored(c, r).unwrap_or(depth);
+            let place = (context.sight.lattice(), &window);
+            machine.rasterize(&triangle, !context.clips(), place, &mut |(c, r), facing, depth| {
+                let stored = context.sight.stored(c, r).unwrap_or(depth);
                 let is_behind = !machine.passes(depth, stored);
                 let at = self.index(c - column, r - row);
                 visit(self, at, Fragment { facing, is_behind });
@@ -112,14 +113,14 @@ impl<'a> Tile<'a> {
 }
 
 /// Counts the faces of a volume in some blocks, compiled for the widest vectors of the machine at hand.
-pub(super) struct Sparse<'t, 'a, 'f> {
-    pub(super) tile: &'t mut Tile<'a>,
-    pub(super) faces: &'f [Face],
-    pub(super) method: Method,
-    pub(super) blocks: &'f [usize],
+pub struct Sparse<'t, 'a, 'f, R> {
+    pub tile: &'t mut Tile<'a, R>,
+    pub faces: &'f [Face],
+    pub method: Method,
+    pub blocks: &'f [usize],
 }
 
-impl pulp::WithSimd for Sparse<'_, '_, '_> {
+impl<R> pulp::WithSimd for Sparse<'_, '_, '_, R> {
     type Output = ();
 
     #[inline(always)]

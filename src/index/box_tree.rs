@@ -1,5 +1,6 @@
 //! A packed tree of boxes: which of many boxes meet one.
 
+use super::morton::morton;
 use crate::parallel;
 use crate::space::{Plan, PlanBox, SmallBox};
 
@@ -28,17 +29,13 @@ impl BoxTree {
             whole.include(plan.max);
         }
         let mut order: Vec<(u64, u32)> =
-            boxes.iter().enumerate().map(|(k, plan)| (morton(&whole, plan), k as u32)).collect();
+            boxes.iter().enumerate().map(|(k, plan)| (place(&whole, plan), k as u32)).collect();
         parallel::sort_by_key(&mut order, |entry| *entry);
         let order: Vec<u32> = order.into_iter().map(|(_, k)| k).collect();
-        let mut levels =
-            vec![order.iter().map(|&k| SmallBox::around(&boxes[k as usize])).collect::<Vec<_>>()];
-        while let Some(top) = levels.last().filter(|top| top.len() > 1) {
-            let around =
-                |boxes: &[SmallBox]| boxes.iter().skip(1).fold(boxes[0], |all, one| all.joined(*one));
-            let next = top.chunks(FAN).map(around).collect();
-            levels.push(next);
-        }
+        let leaves = order.iter().map(|&k| SmallBox::around(&boxes[k as usize])).collect();
+        let levels = packed_levels(leaves, FAN, |boxes: &[SmallBox]| {
+            boxes.iter().skip(1).fold(boxes[0], |all, one| all.joined(*one))
+        });
         Self { order, levels }
     }
 
@@ -80,27 +77,23 @@ impl BoxTree {
     }
 }
 
-/// The place of a box's middle on a Morton curve over the whole.
-fn morton(whole: &PlanBox, plan: &PlanBox) -> u64 {
-    let size = whole.max - whole.min;
-    let middle = Plan::from((plan.min.to_vec() + plan.max.to_vec()) / 2.0);
-    let place = |v: f64, low: f64, size: f64| ((v - low) / size * 65_536.0) as u32;
-    spread(place(middle.x, whole.min.x, size.x)) | spread(place(middle.y, whole.min.y, size.y)) << 1
+/// The levels of a tree whose nodes hold `fan` consecutive nodes of the level below, from the leaves up to one node; `around` makes a node of
+/// those that it holds.
+pub fn packed_levels<T>(leaves: Vec<T>, fan: usize, around: impl Fn(&[T]) -> T) -> Vec<Vec<T>> {
+    let mut levels = vec![leaves];
+    while let Some(top) = levels.last().filter(|top| top.len() > 1) {
+        let next = top.chunks(fan).map(&around).collect();
+        levels.push(next);
+    }
+    levels
 }
 
-/// Every bit of a number moved to the even places.
-fn spread(v: u32) -> u64 {
-    let mut v = u64::from(v);
-    for (shift, mask) in [
-        (16, 0x0000_ffff_0000_ffff),
-        (8, 0x00ff_00ff_00ff_00ff),
-        (4, 0x0f0f_0f0f_0f0f_0f0f),
-        (2, 0x3333_3333_3333_3333),
-        (1, 0x5555_5555_5555_5555u64),
-    ] {
-        v = (v | v << shift) & mask;
-    }
-    v
+/// The place of a box's middle on a Morton curve over the whole.
+fn place(whole: &PlanBox, plan: &PlanBox) -> u64 {
+    let size = whole.max - whole.min;
+    let middle = Plan::from((plan.min.to_vec() + plan.max.to_vec()) / 2.0);
+    let cell = |v: f64, low: f64, size: f64| ((v - low) / size * 65_536.0) as u32;
+    morton(cell(middle.x, whole.min.x, size.x), cell(middle.y, whole.min.y, size.y))
 }
 
 #[cfg(test)]
