@@ -197,7 +197,7 @@ fn every_described_key_is_read_somewhere() {
     let (mut of_parser, mut of_scenes) = (Vec::new(), Vec::new());
     described(&keys::ROOT, "", &mut of_parser);
     for text in EVERY_KEY.into_iter().chain([CONE]) {
-        let origin = Origin { text, path: None, overrides: &[] };
+        let origin = Origin { text, path: None };
         written(&tree::parse(&origin).unwrap().value, "", &mut of_scenes);
     }
     assert_eq!(sorted(of_parser), sorted(of_scenes));

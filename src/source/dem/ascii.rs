@@ -8,7 +8,7 @@ use super::frame::{Frame, Part};
 use super::geo_keys::CrsHint;
 use super::grid::{GridFile, Header, RowSink};
 use super::nodata::{Nodata, Precision};
-use super::open::unreadable;
+use super::failure::unreadable;
 use super::text::{Word, Words, number_help};
 use crate::error::{Error, Position, Result};
 use glam::DVec2;

@@ -6,7 +6,7 @@
 use super::frame::{Frame, Part};
 use super::geo_keys::CrsHint;
 use super::grid::{GridFile, Header, RowSink};
-use super::open::unreadable;
+use super::failure::unreadable;
 use crate::error::{Error, Result};
 use glam::DVec2;
 use std::fs::File;

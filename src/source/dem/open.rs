@@ -1,10 +1,11 @@
 //! Which reader a file gets: by its first bytes, else by its extension.
 
-use super::DemOptions;
 use super::ascii::AsciiGrid;
+use super::failure::unreadable;
 use super::geotiff::GeoTiff;
 use super::grid::GridFile;
 use super::hgt::Hgt;
+use super::options::DemOptions;
 use super::png::HeightPng;
 use super::xyz::Xyz;
 use crate::error::{Error, Result};
@@ -93,14 +94,4 @@ fn unknown(extension: &str) -> Error {
     Error::new(what).help(
         "known are .tif .hgt .asc .png .xyz; convert others with: gdal_translate FILE OUT.tif -co COMPRESS=DEFLATE",
     )
-}
-
-/// Says that reading failed.
-#[expect(clippy::needless_pass_by_value, reason = "fits map_err")]
-pub(super) fn unreadable(error: io::Error) -> Error {
-    if error.kind() == io::ErrorKind::UnexpectedEof {
-        Error::new("the file ends too early").help("it may be half a download: fetch it again")
-    } else {
-        Error::new(format!("cannot be read: {error}"))
-    }
 }

@@ -5,9 +5,9 @@
 //! terrain's is not ours to guess. Every other line that is not three finite numbers is refused by line and column.
 
 use super::frame::show_box;
-use super::open::unreadable;
+use super::failure::unreadable;
 use super::text::{characters, number, number_help};
-use super::{Dem, MAX_POINTS};
+use super::content::{Dem, MAX_POINTS};
 use crate::error::{Error, Position, Result};
 use crate::scene::Surface;
 use crate::space::World;

@@ -2,7 +2,8 @@
 
 use super::blame::of_key;
 use super::layer;
-use super::terrain::{REACH, Terrain, height_range, in_reach};
+use super::extent::{REACH, height_range, in_reach};
+use super::terrain::Terrain;
 use crate::error::{Error, Result};
 use crate::math::max;
 use crate::scene::file::{SceneFile, Spot, check_view};

@@ -22,6 +22,7 @@
 
 mod blame;
 mod camera;
+mod extent;
 mod ground;
 mod layer;
 mod place;

@@ -1,6 +1,5 @@
 //! One frame: quadrilaterals, classes, samples, means.
 
-use super::SILHOUETTE_RATIO;
 use super::edge_index::{EdgeIndex, Winding};
 use super::judgment::{Judge, NearEdge};
 use super::quadrilateral::Quadrilateral;
@@ -24,6 +23,10 @@ const F: u8 = 2;
 
 /// Up to so many areas partly in a pixel, samples are told apart by which of them they lie in.
 const FEW: usize = 4;
+
+/// A quadrilateral's side may be so many times longer than the longer of the sides that the planes of its two ends
+/// would give it, before it counts as spanning a silhouette.
+const SILHOUETTE_RATIO: f64 = 8.0;
 
 /// Draws a frame of a view.
 pub fn draw(

@@ -34,10 +34,6 @@ use crate::stage::Stage;
 use edge_index::EdgeIndex;
 use expansion::Areas;
 
-/// A quadrilateral's side may be so many times longer than the longer of the sides that the planes of its two ends
-/// would give it, before it counts as spanning a silhouette.
-const SILHOUETTE_RATIO: f64 = 8.0;
-
 /// The technique with its index built.
 #[derive(Debug)]
 pub struct Prepare<'s> {

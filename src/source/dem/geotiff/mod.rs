@@ -13,7 +13,7 @@ mod tags;
 
 use super::frame::Part;
 use super::grid::{GridFile, Header, RowSink};
-use super::open::unreadable;
+use super::failure::unreadable;
 use crate::error::{Error, Result};
 use codec::Compression;
 use head::{Coding, Head};

@@ -1,6 +1,6 @@
 //! The rings of areas.
 
-use super::{MOST, too_many};
+use super::limit::{MOST, too_many};
 use crate::error::Result;
 use crate::scene::{Clipmap, PolygonRaster, Rule};
 use crate::space::{Plan, PlanBox};

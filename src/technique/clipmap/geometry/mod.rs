@@ -5,6 +5,7 @@
 //! chunks of up to 32 segments, which the index finds; each chunk keeps its own strips.
 
 mod areas;
+mod limit;
 mod strokes;
 mod style;
 
@@ -15,7 +16,7 @@ pub(super) use style::{LayerItems, Role, StrokeStyle};
 use super::quadtree::Quadtree;
 use super::raster::Folded;
 use super::tessellation::Polyline;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::math;
 use crate::parallel;
 use crate::scene::{
@@ -28,13 +29,6 @@ use strokes::Strokes;
 
 /// Features that are prepared as one piece of work.
 const FEATURES_AT_A_TIME: usize = 1024;
-
-/// The most vertices, and the most items.
-const MOST: usize = u32::MAX as usize / 2;
-
-fn too_many(what: &str) -> Error {
-    Error::new(format!("more {what} than this program can number")).help("give the terrain a `window`")
-}
 
 /// Everything that tiles are made of.
 #[derive(Debug)]

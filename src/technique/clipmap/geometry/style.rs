@@ -1,6 +1,6 @@
 //! How the layers' items look, and what is kept of them.
 
-use super::{MOST, too_many};
+use super::limit::{MOST, too_many};
 use crate::error::Result;
 use crate::resolve::Compositor;
 use crate::scene::{Clipmap, Compositing, Layer, Line, OutlineMode, Rule, Solution, Width};

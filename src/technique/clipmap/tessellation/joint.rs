@@ -1,6 +1,6 @@
 //! The joints of the paper: methods 1, 2, 3a and 3b, and the special situations that it leaves to the reader (4.2.4).
 
-use super::{Strips, unit};
+use super::strip::Strips;
 use crate::predicate::orient2d;
 use crate::space::Plan;
 use glam::DVec2;
@@ -22,6 +22,11 @@ pub(super) struct Corner {
     pub(super) lengths: (f64, f64),
     /// Positive where the line turns left, negative where it turns right; 0 where it runs straight on or straight back. Exact.
     pub(super) turn: f64,
+}
+
+/// The displacement of a strip's vertices for a direction, unit length.
+fn unit(direction: DVec2) -> DVec2 {
+    direction / direction.length()
 }
 
 /// The left offset of a direction: `o` of 4.2.1, by Hill's perp operator.
