@@ -1,6 +1,7 @@
 //! The scene's plan: a projected CRS in metres, or the local plane of data in degrees.
 
-use super::{Crs, wrapped};
+use super::Crs;
+use super::degrees::wrapped;
 use crate::error::{Error, Result};
 use crate::math::cos;
 use glam::DVec2;

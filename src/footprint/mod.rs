@@ -7,14 +7,16 @@
 
 mod area;
 mod box_tree;
+mod pixel_size;
 mod primitive;
 mod stroke;
 
 pub use box_tree::BoxTree;
+pub use pixel_size::PixelSize;
 pub use primitive::{Convex, HalfPlane, MOST_SIDES, Primitive, Sides};
 
-use crate::scene::{Color, Feature, Layer, Line, OutlineMode, Rule, SAME_VERTEX, Shape, Style, Width};
-use crate::space::{Lens, Plan, PlanBox, ViewFrame};
+use crate::scene::{Color, Feature, Layer, Line, OutlineMode, Rule, SAME_VERTEX, Shape, Style};
+use crate::space::{Plan, PlanBox};
 use area::Area;
 
 /// A set of plan points of one colour.
@@ -74,29 +76,6 @@ struct Chain {
     count: u32,
     is_closed: bool,
     is_stroke: bool,
-}
-
-/// How widths in pixels become metres: what the view says.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PixelSize {
-    /// A pixel's size at distance 1 (perspective) or everywhere (orthographic).
-    pub pixel: f64,
-    /// The eye, when a pixel's size grows with the distance from it.
-    pub eye: Option<crate::space::World>,
-    /// The farthest that terrain lies above or below the eye, metres.
-    pub height_span: f64,
-}
-
-impl PixelSize {
-    /// The size in a view of a terrain whose heights lie between two.
-    pub fn of(view: &ViewFrame, (low, high): (f64, f64)) -> Self {
-        let eye = view.eye();
-        let height_span = crate::math::max((high - eye.z).abs(), (low - eye.z).abs());
-        match view.lens() {
-            Lens::Central { pixel } => Self { pixel, eye: Some(eye), height_span },
-            Lens::Parallel { pixel } => Self { pixel, eye: None, height_span },
-        }
-    }
 }
 
 /// The items of a scene.
@@ -216,12 +195,6 @@ struct Building {
     chain_items: Vec<u32>,
     areas: Vec<Area>,
     pixel: PixelSize,
-}
-
-impl Default for PixelSize {
-    fn default() -> Self {
-        Self { pixel: 1.0, eye: None, height_span: 0.0 }
-    }
 }
 
 impl Building {
@@ -384,11 +357,6 @@ fn side_of(mode: OutlineMode) -> OutlineSide {
         OutlineMode::Normal => OutlineSide::Both,
         OutlineMode::Offset => OutlineSide::Outside,
     }
-}
-
-/// Whether a line's width grows with the distance from the eye.
-fn grows_with_distance(line: &Line, pixel: &PixelSize) -> bool {
-    matches!(line.width, Width::Pixels(_)) && pixel.eye.is_some()
 }
 
 #[cfg(test)]

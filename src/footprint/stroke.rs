@@ -1,7 +1,7 @@
 //! A stroke's segment as convex shapes and discs: its rectangle, the join at its start, its caps.
 
+use super::pixel_size::{PixelSize, grows_with_distance};
 use super::primitive::{Convex, HalfPlane, Primitive};
-use super::{PixelSize, grows_with_distance};
 use crate::interval::Ball;
 use crate::math;
 use crate::predicate::orient2d;

@@ -1,5 +1,5 @@
 use super::*;
-use crate::scene::{Cap, Fill, Join, Outline, Style};
+use crate::scene::{Cap, Fill, Join, Outline, Style, Width};
 use proptest::prelude::*;
 
 fn line_style(width: f64, join: Join, cap: Cap) -> Style {

@@ -1,12 +1,15 @@
 //! Two triangles a cell of a grid, and the quadtree of bounding heights over blocks of cells.
 
-use super::{BLOCK, Bounds, Node};
+use super::node::{Bounds, Node};
 use crate::error::{Error, Result};
 use crate::math;
 use crate::parallel;
 use crate::scene::{Diagonal, Posts};
 use crate::space::{PlanBox, World};
 use std::ops::Range;
+
+/// Cells a side of a grid's smallest node.
+const BLOCK: usize = 15;
 
 /// A grid of posts as triangles.
 ///

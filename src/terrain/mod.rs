@@ -5,18 +5,17 @@
 //! Refuses: more triangles than a `u32` can number, and points that span no triangle.
 
 mod grid;
+mod node;
 mod tin;
 
 pub use grid::Grid;
+pub use node::{Bounds, Node};
 pub use tin::Tin;
 
 use crate::error::Result;
 use crate::scene::{Diagonal, Surface};
 use crate::space::{PlanBox, World};
 use glam::DVec3;
-
-/// Cells a side of a grid's smallest node.
-pub const BLOCK: usize = 15;
 
 /// "No triangle": the sky.
 pub const SKY: u32 = u32::MAX;
@@ -28,26 +27,6 @@ pub enum Mesh {
     Grid(Grid),
     /// Delaunay triangles over scattered points.
     Tin(Tin),
-}
-
-/// A node of the hierarchy: level 0 holds triangles, higher levels hold nodes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Node {
-    /// Height in the tree, 0 at the leaves.
-    pub level: u32,
-    /// Column of the node in its level.
-    pub x: u32,
-    /// Row of the node in its level (0 in a TIN).
-    pub y: u32,
-}
-
-/// A box `center + a * axes[0] + b * axes[1] + c * axes[2]` with a, b, c in -1..=1.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Bounds {
-    /// Its middle.
-    pub center: World,
-    /// Its half extents; the third is vertical.
-    pub axes: [DVec3; 3],
 }
 
 impl Mesh {

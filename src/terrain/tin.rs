@@ -1,6 +1,6 @@
 //! A triangulated irregular network: Delaunay triangles over scattered points (the sole user of spade).
 
-use super::{Bounds, Node};
+use super::node::{Bounds, Node};
 use crate::error::{Error, Result};
 use crate::math;
 use crate::parallel;

@@ -18,7 +18,9 @@
 //! is in or out by bounds of the distance, or open. No decision is shared with a technique but the signs of
 //! [`crate::predicate`].
 
+mod budget;
 mod color;
+mod coverage;
 mod facet;
 mod form;
 mod knowledge;
@@ -29,13 +31,16 @@ mod shape;
 mod tile;
 mod visible;
 
+pub use budget::Budget;
+pub use coverage::{ItemCoverage, PixelCoverage};
+pub use tile::{Centre, Tally};
+
 use crate::buffer::{Buffer, Plane, Values};
-use crate::error::{Error, Result};
 use crate::footprint::{Footprints, Item, PixelSize};
 use crate::math;
 use crate::parallel;
 use crate::resolve::code_values;
-use crate::space::{ViewFrame, World};
+use crate::space::ViewFrame;
 use crate::stage::Stage;
 use crate::terrain::SKY;
 use setting::Setting;
@@ -44,106 +49,6 @@ use tile::{Frustum, TILE, TileTruth, certify_tile};
 
 /// The truth's name among the techniques', on the command line and in files.
 pub const NAME: &str = "truth";
-
-/// How exact the truth has to be, and how much work may go into a pixel.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Budget {
-    /// A pixel is refined until no channel's interval is wider than this (units of 1).
-    pub width: f64,
-    /// A pixel is cut into at most 2^depth pieces.
-    pub depth: u32,
-    /// Whether the coverage of each item is kept, to the same width.
-    pub coverage: bool,
-}
-
-impl Budget {
-    /// The deepest that [`Budget::new`] takes: a million pieces.
-    pub const MOST_DEPTH: u32 = 20;
-
-    /// A budget without coverage.
-    ///
-    /// # Errors
-    /// When the width is not in 0..=1 or the depth is over [`Budget::MOST_DEPTH`].
-    pub fn new(width: f64, depth: u32) -> Result<Self> {
-        if !(0.0..=1.0).contains(&width) {
-            return Err(Error::new(format!("a truth of width {width} cannot be asked for"))
-                .help("give a width from 0 (as narrow as the depth allows) to 1, such as 0.002"));
-        }
-        if depth > Self::MOST_DEPTH {
-            return Err(Error::new(format!("2^{depth} pieces a pixel are too many"))
-                .help(format!("give a depth of at most {}", Self::MOST_DEPTH)));
-        }
-        Ok(Self { width, depth, coverage: false })
-    }
-}
-
-impl Default for Budget {
-    /// Half a code value wide, 4,096 pieces.
-    fn default() -> Self {
-        Self { width: 1.0 / 510.0, depth: 12, coverage: false }
-    }
-}
-
-/// What an item covers of a pixel, as a share of the pixel's area.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ItemCoverage {
-    /// The item's number in [`Truth::items`].
-    pub item: u32,
-    /// At least.
-    pub low: f64,
-    /// At most.
-    pub high: f64,
-}
-
-/// What the items cover of a pixel.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct PixelCoverage {
-    /// Those that were looked at, in draw order.
-    pub items: Vec<ItemCoverage>,
-    /// What any other item covers at most.
-    pub others: f64,
-}
-
-impl PixelCoverage {
-    /// The same with one entry an item.
-    fn joined(mut self) -> Self {
-        self.items.sort_by_key(|entry| entry.item);
-        let mut all: Vec<ItemCoverage> = Vec::new();
-        for entry in &self.items {
-            match all.last_mut().filter(|last| last.item == entry.item) {
-                Some(last) => (last.low, last.high) = (last.low + entry.low, last.high + entry.high),
-                None => all.push(*entry),
-            }
-        }
-        for entry in &mut all {
-            entry.low = math::max(entry.low - self.others, 0.0);
-            entry.high = math::min(entry.high + self.others, 1.0);
-        }
-        Self { items: all, others: math::min(self.others, 1.0) }
-    }
-}
-
-/// What a pixel's centre sees.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Centre {
-    /// The triangle's number.
-    pub triangle: u32,
-    /// The visible point, in plain doubles.
-    pub world: World,
-}
-
-/// What was done.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Tally {
-    /// Triangles looked at, once for each tile.
-    pub triangles: u64,
-    /// Fragments of one triangle in one pixel.
-    pub fragments: u64,
-    /// Pieces that fragments were cut into.
-    pub pieces: u64,
-    /// Pixels wider than the budget.
-    pub wide_pixels: u64,
-}
 
 /// Each pixel's right colour between two bounds: RGBA, straight alpha, encoded values 0..=1.
 #[derive(Debug)]

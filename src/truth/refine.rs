@@ -4,13 +4,13 @@
 //! tell. The piece with the most unknown in it is cut first: along a primitive's line, so that the two halves know more.
 
 use super::color::{Mean, PaintRange};
+use super::coverage::{ItemCoverage, PixelCoverage};
 use super::form::Line;
 use super::knowledge::{Known, Pixel, State, first_state, known, polygon_at};
 use super::polygon::{Halves, Pieces, Polygon, ROUNDING};
 use super::setting::Setting;
 use super::shape::{Ground, Shape, Verdict};
 use super::visible::{Fragment, SPECK, Sight};
-use super::{ItemCoverage, PixelCoverage};
 use crate::footprint::{Part, Primitive};
 use crate::resolve::Paint;
 use crate::space::PlanBox;

@@ -1,6 +1,6 @@
 //! What stays the same for all pixels of a picture: footprints, paints, the budget.
 
-use super::Budget;
+use super::budget::Budget;
 use super::color::PaintRange;
 use super::form::{Line, Side};
 use super::shape::Ground;

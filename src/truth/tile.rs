@@ -1,12 +1,12 @@
 //! The triangles of a tile, and the tile's pixels.
 
+use super::coverage::PixelCoverage;
 use super::facet::{Facet, TileRays};
 use super::knowledge::Pixel;
 use super::polygon::{self, Pieces};
 use super::refine::Refinery;
 use super::setting::Setting;
 use super::visible::Sight;
-use super::{Centre, PixelCoverage, Tally};
 use crate::math;
 use crate::space::{Lens, PlanBox, ViewFrame, World};
 use crate::terrain::{Bounds, Mesh, Node};
@@ -19,6 +19,28 @@ pub(super) const TILE: usize = 32;
 /// A pixel's square with more triangles than this is quartered, down to an eighth of a pixel.
 const MOST_TRIANGLES: usize = 24;
 const SMALLEST: f64 = 1.0 / 8.0;
+
+/// What a pixel's centre sees.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Centre {
+    /// The triangle's number.
+    pub triangle: u32,
+    /// The visible point, in plain doubles.
+    pub world: World,
+}
+
+/// What was done.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Tally {
+    /// Triangles looked at, once for each tile.
+    pub triangles: u64,
+    /// Fragments of one triangle in one pixel.
+    pub fragments: u64,
+    /// Pieces that fragments were cut into.
+    pub pieces: u64,
+    /// Pixels wider than the budget.
+    pub wide_pixels: u64,
+}
 
 /// The half spaces of what a rectangle of the screen sees: through the eye, or along the view.
 #[derive(Debug)]

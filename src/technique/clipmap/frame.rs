@@ -1,7 +1,7 @@
 //! A frame: which tiles its pixels touch, those tiles, their colours.
 
-use super::Prepare;
 use super::cache::CacheCounts;
+use super::prepare::Prepare;
 use super::sampling::{Probes, Quad, Sampler};
 use super::texture::{ClipRegion, TILE, TileKey};
 use super::tile::{Tile, TileCounts, TileMaker, Workbench};

@@ -28,6 +28,7 @@
 mod cache;
 mod frame;
 mod geometry;
+mod prepare;
 mod quadtree;
 pub mod raster;
 #[cfg(test)]
@@ -40,106 +41,14 @@ pub mod texture;
 pub mod tile;
 
 pub use cache::CacheCounts;
+pub use prepare::Prepare;
 pub use sequences::{Sequences, StripOf};
 
-use super::{Frame, FrameOptions, Prepared};
+use super::contract::{Frame, FrameOptions, Prepared};
 use crate::error::Result;
-use crate::parallel;
-use crate::scene::Clipmap;
 use crate::scene::file::Named;
-use crate::space::{Plan, ViewFrame};
+use crate::space::ViewFrame;
 use crate::stage::Stage;
-use cache::TileCache;
-use geometry::Geometry;
-use std::sync::{Mutex, PoisonError};
-use texture::{ClipRegion, TileKey, VirtualTexture};
-use tile::{TileCounts, TileMaker, Workbench};
-
-/// The technique with its layers in memory.
-#[derive(Debug)]
-pub struct Prepare<'s> {
-    stage: &'s Stage,
-    settings: Clipmap,
-    texture: VirtualTexture,
-    geometry: Geometry,
-    /// Tiles that were made for earlier frames.
-    cache: Mutex<TileCache>,
-}
-
-impl<'s> Prepare<'s> {
-    /// Keeps the layers as the solution needs them.
-    ///
-    /// # Errors
-    /// When there are more vertices or features than can be numbered.
-    pub fn new(stage: &'s Stage) -> Result<Self> {
-        let scene = &stage.scene;
-        let settings = scene.technique.clipmap;
-        let texture = VirtualTexture::over(&stage.mesh.plan_bounds(), settings.virtual_size);
-        let geometry = Geometry::new(&scene.layers, &settings, scene.compositing, &texture.bounds())?;
-        Ok(Self { stage, settings, texture, geometry, cache: Mutex::default() })
-    }
-
-    /// Draws a frame of a view, with the tiles that earlier frames have left; the picture is the same without them. Says
-    /// what the cache did.
-    pub fn frame_of(&self, view: &ViewFrame, options: &FrameOptions) -> Result<(Frame, CacheCounts)> {
-        frame::draw(self, view, options)
-    }
-
-    /// The virtual texture.
-    pub fn texture(&self) -> &VirtualTexture {
-        &self.texture
-    }
-
-    /// What makes tiles, for a size of a pixel in metres.
-    pub fn maker(&self, pixel_m: f64) -> TileMaker<'_> {
-        let (settings, device) = (self.settings, self.stage.scene.device);
-        TileMaker { geometry: &self.geometry, texture: self.texture, settings, device, pixel_m }
-    }
-
-    /// Makes all tiles that are at hand around a point of the plan, in all levels, as if none had been made: what 5.3 calls a complete
-    /// reconstruction of the texture cache. Says how many there are, and what was drawn.
-    pub fn reconstruct(&self, center: Plan) -> (usize, TileCounts) {
-        let region = ClipRegion::new(&self.texture, center, self.settings.clip_size);
-        let levels = (0..self.texture.levels()).map(|level| (level, region.window(&self.texture, level)));
-        let keys: Vec<TileKey> = levels.flat_map(|(level, window)| window.keys(level)).collect();
-        let maker = self.maker(1.0);
-        let make = |bench: &mut Option<Workbench>, key: &TileKey| maker.make_on(*key, bench).counts;
-        let counts = parallel::map_with(&keys, || None, make);
-        (keys.len(), counts.into_iter().fold(TileCounts::default(), TileCounts::plus))
-    }
-
-    /// Changes all widths in metres by a factor (5.1): nothing but a number where lines are drawn or tessellated on the fly; else pairs of
-    /// vertices are scaled (methods 1, 2, 3a) or, where the lines are kept beside them (solution 3a), made anew (method 3b). False
-    /// where that cannot be done: then the technique has to be prepared anew.
-    pub fn change_width(&mut self, factor: f64) -> bool {
-        self.cache = Mutex::default();
-        self.geometry.change_width(factor)
-    }
-
-    /// Bytes that the solution keeps of lines and outlines, and bytes of the index that finds them.
-    pub fn memory(&self) -> (usize, usize) {
-        (self.geometry.stroke_bytes(), self.geometry.index_bytes())
-    }
-
-    /// Bytes of the tiles in the cache.
-    pub fn cached_bytes(&self) -> usize {
-        self.cache.lock().unwrap_or_else(PoisonError::into_inner).bytes()
-    }
-
-    /// The bytes that the cache may hold.
-    fn budget(&self) -> usize {
-        (self.settings.cache_mib * 1_048_576.0) as usize
-    }
-
-    /// The cache, which another frame that is drawn meanwhile does without.
-    fn take_cache(&self) -> TileCache {
-        std::mem::take(&mut *self.cache.lock().unwrap_or_else(PoisonError::into_inner))
-    }
-
-    fn return_cache(&self, cache: TileCache) {
-        *self.cache.lock().unwrap_or_else(PoisonError::into_inner) = cache;
-    }
-}
 
 /// Whether the technique can draw the scene: it can.
 ///
@@ -147,6 +56,14 @@ impl<'s> Prepare<'s> {
 /// None yet; other techniques have reasons.
 pub fn applies(_stage: &Stage) -> Result<()> {
     Ok(())
+}
+
+impl Prepare<'_> {
+    /// Draws a frame of a view, with the tiles that earlier frames have left; the picture is the same without them. Says
+    /// what the cache did.
+    pub fn frame_of(&self, view: &ViewFrame, options: &FrameOptions) -> Result<(Frame, CacheCounts)> {
+        frame::draw(self, view, options)
+    }
 }
 
 impl Prepared for Prepare<'_> {

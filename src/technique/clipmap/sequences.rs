@@ -1,6 +1,6 @@
 //! The vertex sequences of all lines, each line whole: an output to compare one's own tessellation with.
 
-use super::Prepare;
+use super::prepare::Prepare;
 use super::tessellation::{Polyline, Rule, Sagitta, Strips};
 use crate::buffer::{Plane, Values};
 use crate::error::Result;

@@ -1,7 +1,7 @@
 //! What is kept of lines, chunk by chunk.
 
-use super::style::{Keep, StrokeStyle};
 use super::limit::{MOST, too_many};
+use super::style::{Keep, StrokeStyle};
 use crate::error::Result;
 use crate::math;
 use crate::scene::{OffsetForm, Width};

@@ -24,14 +24,9 @@ pub(super) struct Corner {
     pub(super) turn: f64,
 }
 
-/// The displacement of a strip's vertices for a direction, unit length.
-fn unit(direction: DVec2) -> DVec2 {
-    direction / direction.length()
-}
-
 /// The left offset of a direction: `o` of 4.2.1, by Hill's perp operator.
 pub(super) fn offset(direction: DVec2, half: f64) -> DVec2 {
-    unit(direction).perp() * half
+    (direction / direction.length()).perp() * half
 }
 
 impl Corner {
