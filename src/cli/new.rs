@@ -1,6 +1,7 @@
 //! `drapery new DEM [VECTOR]...`
 
 use super::info::encoding_name;
+use super::print::print;
 use super::stop::Outcome;
 use drapery::crs::{Crs, PlanSpace};
 use drapery::source::dem::{self, DemOptions, DemSummary, PngEncoding};
@@ -33,7 +34,7 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
         vectors.extend(summaries.into_iter().map(|summary| (path.as_path(), summary)));
     }
     let terrain = Terrain::of(&arguments.dem)?;
-    super::print(&scene(&terrain, &vectors)?)
+    print(&scene(&terrain, &vectors)?)
 }
 
 /// What is known of the terrain's file.

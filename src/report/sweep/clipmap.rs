@@ -2,7 +2,7 @@
 //! with exact areas and the style's joins; then one thing at a time: the virtual size, the solutions (4), joints (4.2), line primitives,
 //! the filter, the clip size, the level and the machine.
 
-use super::{Axis, MACHINES, Sweep};
+use super::setting::{Axis, MACHINES, Sweep};
 
 pub(super) const SWEEP: Sweep = Sweep {
     crossed: &[ANISOTROPY, RASTER],

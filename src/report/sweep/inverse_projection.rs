@@ -1,6 +1,6 @@
 //! She 2016: samples a pixel (3.4) with both kinds of corners (3.2), then how a sample is judged (3.5) and the rest.
 
-use super::{Axis, MACHINES, Sweep};
+use super::setting::{Axis, MACHINES, Sweep};
 
 pub(super) const SWEEP: Sweep =
     Sweep { crossed: &[SAMPLES, CORNERS], alone: &[POINT_IN_POLYGON, SILHOUETTE, MACHINES] };

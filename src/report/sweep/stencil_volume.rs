@@ -1,7 +1,7 @@
 //! Schneider & Klein 2007: samples a pixel (theirs is one) without joins, as in the paper, and with the style's; then how volumes are
 //! counted (3.1, 4.2.1), what shares a mask (4.2.2), and the machine's stencil and depth.
 
-use super::{Axis, MACHINES, Sweep};
+use super::setting::{Axis, MACHINES, Sweep};
 
 pub(super) const SWEEP: Sweep =
     Sweep { crossed: &[SAMPLES, JOINS], alone: &[METHOD, GROUPING, STENCIL, DEPTH, MACHINES] };

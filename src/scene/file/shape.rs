@@ -29,6 +29,13 @@ pub(super) enum Shape {
     Tables(&'static TableShape),
 }
 
+/// The seed of something generated.
+pub(super) const SEED: Shape = Shape::Integer(0, i64::MAX);
+/// A length, a width, a distance.
+pub(super) const POSITIVE: Shape = Shape::Number(Range::Positive);
+/// An opacity.
+pub(super) const SHARE: Shape = Shape::Number(Range::Share);
+
 /// What a table may hold.
 #[derive(Debug)]
 pub(super) struct TableShape {

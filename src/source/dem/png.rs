@@ -4,10 +4,10 @@
 //! south-west post stands at (0, 0). It refuses images that are not 8-bit RGB or RGBA as stored: grey values, palettes
 //! and 16-bit channels are no encoded heights. Fully transparent pixels hold no data.
 
-use super::frame::{Frame, Part};
-use super::grid::{GridFile, Header, RowSink};
 use super::content::MAX_POSTS;
 use super::failure::{too_many_posts, unreadable};
+use super::frame::{Frame, Part};
+use super::grid::{GridFile, Header, RowSink};
 use super::options::{DemOptions, PngEncoding};
 use super::world_file;
 use crate::error::{Error, Result};

@@ -1,8 +1,8 @@
 //! The terrain: read or generated, in local coordinates.
 
 use super::blame::{Named, of_key};
-use super::place::{Map, Place, crs_of, default_plan_space, scale_error};
 use super::extent::{bounds, grid_bounds, middle, within_reach};
+use super::place::{Map, Place, crs_of, default_plan_space, scale_error};
 use super::{place, resample};
 use crate::crs::{Affine, Crs, PlanSpace};
 use crate::error::{Error, Result};

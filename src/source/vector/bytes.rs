@@ -1,4 +1,7 @@
-//! Numbers out of a slice of bytes, never past its end.
+//! A file's bytes, and numbers out of a slice of them, never past its end.
+
+use crate::error::{Error, Result};
+use std::path::Path;
 
 /// Which end of a number comes first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -57,4 +60,18 @@ impl<'a> Cursor<'a> {
         let count = self.u32(endian)? as usize;
         (count.checked_mul(size)? <= self.left()).then_some(count)
     }
+}
+
+/// The refusal of a file that the system does not give.
+pub(super) fn cannot_read(e: &std::io::Error) -> Error {
+    let help = match e.kind() {
+        std::io::ErrorKind::NotFound => "check the path; a scene's paths are relative to the scene file",
+        _ => "check the file's permissions",
+    };
+    Error::new(format!("cannot read the file: {e}")).help(help)
+}
+
+/// The whole file in memory.
+pub(super) fn contents_of(path: &Path) -> Result<Vec<u8>> {
+    std::fs::read(path).map_err(|e| cannot_read(&e))
 }

@@ -1,10 +1,20 @@
 //! Gathers the features of a file under the rules that all formats share.
 
-use super::VectorFile;
 use crate::crs::Crs;
 use crate::error::{Error, Result};
 use crate::scene::{Feature, Shape};
 use crate::space::Plan;
+
+/// A vector file's content.
+#[derive(Debug, Clone)]
+pub struct VectorFile {
+    /// Polygons and lines in file order, coordinates as in the file (absolute).
+    pub features: Vec<Feature>,
+    /// The CRS the file states.
+    pub crs: Option<Crs>,
+    /// What the user should know (points left out, empty geometries, ...).
+    pub notes: Vec<String>,
+}
 
 /// Features so far, and counts of what was left out.
 #[derive(Debug, Default)]

@@ -3,7 +3,7 @@
 //! The flatbuffers are verified by the `flatgeobuf` crate's generated code; the walk over the file is ours, so that
 //! every size is held against the file's length before it is believed.
 
-use super::bytes::{Cursor, Endian};
+use super::bytes::{Cursor, Endian, contents_of};
 use super::collector::Collector;
 use crate::crs::Crs;
 use crate::error::{Error, Result};
@@ -18,7 +18,7 @@ const INDEX_NODE_BYTES: u64 = 40;
 
 /// Reads a FlatGeobuf file.
 pub(super) fn read(path: &Path) -> Result<Collector> {
-    let bytes = super::contents_of(path)?;
+    let bytes = contents_of(path)?;
     let mut found = Collector::default();
     let mut cursor = Cursor::new(&bytes);
     check_magic(&mut cursor)?;

@@ -4,6 +4,7 @@
 //! properties and takes the first `[` of the file for the features, which a `bbox` before them breaks. Nesting is
 //! bounded by `serde_json` (128).
 
+use super::bytes::contents_of;
 use super::collector::Collector;
 use crate::crs::Crs;
 use crate::error::{Error, Position, Result};
@@ -15,7 +16,7 @@ use std::path::Path;
 
 /// Reads a GeoJSON file.
 pub(super) fn read(path: &Path) -> Result<Collector> {
-    let bytes = super::contents_of(path)?;
+    let bytes = contents_of(path)?;
     read_text(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes))
 }
 

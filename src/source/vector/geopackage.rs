@@ -2,7 +2,7 @@
 //!
 //! Opened read-only and immutable, so that nothing is written beside the data.
 
-use super::bytes::{Cursor, Endian};
+use super::bytes::{Cursor, Endian, cannot_read};
 use super::collector::Collector;
 use super::wkb;
 use crate::crs::Crs;
@@ -56,7 +56,7 @@ fn open(path: &Path) -> Result<Connection> {
 
 /// `file:` URI of a path, everything but plain characters escaped.
 fn immutable_uri(path: &Path) -> Result<String> {
-    let absolute = std::path::absolute(path).map_err(|e| super::cannot_read(&e))?;
+    let absolute = std::path::absolute(path).map_err(|e| cannot_read(&e))?;
     let text = absolute.to_str().ok_or_else(|| {
         Error::new("the path is not valid Unicode, which SQLite needs").help("rename the file")
     })?;

@@ -17,27 +17,16 @@ mod shapefile;
 mod summary;
 mod wkb;
 
+pub use collector::VectorFile;
 pub use summary::{VectorSummary, describe};
 
-use crate::crs::Crs;
 use crate::error::{Error, Result};
-use crate::scene::Feature;
+use bytes::cannot_read;
 use collector::Collector;
 use std::fmt;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
-
-/// A vector file's content.
-#[derive(Debug, Clone)]
-pub struct VectorFile {
-    /// Polygons and lines in file order, coordinates as in the file (absolute).
-    pub features: Vec<Feature>,
-    /// The CRS the file states.
-    pub crs: Option<Crs>,
-    /// What the user should know (points left out, empty geometries, ...).
-    pub notes: Vec<String>,
-}
 
 /// The kinds of file that are read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -116,19 +105,6 @@ fn beginning_of(path: &Path) -> Result<Vec<u8>> {
     let mut start = Vec::new();
     File::open(path).and_then(|file| file.take(512).read_to_end(&mut start)).map_err(|e| cannot_read(&e))?;
     Ok(start)
-}
-
-fn cannot_read(e: &std::io::Error) -> Error {
-    let help = match e.kind() {
-        std::io::ErrorKind::NotFound => "check the path; a scene's paths are relative to the scene file",
-        _ => "check the file's permissions",
-    };
-    Error::new(format!("cannot read the file: {e}")).help(help)
-}
-
-/// The whole file in memory.
-fn contents_of(path: &Path) -> Result<Vec<u8>> {
-    std::fs::read(path).map_err(|e| cannot_read(&e))
 }
 
 fn promised_by_name(path: &Path) -> Option<VectorFormat> {

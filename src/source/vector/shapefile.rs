@@ -5,7 +5,7 @@
 //! so the .shx index is not needed; where there is one that points elsewhere, a note says from which feature on, since
 //! programs that follow it see other features or none. The .dbf is not read.
 
-use super::bytes::{Cursor, Endian};
+use super::bytes::{Cursor, Endian, contents_of};
 use super::collector::Collector;
 use crate::crs::Crs;
 use crate::error::{Error, Result};
@@ -16,7 +16,7 @@ const HEADER_BYTES: usize = 100;
 
 /// Reads a shapefile and the .prj beside it.
 pub(super) fn read(path: &Path) -> Result<Collector> {
-    let bytes = super::contents_of(path)?;
+    let bytes = contents_of(path)?;
     let mut found = Collector::default();
     read_prj(path, &mut found);
     let records = records_of(&bytes, &mut found)?;

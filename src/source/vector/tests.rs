@@ -1,4 +1,5 @@
 use super::*;
+use crate::crs::Crs;
 use crate::scene::Shape;
 use crate::space::Plan;
 use proptest::prelude::*;

@@ -1,6 +1,6 @@
 //! The tables of layers.
 
-use super::{data_file, rectangle, stem};
+use super::values::{data_file, rectangle, stem};
 use crate::error::Result;
 use crate::scene::file::names::{JoinName, VectorName};
 use crate::scene::file::section::{Section, Taken};

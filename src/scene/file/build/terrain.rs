@@ -1,6 +1,6 @@
 //! The terrain's table.
 
-use super::{data_file, rectangle};
+use super::values::{data_file, rectangle};
 use crate::error::Result;
 use crate::scene::Color;
 use crate::scene::file::names::{ShadeName, TerrainName};

@@ -1,7 +1,6 @@
 //! The parameters of the clipmap texture.
 
-use super::POSITIVE;
-use crate::scene::file::shape::{Range, Shape, TableShape, choice, key};
+use crate::scene::file::shape::{POSITIVE, Range, Shape, TableShape, choice, key};
 use crate::scene::{Joints, LineFilter, LinePrimitives, OffsetForm, Overlaps, PixelWidth, PolygonRaster};
 use crate::scene::{Solution, TexelFormat, TextureFilter, WideLines};
 

@@ -1,8 +1,7 @@
 //! The keys of a layer.
 
-use super::{POSITIVE, SEED, SHARE};
 use crate::scene::file::names::{JoinName, VectorName};
-use crate::scene::file::shape::{Range, Rule as Keys, Shape, TableShape, choice, key};
+use crate::scene::file::shape::{POSITIVE, Range, Rule as Keys, SEED, SHARE, Shape, TableShape, choice, key};
 use crate::scene::{Cap, OutlineMode, Rule};
 
 pub(super) static LAYER: TableShape = TableShape {

@@ -6,7 +6,7 @@ mod technique;
 mod terrain;
 
 use super::names::ProjectionName;
-use super::shape::{Range, Rule as Keys, Shape, TableShape, choice, key};
+use super::shape::{POSITIVE, Range, Rule as Keys, Shape, TableShape, choice, key};
 use crate::scene::{BlendMode, BlendSpace, DepthFormat, Precision};
 use layer::LAYER;
 use technique::TECHNIQUE;
@@ -17,10 +17,6 @@ pub const SCHEMA: i64 = 1;
 
 /// The longest side of an image in pixels.
 pub(super) const LONGEST_SIDE: i64 = 65536;
-
-const SEED: Shape = Shape::Integer(0, i64::MAX);
-const POSITIVE: Shape = Shape::Number(Range::Positive);
-const SHARE: Shape = Shape::Number(Range::Share);
 
 /// The whole file.
 pub(super) static ROOT: TableShape = TableShape {

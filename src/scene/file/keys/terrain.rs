@@ -1,9 +1,8 @@
 //! The keys of the terrain.
 
-use super::{POSITIVE, SEED};
 use crate::scene::Diagonal;
 use crate::scene::file::names::{ShadeName, TerrainName};
-use crate::scene::file::shape::{Range, Rule as Keys, Shape, TableShape, choice, key};
+use crate::scene::file::shape::{POSITIVE, Range, Rule as Keys, SEED, Shape, TableShape, choice, key};
 use crate::scene::file::spec::HeightEncoding;
 
 pub(super) static TERRAIN: TableShape = TableShape {
