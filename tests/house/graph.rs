@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, BTreeSet};
 pub fn edges(house: &House) -> BTreeMap<String, BTreeSet<String>> {
     let names = Names::of(house);
     let of = |file: &String| -> BTreeSet<String> {
-        let mentions = house.files[file].1.mentions.iter().filter(|mention| !mention.is_only_passed_on);
+        let mentions = house.files[file].mentions.iter().filter(|mention| !mention.is_only_passed_on);
         let known = mentions.filter_map(|mention| names.definition(&mention.path, 0));
         known.filter(|other| other != file).collect()
     };
@@ -29,7 +29,7 @@ struct Names {
 impl Names {
     fn of(house: &House) -> Self {
         let mut names = Self { modules: BTreeMap::new(), items: BTreeSet::new(), bindings: BTreeMap::new() };
-        for (file, (_, code)) in &house.files {
+        for (file, code) in &house.files {
             names.modules.extend(code.inline.iter().map(|module| (module.clone(), file.clone())));
             names.items.extend(code.items.iter().cloned());
             names.bindings.extend(code.bindings.clone());
@@ -67,7 +67,8 @@ impl Names {
     /// The file that defines a name which a module has by `use ..::*`.
     fn through_globs(&self, module: &[String], rest: &[String], depth: usize) -> Option<String> {
         let from = (module.to_vec(), "*".to_owned());
-        let mut globs = self.bindings.range(from..).take_while(|(key, _)| key.0 == module && key.1.starts_with('*'));
+        let mut globs =
+            self.bindings.range(from..).take_while(|(key, _)| key.0 == module && key.1.starts_with('*'));
         globs.find_map(|(_, target)| {
             let source = &target[..target.len() - 1];
             let key = (source.to_vec(), rest[0].clone());

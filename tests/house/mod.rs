@@ -11,6 +11,6 @@ mod tokens;
 mod tree;
 
 pub use circles::circles;
-pub use code::{Code, Mention};
+pub use code::Code;
 pub use graph::edges;
 pub use tree::{House, module_of};

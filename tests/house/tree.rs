@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 #[derive(Default)]
 pub struct House {
     /// What the library and the program are made of.
-    pub files: BTreeMap<String, (Vec<String>, Code)>,
+    pub files: BTreeMap<String, Code>,
     /// What only tests are made of.
     pub tests: BTreeSet<String>,
 }
@@ -16,26 +16,30 @@ pub struct House {
 impl House {
     /// Reads all of `src/`.
     pub fn read(repository: &Path) -> Self {
+        Self::of(&|file| std::fs::read_to_string(repository.join(file)).ok())
+    }
+
+    /// Reads the files that `text` has.
+    pub fn of(text: &dyn Fn(&str) -> Option<String>) -> Self {
         let mut house = Self::default();
-        for root in ["src/lib.rs", "src/main.rs"] {
-            house.add(repository, root, false);
-        }
+        house.add("src/lib.rs", false, text);
+        house.add("src/main.rs", false, text);
         house
     }
 
     /// Adds a file and those of the modules that it declares.
-    fn add(&mut self, repository: &Path, file: &str, is_test: bool) {
-        let text = std::fs::read_to_string(repository.join(file)).unwrap();
-        let module = module_of(file);
-        let code = Code::of(&module, &text).unwrap_or_else(|error| panic!("{file}: {error}"));
-        for (child, child_is_test) in code.modules.clone() {
-            let child = file_of(repository, &child).unwrap_or_else(|| panic!("no file of {child:?}"));
-            self.add(repository, &child, is_test || child_is_test);
+    fn add(&mut self, file: &str, is_test: bool, text: &dyn Fn(&str) -> Option<String>) {
+        let read = text(file).unwrap_or_else(|| panic!("there is no {file}"));
+        let code = Code::of(&module_of(file), &read).unwrap_or_else(|error| panic!("{file}: {error}"));
+        for (child, child_is_test) in &code.modules {
+            let [beside, below] = files_of(child);
+            let child = if text(&beside).is_some() { beside } else { below };
+            self.add(&child, is_test || *child_is_test, text);
         }
         if is_test {
             self.tests.insert(file.into());
         } else {
-            self.files.insert(file.into(), (module, code));
+            self.files.insert(file.into(), code);
         }
     }
 
@@ -61,11 +65,10 @@ pub fn module_of(file: &str) -> Vec<String> {
     parts
 }
 
-/// The file of a module.
-fn file_of(repository: &Path, module: &[String]) -> Option<String> {
+/// Where a module's file may be.
+fn files_of(module: &[String]) -> [String; 2] {
     let stem = format!("src/{}", module[1..].join("/"));
-    let named = [format!("{stem}.rs"), format!("{stem}/mod.rs")];
-    named.into_iter().find(|file| repository.join(file).is_file())
+    [format!("{stem}.rs"), format!("{stem}/mod.rs")]
 }
 
 fn all_files(folder: &Path) -> Vec<PathBuf> {
