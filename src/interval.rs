@@ -72,12 +72,6 @@ impl Ball {
         -self.mid > self.radius
     }
 
-    /// The largest magnitude in it, or a little more.
-    #[inline(always)]
-    pub fn magnitude(self) -> f64 {
-        (self.mid.abs() + self.radius).next_up()
-    }
-
     /// One over it; anything where it holds 0.
     #[inline]
     pub fn recip(self) -> Self {

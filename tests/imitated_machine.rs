@@ -6,7 +6,7 @@ use drapery::raster::{Lattice, Samples};
 use drapery::scene::{DepthFormat, Device, Diagonal, Posts, Precision, Surface};
 use drapery::space::{Plan, Screen, View, ViewFrame, Viewpoint, World};
 use drapery::terrain::{Mesh, SKY};
-use drapery::visibility::{Hit, Sight, Visible, see_on_device};
+use drapery::visibility::{Hit, Machine, Sight, Visible};
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
 
@@ -45,7 +45,7 @@ fn seen_exactly(frame: &ViewFrame, mesh: &Mesh) -> Visible {
 
 fn seen_on(frame: &ViewFrame, mesh: &Mesh, device: &Device, tile: usize) -> Visible {
     let mut visible = Visible::new(&Lattice::centres(frame, 0), tile);
-    see_on_device(&mut visible, frame, mesh, device);
+    Machine::new(frame, mesh, device).see(&mut visible, mesh);
     visible
 }
 
@@ -237,7 +237,7 @@ fn samples_on_edges_and_vertices_belong_to_the_triangle_of_exact_mathematics() {
     exact.see(&frame, &mesh);
     for device in devices() {
         let mut seen = Visible::new(&lattice, 8);
-        see_on_device(&mut seen, &frame, &mesh, &device);
+        Machine::new(&frame, &mesh, &device).see(&mut seen, &mesh);
         assert_eq!(seen.triangles(), exact.triangles(), "{device:?}");
     }
 }
@@ -340,7 +340,7 @@ fn worst_plan_point(frame: &ViewFrame, mesh: &Mesh, device: &Device) -> f64 {
     exact.see();
     let mut worst = 0.0;
     let seen = seen_on(frame, mesh, device, 64);
-    let machine = drapery::visibility::Machine::new(frame, mesh, device);
+    let machine = Machine::new(frame, mesh, device);
     let (ids, keys) = (seen.triangles(), seen.keys());
     for (k, id) in ids.iter().enumerate().filter(|(_, id)| **id != SKY) {
         let (c, r) = (k % lattice.columns, k / lattice.columns);

@@ -216,11 +216,6 @@ impl PlanFrom {
         self.same.then(|| self.plan.affine())
     }
 
-    /// Whether plan coordinates are the file's, bit for bit.
-    pub fn is_identity(&self) -> bool {
-        self.affine().is_some_and(|a| a.origin == DVec2::ZERO && a.scale == DVec2::ONE)
-    }
-
     /// The plan point of a point in the file's CRS.
     ///
     /// # Errors

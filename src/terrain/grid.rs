@@ -106,11 +106,6 @@ impl Grid {
         self.levels.len()
     }
 
-    pub(super) fn bytes(&self) -> usize {
-        size_of_val(self.posts.heights())
-            + self.levels.iter().map(|l| size_of_val(&l.heights[..])).sum::<usize>()
-    }
-
     /// The columns and rows of cells in a node.
     #[inline]
     pub fn cells(&self, node: Node) -> (Range<usize>, Range<usize>) {

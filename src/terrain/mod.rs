@@ -100,14 +100,6 @@ impl Mesh {
             Self::Tin(tin) => tin.for_each_child(node, visit),
         }
     }
-
-    /// Bytes held by the mesh and its hierarchy.
-    pub fn bytes(&self) -> usize {
-        match self {
-            Self::Grid(grid) => grid.bytes(),
-            Self::Tin(tin) => tin.bytes(),
-        }
-    }
 }
 
 /// The unit normal of a triangle, pointing up; straight up for a degenerate one.

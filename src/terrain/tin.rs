@@ -115,12 +115,6 @@ impl Tin {
             visit(Node { level, x: x as u32, y: 0 });
         }
     }
-
-    pub(super) fn bytes(&self) -> usize {
-        size_of_val(&self.vertices[..])
-            + size_of_val(&self.triangles[..])
-            + self.levels.iter().map(|l| size_of_val(&l[..])).sum::<usize>()
-    }
 }
 
 /// The triangle turned so that its lowest number comes first: one form for each.

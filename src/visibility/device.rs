@@ -76,11 +76,6 @@ impl Machine {
     }
 }
 
-/// Finds what each sample sees on a machine that is used once.
-pub fn see_on_device(visible: &mut Visible, frame: &ViewFrame, mesh: &Mesh, device: &Device) {
-    Machine::new(frame, mesh, device).see(visible, mesh);
-}
-
 fn see_through<T: Real>(pipeline: &Pipeline<T>, visible: &mut Visible, mesh: &Mesh) {
     let lattice = visible.lattice;
     let primitives = primitives(pipeline, mesh, &lattice);

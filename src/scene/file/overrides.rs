@@ -41,11 +41,6 @@ impl Override {
             dotted_key(path.trim()).ok_or_else(|| refuse("the part before `=` is not a dotted path"))?;
         Ok(Self { text: text.into(), path, value: value.trim().into() })
     }
-
-    /// The override as it was given.
-    pub fn text(&self) -> &str {
-        &self.text
-    }
 }
 
 /// The segments of `a.b."c d"`.

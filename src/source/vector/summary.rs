@@ -16,8 +16,6 @@ pub struct VectorSummary {
     pub format: VectorFormat,
     /// The layer's name, in a GeoPackage.
     pub layer: Option<String>,
-    /// All layers with polygons or lines, in a GeoPackage.
-    pub layers: Vec<String>,
     /// Features in the file, with those that are not drawn.
     pub features: usize,
     /// (Multi-)polygons.
@@ -47,28 +45,22 @@ pub fn describe(path: &Path) -> Result<Vec<VectorSummary>> {
 fn describe_layers(path: &Path) -> Result<Vec<VectorSummary>> {
     if super::format_of(path)? != VectorFormat::GeoPackage {
         let (format, found) = read_collected(path, None)?;
-        return Ok(vec![summary(format, None, &[], found)]);
+        return Ok(vec![summary(format, None, found)]);
     }
     let layers = geopackage::layer_names(path)?;
     let one = |layer: &String| {
         let (format, found) = read_collected(path, Some(layer))?;
-        Ok(summary(format, Some(layer.clone()), &layers, found))
+        Ok(summary(format, Some(layer.clone()), found))
     };
     layers.iter().map(one).collect()
 }
 
-fn summary(
-    format: VectorFormat,
-    layer: Option<String>,
-    layers: &[String],
-    found: Collector,
-) -> VectorSummary {
+fn summary(format: VectorFormat, layer: Option<String>, found: Collector) -> VectorSummary {
     let polygons = found.features.iter().filter(|f| matches!(f.shape, Shape::Polygon(_))).count();
     let parts = || found.features.iter().flat_map(|f| parts_of(&f.shape));
     VectorSummary {
         format,
         layer,
-        layers: layers.to_vec(),
         features: found.seen,
         polygons,
         lines: found.features.len() - polygons,

@@ -35,11 +35,6 @@ impl<'s> Prepare<'s> {
         Ok(Self { stage, settings, texture, geometry, cache: Mutex::default() })
     }
 
-    /// The virtual texture.
-    pub fn texture(&self) -> &VirtualTexture {
-        &self.texture
-    }
-
     /// What makes tiles, for a size of a pixel in metres.
     pub fn maker(&self, pixel_m: f64) -> TileMaker<'_> {
         let (settings, device) = (self.settings, self.stage.scene.device);
@@ -69,11 +64,6 @@ impl<'s> Prepare<'s> {
     /// Bytes that the solution keeps of lines and outlines, and bytes of the index that finds them.
     pub fn memory(&self) -> (usize, usize) {
         (self.geometry.stroke_bytes(), self.geometry.index_bytes())
-    }
-
-    /// Bytes of the tiles in the cache.
-    pub fn cached_bytes(&self) -> usize {
-        self.cache.lock().unwrap_or_else(PoisonError::into_inner).bytes()
     }
 
     /// The bytes that the cache may hold.

@@ -148,7 +148,8 @@ impl TileRaster {
     }
 
     /// All texels, rows from the north.
-    pub fn texels(&self) -> Vec<[f32; 4]> {
+    #[cfg(test)]
+    fn texels(&self) -> Vec<[f32; 4]> {
         (0..self.place.size.1).flat_map(|row| self.row(row)).copied().collect()
     }
 

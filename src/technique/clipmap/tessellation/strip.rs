@@ -46,7 +46,8 @@ impl Strips {
     }
 
     /// The vertices of all strips, one strip after the other.
-    pub fn vertices(&self) -> impl Iterator<Item = Plan> {
+    #[cfg(test)]
+    pub(super) fn vertices(&self) -> impl Iterator<Item = Plan> {
         self.vertices.iter().map(|v| v.pair(1.0)).flat_map(|pair| [pair.left, pair.right])
     }
 
