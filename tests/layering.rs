@@ -8,7 +8,7 @@ mod house;
 mod planted;
 
 use house::{Code, House, circles, edges, module_of};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// Each room and the rooms that may be known in it, from the bottom up (what anyone may use is not listed: [`ANYONE`]).
@@ -115,6 +115,10 @@ const CIRCLES: &[(&[&str], &str)] = &[
         "is opened with the room for a frame's tiles",
     ),
 ];
+
+/// Public functions that nothing in this repository but tests calls, and for whom they are.
+const FOR_OTHERS: &[(&str, &str)] =
+    &[("from_plane", "who judges buffers of a program of one's own makes pictures of them")];
 
 /// Crates that one room alone may use.
 const OWNED: &[(&str, &str)] = &[("rayon", "parallel"), ("spade", "terrain"), ("exr", "compare")];
@@ -281,6 +285,36 @@ fn no_files_stand_on_one_another_but_those_that_have_a_reason() {
 #[test]
 fn every_file_is_a_module_of_the_crate() {
     assert_eq!(house().strays(repository()), [""; 0]);
+}
+
+/// Every use of each name in the crate, and in what else is built on it.
+fn callers() -> BTreeMap<String, i64> {
+    let mut all = BTreeMap::new();
+    let mut count = |code: &Code| {
+        code.names.iter().for_each(|(name, times)| *all.entry(name.clone()).or_default() += times);
+    };
+    house().files.values().for_each(&mut count);
+    for folder in ["benches", "examples"] {
+        for entry in std::fs::read_dir(repository().join(folder)).into_iter().flatten().flatten() {
+            let text = std::fs::read_to_string(entry.path()).unwrap_or_default();
+            count(&Code::of(&["program".into()], &text).unwrap());
+        }
+    }
+    all
+}
+
+#[test]
+fn every_public_function_has_a_caller() {
+    let callers = callers();
+    let is_idle = |name: &String| callers.get(name).is_none_or(|times| *times == 0);
+    let idle = everywhere(&|file, code| {
+        let idle = code.functions.iter().filter(|(name, _)| is_idle(name));
+        let unknown = idle.filter(|(name, _)| !FOR_OTHERS.iter().any(|(known, _)| known == name));
+        unknown.map(|(name, line)| format!("{file}:{line} {name}")).collect()
+    });
+    assert!(idle.is_empty(), "nobody calls these: {idle:#?}");
+    let called = FOR_OTHERS.iter().filter(|(name, _)| !is_idle(&(*name).to_owned()));
+    assert_eq!(called.count(), 0, "take from the list what is called by now");
 }
 
 /// The rooms that `src/` has: its folders and files, without the two that the compiler begins with.

@@ -19,6 +19,10 @@ pub struct Code {
     pub modules: Vec<(Vec<String>, bool)>,
     /// Modules whose text stands here, the file's own first.
     pub inline: Vec<Vec<String>>,
+    /// Public functions and methods that are defined here: name and line.
+    pub functions: Vec<(String, usize)>,
+    /// How often each name stands here, definitions and `use` left out.
+    pub names: BTreeMap<String, i64>,
 }
 
 /// A path in a file's code.
@@ -134,6 +138,15 @@ impl Reader {
         }
     }
 
+    fn offer(&mut self, width: &syn::Visibility, signature: &syn::Signature) {
+        let name = text_of(&signature.ident);
+        if matches!(width, syn::Visibility::Public(_)) {
+            self.code.functions.push((name.clone(), line_of(signature.ident.span())));
+        }
+        // The definition itself is about to be counted.
+        *self.code.names.entry(name).or_default() -= 1;
+    }
+
     fn define(&mut self, name: &Ident) {
         self.code.items.insert((self.here.clone(), text_of(name)));
     }
@@ -211,6 +224,20 @@ impl<'ast> Visit<'ast> for Reader {
         self.bind(name, vec![own], line_of(item.ident.span()), false);
     }
 
+    fn visit_item_fn(&mut self, item: &'ast syn::ItemFn) {
+        self.offer(&item.vis, &item.sig);
+        visit::visit_item_fn(self, item);
+    }
+
+    fn visit_impl_item_fn(&mut self, item: &'ast syn::ImplItemFn) {
+        self.offer(&item.vis, &item.sig);
+        visit::visit_impl_item_fn(self, item);
+    }
+
+    fn visit_ident(&mut self, name: &'ast Ident) {
+        *self.code.names.entry(text_of(name)).or_default() += 1;
+    }
+
     fn visit_impl_item(&mut self, item: &'ast ImplItem) {
         let attributes = match item {
             ImplItem::Const(item) => &item.attrs[..],
@@ -284,6 +311,9 @@ impl<'ast> Visit<'ast> for Reader {
     /// What macros are given, and the bodies of `macro_rules!`.
     fn visit_token_stream(&mut self, stream: &'ast TokenStream) {
         for (names, line) in tokens::paths(stream.clone()) {
+            for name in &names {
+                *self.code.names.entry(name.trim_end_matches('!').to_owned()).or_default() += 1;
+            }
             self.write(names, line);
         }
     }
