@@ -214,7 +214,7 @@ fn outside_world(file: &str, code: &Code) -> Vec<String> {
         let is_thread = path.len() > 1 && path[..2] == ["std", "thread"];
         let owner = owner.or(is_thread.then_some("parallel"));
         owner.is_some_and(|owner| room.as_deref() != Some(owner))
-            || (!is_program && ONLY_THE_COMMAND_LINE.iter().any(|end| ends(end)))
+            || (!is_program && ONLY_THE_COMMAND_LINE.iter().any(ends))
     };
     found(file, code, &is_wrong)
 }

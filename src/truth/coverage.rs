@@ -5,7 +5,7 @@ use crate::math;
 /// What an item covers of a pixel, as a share of the pixel's area.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ItemCoverage {
-    /// The item's number in [`Truth::items`].
+    /// The item's number in [`Truth::items`](super::Truth::items).
     pub item: u32,
     /// At least.
     pub low: f64,

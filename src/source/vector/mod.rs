@@ -5,7 +5,7 @@
 //! measures are left out and counted in the notes. Refuses what is damaged, not finite, or of no plan (multipatches),
 //! naming file and feature; never allocates by a count that the file's length does not bear out.
 //!
-//! Each feature of the file becomes one [`Feature`] with all its parts; a geometry collection becomes one for each
+//! Each feature of the file becomes one [`Feature`](crate::scene::Feature) with all its parts; a geometry collection becomes one for each
 //! member, with the same index. Rings lose their closing vertex.
 
 mod bytes;
