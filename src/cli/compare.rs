@@ -1,5 +1,6 @@
 //! `drapery compare EXPECTED ACTUAL`
 
+use super::print::{print, say};
 use super::stop::{Outcome, Status, Stop};
 use drapery::compare::{Expected, Image, Limits, Report, Verdict, same_file};
 use drapery::output::{write_png, write_whole};
@@ -125,7 +126,7 @@ fn report(arguments: &Arguments, report: &Report) -> std::result::Result<(), Sto
     if let Some(path) = &arguments.heatmap {
         match report.verdict.heat_map() {
             Some(map) => is_told |= write(path, &|to| write_png(&map, to))?,
-            None => super::say("note: there is no heat map of what cannot be measured"),
+            None => say("note: there is no heat map of what cannot be measured"),
         }
     }
     if let Some(path) = &arguments.json {
@@ -133,7 +134,7 @@ fn report(arguments: &Arguments, report: &Report) -> std::result::Result<(), Sto
         is_told |= write(path, &|to| to.write_all(text.as_bytes()))?;
     }
     if !is_told {
-        super::print(&super::refusal::harmless(&report.text()))?;
+        print(&super::refusal::harmless(&report.text()))?;
     }
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! `drapery completions SHELL`
 
+use super::print::print;
 use super::stop::Outcome;
-use clap::CommandFactory;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Arguments {
@@ -9,8 +9,8 @@ pub(super) struct Arguments {
     shell: clap_complete::Shell,
 }
 
-pub(super) fn run(arguments: &Arguments) -> Outcome {
+pub(super) fn run(arguments: &Arguments, program: &mut clap::Command) -> Outcome {
     let mut script = Vec::new();
-    clap_complete::generate(arguments.shell, &mut super::Cli::command(), "drapery", &mut script);
-    super::print(&String::from_utf8_lossy(&script))
+    clap_complete::generate(arguments.shell, program, "drapery", &mut script);
+    print(&String::from_utf8_lossy(&script))
 }

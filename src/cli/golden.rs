@@ -1,6 +1,7 @@
 //! `drapery golden check|bless|list`
 
 use super::bar::Bar;
+use super::print::print;
 use super::refusal::harmless;
 use super::stop::{Outcome, Status, Stop};
 use drapery::Result;
@@ -177,7 +178,7 @@ fn list(which: &Which) -> Outcome {
 
 /// Prints what was found; where nobody reads it, the exit status still tells.
 fn told(text: &str, status: Status) -> Outcome {
-    match super::print(text) {
+    match print(text) {
         Ok(_) | Err(Stop::PipeClosed) => Ok(status),
         Err(stop) => Err(stop),
     }

@@ -1,6 +1,7 @@
 //! `drapery info FILE`
 
 use super::columns::told;
+use super::print::print;
 use super::stop::Outcome;
 use clap::ValueEnum;
 use drapery::crs::PlanSpace;
@@ -45,7 +46,7 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
         _ => vec![of_terrain(path, arguments.encoding)?],
     };
     let text: Vec<String> = tables.iter().map(Table::text).collect();
-    super::print(&text.join("\n"))
+    print(&text.join("\n"))
 }
 
 fn extension(path: &Path) -> String {

@@ -11,6 +11,7 @@ mod export;
 mod golden;
 mod info;
 mod new;
+mod print;
 mod refusal;
 mod render;
 mod report;
@@ -23,7 +24,7 @@ mod written;
 use clap::{ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::ffi::OsString;
 use std::process::ExitCode;
-use stop::{Outcome, Status, Stop};
+use stop::Outcome;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -101,7 +102,7 @@ fn run(command: Command) -> Outcome {
         Command::Golden(arguments) => golden::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Schema => schema::run(),
-        Command::Completions(arguments) => completions::run(&arguments),
+        Command::Completions(arguments) => completions::run(&arguments, &mut Cli::command()),
     }
 }
 
@@ -111,20 +112,6 @@ fn wanted_color(arguments: &[OsString]) -> ColorChoice {
     let after = words.iter().position(|word| *word == "--color").and_then(|at| words.get(at + 1).copied());
     let joined = words.iter().find_map(|word| word.strip_prefix("--color="));
     joined.or(after).and_then(|word| word.parse().ok()).unwrap_or(ColorChoice::Auto)
-}
-
-/// Prints data on stdout.
-fn print(text: &str) -> Outcome {
-    use std::io::Write;
-    let mut stdout = std::io::stdout().lock();
-    stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()).map_err(Stop::stdout)?;
-    Ok(Status::Passed)
-}
-
-/// Prints a line for people; a stderr that nobody reads is no reason to fail.
-fn say(line: &str) {
-    use std::io::Write;
-    let _ = writeln!(std::io::stderr(), "{}", refusal::harmless(line));
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use super::columns::offers;
 use super::info::encoding_name;
+use super::print::print;
 use super::stop::Outcome;
 use super::written::{harmless, quoted_text};
 use drapery::crs::{Crs, PlanSpace};
@@ -35,7 +36,7 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
         vectors.extend(summaries.into_iter().map(|summary| (path.as_path(), summary)));
     }
     let terrain = Terrain::of(&arguments.dem)?;
-    super::print(&scene(&terrain, &vectors)?)
+    print(&scene(&terrain, &vectors)?)
 }
 
 /// What is known of the terrain's file.

@@ -1,7 +1,8 @@
 //! `drapery schema`
 
+use super::print::print;
 use super::stop::Outcome;
 
 pub(super) fn run() -> Outcome {
-    super::print(&format!("{:#}\n", drapery::scene_file::schema()))
+    print(&format!("{:#}\n", drapery::scene_file::schema()))
 }

@@ -1,5 +1,6 @@
 //! Datums: how longitudes and latitudes of one become those of WGS 84.
 
+use super::degrees::wrapped;
 use super::ellipsoid::Ellipsoid;
 use crate::error::{Error, Result};
 use glam::{DVec2, DVec3};
@@ -76,14 +77,14 @@ impl Helmert {
         let mut guess = p;
         for _ in 0..12 {
             let seen = self.wgs84_from(to, guess);
-            let off = DVec2::new(super::wrapped(p.x - seen.x), p.y - seen.y);
+            let off = DVec2::new(wrapped(p.x - seen.x), p.y - seen.y);
             if off.x.abs() < 1e-13 && off.y.abs() < 1e-13 {
                 return Ok(guess);
             }
             guess += off;
         }
         let left = p - self.wgs84_from(to, guess);
-        if super::wrapped(left.x).abs() < 1e-10 && left.y.abs() < 1e-10 && guess.y.abs() <= 90.0 {
+        if wrapped(left.x).abs() < 1e-10 && left.y.abs() < 1e-10 && guess.y.abs() <= 90.0 {
             return Ok(guess);
         }
         Err(Error::new(format!("the datum shift does not converge at longitude {}, latitude {}", p.x, p.y))

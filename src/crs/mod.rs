@@ -18,6 +18,7 @@
 
 mod conic;
 mod datum;
+mod degrees;
 mod ellipsoid;
 mod epsg;
 mod imported;
@@ -32,6 +33,7 @@ pub use plan::{Affine, PlanFrom, PlanSpace};
 
 use crate::error::{Error, Result};
 use datum::Datum;
+use degrees::checked_geographic;
 use ellipsoid::Ellipsoid;
 use glam::DVec2;
 use proj_string::Definition;
@@ -255,19 +257,6 @@ impl Crs {
         Error::new(format!("longitude {}, latitude {} lies outside the domain of {}", p.x, p.y, self.name))
             .help("clip the data, or choose a CRS made for that area")
     }
-}
-
-/// A longitude and latitude that make sense: the latitude up to a pole, the longitude at most one turn off.
-fn checked_geographic(p: DVec2) -> Option<DVec2> {
-    (p.y.abs() <= 90.0 && p.x.abs() <= 540.0).then_some(p)
-}
-
-/// A difference of longitudes within half a turn; both ends stay as they are.
-fn wrapped(degrees: f64) -> f64 {
-    if degrees.abs() <= 180.0 {
-        return degrees;
-    }
-    degrees - 360.0 * ((degrees + 180.0) / 360.0).floor()
 }
 
 #[cfg(test)]

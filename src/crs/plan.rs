@@ -1,6 +1,7 @@
 //! The scene's plan: a projected CRS in metres, or the local plane of data in degrees.
 
-use super::{Crs, wrapped};
+use super::Crs;
+use super::degrees::wrapped;
 use crate::error::{Error, Result};
 use crate::math::cos;
 use glam::DVec2;
@@ -213,11 +214,6 @@ impl PlanFrom {
     /// longitudes within half a turn of the centre.
     pub fn affine(&self) -> Option<Affine> {
         self.same.then(|| self.plan.affine())
-    }
-
-    /// Whether plan coordinates are the file's, bit for bit.
-    pub fn is_identity(&self) -> bool {
-        self.affine().is_some_and(|a| a.origin == DVec2::ZERO && a.scale == DVec2::ONE)
     }
 
     /// The plan point of a point in the file's CRS.

@@ -1,11 +1,11 @@
 //! The projections by name, with their origins and false coordinates.
 
 use super::conic::{Lambert, Mercator, parallel_radius};
+use super::degrees::wrapped;
 use super::ellipsoid::Ellipsoid;
 use super::imported::Imported;
 use super::proj_string::Definition;
 use super::transverse_mercator::TransverseMercator;
-use super::wrapped;
 use crate::error::{Error, Result};
 use glam::DVec2;
 

@@ -86,11 +86,6 @@ impl Samples {
     pub fn stride(&self) -> usize {
         self.stride
     }
-
-    /// Bytes held.
-    pub fn bytes(&self) -> usize {
-        8 * self.keys.capacity() + 5 * self.farthest.capacity()
-    }
 }
 
 fn refill<T: Clone>(values: &mut Vec<T>, count: usize, value: T) {

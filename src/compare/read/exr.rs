@@ -1,7 +1,7 @@
 //! OpenEXR: one part of flat data, scan lines or tiles, of half, single or 32-bit integer values; RGB, RGBA or a
 //! single channel.
 
-use super::check_size;
+use super::size::check_size;
 use crate::compare::image::Image;
 use crate::error::{Error, Result};
 use ::exr::image::{AnyChannel, FlatSamples};

@@ -6,16 +6,12 @@
 mod exr;
 mod npy;
 mod png;
+mod size;
 
 use super::image::Image;
 use crate::error::{Error, Result};
 use std::io;
 use std::path::Path;
-
-/// The largest picture that is read, in pixels.
-const MOST_PIXELS: usize = 1 << 26;
-/// The most values a pixel may have.
-const MOST_CHANNELS: usize = 64;
 
 impl Image {
     /// Reads a PNG, EXR or .npy file.
@@ -49,18 +45,6 @@ fn unreadable(error: io::Error, path: &Path) -> Error {
     let is_missing = error.kind() == io::ErrorKind::NotFound;
     let error = Error::io("this picture cannot be read", error).in_file(path);
     if is_missing { error.reworded(|_| "this picture is missing".into()) } else { error }
-}
-
-/// Refuses a picture that is too large to compare, before memory is taken for it.
-fn check_size(width: usize, height: usize, channels: usize) -> Result<()> {
-    let pixels = width.checked_mul(height);
-    if channels > MOST_CHANNELS || pixels.is_none_or(|pixels| pixels > MOST_PIXELS) {
-        return Err(Error::unsupported(format!(
-            "a picture of {width} x {height} pixels of {channels} channels is too large to compare"
-        ))
-        .help(format!("at most {MOST_PIXELS} pixels of {MOST_CHANNELS} channels can be")));
-    }
-    Ok(())
 }
 
 /// Whether two paths lead to one file: by whatever names and links, not by equal bytes.

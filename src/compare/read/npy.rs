@@ -1,7 +1,7 @@
 //! .npy arrays (NumPy's `numpy.lib.format`, versions 1 to 3): little-endian f64, f32, u32, u16 and u8 in C order, of
 //! (rows, columns) or (rows, columns, channels).
 
-use super::check_size;
+use super::size::check_size;
 use crate::compare::image::Image;
 use crate::error::{Error, Result};
 

@@ -1,6 +1,6 @@
 //! PNG of 8 or 16 bits (fewer bits, palettes and grey become colours).
 
-use super::{MOST_PIXELS, check_size};
+use super::size::{MOST_PIXELS, check_size};
 use crate::compare::image::Image;
 use crate::error::{Error, Result};
 use image::{ImageDecoder, ImageFormat, ImageReader, Limits};

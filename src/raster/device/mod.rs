@@ -32,10 +32,8 @@ use crate::space::{Clip, Lens, Plan, Screen, ViewFrame, World};
 use crate::terrain::Mesh;
 use clip::Volume;
 use matrix::{Matrix, Projection};
+use number::GRID_BITS;
 use std::ops::Range;
-
-/// Snapped coordinates are counted in units of 2^-12 pixels.
-const GRID_BITS: u32 = 12;
 
 /// The machine with its matrices, in one precision.
 #[derive(Debug, Clone)]

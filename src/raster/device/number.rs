@@ -3,6 +3,9 @@
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Sub};
 
+/// Snapped coordinates are counted in units of 2^-12 pixels.
+pub(super) const GRID_BITS: u32 = 12;
+
 /// What edge functions are made of: exact integers for snapped vertices, the device's numbers otherwise.
 pub trait Coordinate:
     Copy + PartialOrd + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
@@ -35,7 +38,7 @@ pub(super) fn clamp_to_unit<T: Real>(value: T) -> T {
 
 impl Coordinate for i128 {
     fn of_pixels(pixels: f64) -> Self {
-        (pixels * f64::from(1u32 << super::GRID_BITS)).round_ties_even() as Self
+        (pixels * f64::from(1u32 << GRID_BITS)).round_ties_even() as Self
     }
     fn rounded(self) -> f64 {
         self as f64

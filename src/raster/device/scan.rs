@@ -1,8 +1,8 @@
 //! Screen triangles -> samples: edge functions, the top-left rule, linear depth, the depth test.
 
 use super::depth::DepthBuffer;
-use super::number::{Coordinate, Real};
-use super::{GRID_BITS, Lattice, Samples};
+use super::number::{Coordinate, GRID_BITS, Real};
+use super::{Lattice, Samples};
 use crate::math;
 use std::ops::Range;
 

@@ -1,8 +1,8 @@
 //! The words beside points, and the legend.
 
 use super::super::Run;
+use super::axes::{Axes, FIELD, fixed, polyline};
 use super::series::{Mark, Series};
-use super::{Axes, FIELD, fixed, polyline};
 use maud::{Markup, html};
 
 /// Where the legend begins.

@@ -1,19 +1,18 @@
 //! The plot of speed against error, as SVG: crisp at any size, light or dark as the reader's screen is.
 
+mod axes;
 mod labels;
 mod series;
 
 use super::axis::{LogAxis, duration, short};
 use super::{Metric, Run, SUPERSAMPLING, SceneReport, TRUTH};
+use axes::{Axes, FIELD, fixed, polyline};
 use labels::{legend, tags};
 use maud::{Markup, PreEscaped, html};
 use series::series;
 
 const WIDTH: f64 = 1040.0;
 const HEIGHT: f64 = 560.0;
-/// The plot's rectangle in the picture: left, top, right, bottom.
-const FIELD: [f64; 4] = [74.0, 26.0, 724.0, 496.0];
-
 /// How rounding to 8-bit code values alone can move a channel.
 const ROUNDING: f64 = 1.0 / 510.0;
 
@@ -60,27 +59,6 @@ impl View {
 
     fn shows(self, run: &Run) -> bool {
         self.scope == Scope::All || (run.technique != TRUTH && run.technique != SUPERSAMPLING)
-    }
-}
-
-/// Where a run lies.
-struct Axes {
-    time: LogAxis,
-    error: LogAxis,
-    metric: Metric,
-}
-
-impl Axes {
-    fn x(&self, ms: f64) -> f64 {
-        FIELD[0] + self.time.place(ms) * (FIELD[2] - FIELD[0])
-    }
-
-    fn y(&self, error: f64) -> f64 {
-        FIELD[3] - self.error.place(error) * (FIELD[3] - FIELD[1])
-    }
-
-    fn at(&self, run: &Run) -> [f64; 2] {
-        [self.x(run.frame_ms.median), self.y(self.metric.of(&run.error))]
     }
 }
 
@@ -159,19 +137,6 @@ fn grid(axes: &Axes) -> Markup {
             (axes.metric.title())
         }
     }
-}
-
-/// `M x y L x y ...`
-fn polyline(points: &[[f64; 2]]) -> String {
-    let point = |(k, [x, y]): (usize, &[f64; 2])| {
-        format!("{}{} {}", if k == 0 { 'M' } else { 'L' }, fixed(*x), fixed(*y))
-    };
-    points.iter().enumerate().map(point).collect()
-}
-
-/// A coordinate to a hundredth.
-fn fixed(v: f64) -> String {
-    format!("{v:.2}")
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use super::super::axis::{duration, short};
 use super::super::{Run, SUPERSAMPLING, TRUTH};
-use super::{Axes, fixed, polyline};
+use super::axes::{Axes, fixed, polyline};
 use maud::{Markup, html};
 
 /// The most runs of a line whose every point is named.

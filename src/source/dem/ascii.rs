@@ -4,11 +4,11 @@
 //! `dx` and `dy`; `NODATA_value`, which is -9999 where it is left out (Esri's rule). A `.prj` file beside it gives the CRS.
 //! It refuses words that are no numbers, and too few or too many of them, each by line and column.
 
+use super::failure::unreadable;
 use super::frame::{Frame, Part};
 use super::geo_keys::CrsHint;
 use super::grid::{GridFile, Header, RowSink};
 use super::nodata::{Nodata, Precision};
-use super::open::unreadable;
 use super::text::{Word, Words, number_help};
 use crate::error::{Error, Position, Result};
 use glam::DVec2;

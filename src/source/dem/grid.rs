@@ -3,6 +3,7 @@
 //! A file's rows usually run from north to south, [`Posts`] from south to north. Here columns and rows are counted as
 //! the file stores them; [`Sheet`] alone turns them.
 
+use super::failure::too_many_posts;
 use super::frame::{Frame, Part, Turn};
 use super::geo_keys::CrsHint;
 use crate::error::{Error, Result};
@@ -62,7 +63,7 @@ impl Sheet {
         let row = part.row + if turn.rows { part.rows - 1 } else { 0 };
         let count = part.count();
         let mut heights = Vec::new();
-        heights.try_reserve_exact(count).map_err(|_| super::too_many_posts(&part))?;
+        heights.try_reserve_exact(count).map_err(|_| too_many_posts(&part))?;
         heights.resize(count, f64::NAN);
         Ok(Self { part, turn, first: frame.at(column as f64, row as f64), heights, infinite: 0 })
     }

@@ -3,10 +3,10 @@
 //! Big-endian int16 from the north-west, 1201 or 3601 posts a side, the outer posts on the degree lines (neighbours share
 //! them); -32768 is a void. Source: USGS, "SRTM Topography", section 3.0.
 
+use super::failure::unreadable;
 use super::frame::{Frame, Part};
 use super::geo_keys::CrsHint;
 use super::grid::{GridFile, Header, RowSink};
-use super::open::unreadable;
 use crate::error::{Error, Result};
 use glam::DVec2;
 use std::fs::File;

@@ -1,10 +1,11 @@
 //! Which reader a file gets: by its first bytes, else by its extension.
 
-use super::DemOptions;
 use super::ascii::AsciiGrid;
+use super::failure::unreadable;
 use super::geotiff::GeoTiff;
 use super::grid::GridFile;
 use super::hgt::Hgt;
+use super::options::DemOptions;
 use super::png::HeightPng;
 use super::xyz::Xyz;
 use crate::error::{Error, Result};
@@ -93,15 +94,4 @@ fn unknown(extension: &str) -> Error {
     Error::unsupported(what).help(
         "known are .tif .hgt .asc .png .xyz; convert others with: gdal_translate FILE OUT.tif -co COMPRESS=DEFLATE",
     )
-}
-
-/// Says that reading failed.
-pub(super) fn unreadable(error: io::Error) -> Error {
-    if error.kind() == io::ErrorKind::UnexpectedEof {
-        Error::new("the file ends too early")
-            .caused_by(error)
-            .help("it may be half a download: fetch it again")
-    } else {
-        Error::io("cannot be read", error)
-    }
 }

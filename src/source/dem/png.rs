@@ -4,10 +4,12 @@
 //! south-west post stands at (0, 0). It refuses images that are not 8-bit RGB or RGBA as stored: grey values, palettes
 //! and 16-bit channels are no encoded heights. Fully transparent pixels hold no data.
 
+use super::content::MAX_POSTS;
+use super::failure::{too_many_posts, unreadable};
 use super::frame::{Frame, Part};
 use super::grid::{GridFile, Header, RowSink};
-use super::open::unreadable;
-use super::{DemOptions, PngEncoding, world_file};
+use super::options::{DemOptions, PngEncoding};
+use super::world_file;
 use crate::error::{Error, Result};
 use image::codecs::png::PngDecoder;
 use image::{ImageDecoder, ImageError, Limits};
@@ -70,8 +72,8 @@ impl GridFile for HeightPng {
     fn check_promise(&mut self, _part: &Part) -> Result<()> {
         let frame = &self.header.frame;
         let posts = frame.columns * frame.rows;
-        if posts > super::MAX_POSTS {
-            return Err(super::too_many_posts(&frame.whole()));
+        if posts > MAX_POSTS {
+            return Err(too_many_posts(&frame.whole()));
         }
         if self.pixel_bytes() as u64 / LARGEST_EXPANSION > self.file_length {
             return Err(Error::new(format!(

@@ -1,6 +1,6 @@
 //! Words of a text file and where they stand, read piece by piece.
 
-use super::open::unreadable;
+use super::failure::unreadable;
 use crate::error::{Error, Position, Result};
 use std::io::BufRead;
 

@@ -2,8 +2,8 @@
 //!
 //! The lines A, D, B, E, C, F place the centre of pixel (c, r) at `x = A c + B r + C`, `y = D c + E r + F`.
 
+use super::failure::unreadable;
 use super::frame::Frame;
-use super::open::unreadable;
 use super::text::{Words, number_help};
 use crate::error::{Error, Result};
 use glam::DVec2;

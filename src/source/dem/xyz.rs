@@ -4,10 +4,10 @@
 //! A point that repeats another is dropped; two heights at one place are refused, naming both lines: which one is the
 //! terrain's is not ours to guess. Every other line that is not three finite numbers is refused by line and column.
 
+use super::content::{Dem, MAX_POINTS};
+use super::failure::unreadable;
 use super::frame::show_box;
-use super::open::unreadable;
 use super::text::{characters, number, number_help};
-use super::{Dem, MAX_POINTS};
 use crate::error::{Error, Position, Result};
 use crate::scene::Surface;
 use crate::space::World;

@@ -1,8 +1,9 @@
 //! The camera: where the scene says, else from the south with the layers in view.
 
 use super::blame::of_key;
+use super::extent::{REACH, height_range, in_reach};
 use super::layer;
-use super::terrain::{REACH, Terrain, height_range, in_reach};
+use super::terrain::Terrain;
 use crate::error::{Error, Result};
 use crate::math::max;
 use crate::scene::{Camera, Layer, Projection};

@@ -24,6 +24,7 @@
 mod blame;
 mod camera;
 mod columns;
+mod extent;
 mod filter;
 mod ground;
 mod layer;

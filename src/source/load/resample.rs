@@ -3,7 +3,7 @@
 //! Bilinear between the four posts of the source around each place; no data where any of the four has none. The posts
 //! stand at whole multiples of the cell from the anchor, the cell keeps the source's resolution.
 
-use super::terrain::middle;
+use super::extent::middle;
 use crate::crs::PlanFrom;
 use crate::error::{Error, Result};
 use crate::math::max;

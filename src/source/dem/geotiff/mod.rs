@@ -11,9 +11,9 @@ mod place;
 mod sample;
 mod tags;
 
+use super::failure::unreadable;
 use super::frame::Part;
 use super::grid::{GridFile, Header, RowSink};
-use super::open::unreadable;
 use crate::error::{Error, Result};
 use codec::Compression;
 use head::{Coding, Head};

@@ -4,7 +4,7 @@
 //! orders. It refuses directories and values outside the file, and values of a kind that the reader cannot use; nothing is
 //! allocated beyond what the file's length vouches for.
 
-use super::super::open::unreadable;
+use super::super::failure::unreadable;
 use crate::error::{Error, Result};
 use std::collections::BTreeMap;
 use std::io::{Read, Seek, SeekFrom};

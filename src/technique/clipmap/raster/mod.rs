@@ -23,6 +23,7 @@ mod weight;
 mod winding;
 
 pub use canvas::Ink;
+pub use pieces::Folded;
 
 use super::tessellation::Pair;
 use crate::scene::Rule;
@@ -38,15 +39,6 @@ use rows::{ByRows, RowCoverage};
 use smooth::Smooth;
 use weight::Weight;
 use winding::Texel as Winding;
-
-/// How a strip draws two pairs whose quadrilateral is folded.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Folded {
-    /// As two triangles of a triangle strip (Fig. 8a).
-    Triangles,
-    /// As one polygon of a strip of quadrilaterals (Fig. 8b).
-    Polygon,
-}
 
 /// A tile's place in its level.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -157,7 +149,8 @@ impl TileRaster {
     }
 
     /// All texels, rows from the north.
-    pub fn texels(&self) -> Vec<[f32; 4]> {
+    #[cfg(test)]
+    fn texels(&self) -> Vec<[f32; 4]> {
         (0..self.place.size.1).flat_map(|row| self.row(row)).copied().collect()
     }
 

@@ -6,11 +6,19 @@
 //! direction crosses each of its two sides at most once, so they are at most 1. Where its two ends lie side by side, that is not
 //! so, and it is cut again.)
 
-use super::Folded;
 use crate::math::{max, min};
 use crate::space::Texel;
 use crate::technique::clipmap::tessellation::Pair;
 use glam::DVec2;
+
+/// How a strip draws two pairs whose quadrilateral is folded.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Folded {
+    /// As two triangles of a triangle strip (Fig. 8a).
+    Triangles,
+    /// As one polygon of a strip of quadrilaterals (Fig. 8b).
+    Polygon,
+}
 
 /// East, west, south, north: bits of a set of directions.
 const DIRECTIONS: [DVec2; 4] = [DVec2::X, DVec2::NEG_X, DVec2::Y, DVec2::NEG_Y];

@@ -1,6 +1,6 @@
 //! The joints of the paper: methods 1, 2, 3a and 3b, and the special situations that it leaves to the reader (4.2.4).
 
-use super::{Strips, unit};
+use super::strip::Strips;
 use crate::predicate::orient2d;
 use crate::space::Plan;
 use glam::DVec2;
@@ -26,7 +26,7 @@ pub(super) struct Corner {
 
 /// The left offset of a direction: `o` of 4.2.1, by Hill's perp operator.
 pub(super) fn offset(direction: DVec2, half: f64) -> DVec2 {
-    unit(direction).perp() * half
+    (direction / direction.length()).perp() * half
 }
 
 impl Corner {

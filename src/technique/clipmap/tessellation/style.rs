@@ -2,7 +2,7 @@
 //! measures, but for the sides that a circle is cut into.
 
 use super::joint::Corner;
-use super::{Sagitta, Strips};
+use super::strip::{Sagitta, Strips};
 use crate::math;
 use crate::scene::{Cap, Join};
 use crate::space::Plan;
