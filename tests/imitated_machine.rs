@@ -7,7 +7,7 @@ use drapery::raster::{Lattice, Samples};
 use drapery::scene::{DepthFormat, Device, Diagonal, Posts, Precision, Surface};
 use drapery::space::{Plan, Screen, View, ViewFrame, Viewpoint, World};
 use drapery::terrain::{Mesh, SKY, SurfaceVertex};
-use drapery::visibility::{Hit, Sight, Visible, see_on_device};
+use drapery::visibility::{Hit, Machine, Sight, Visible};
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
 
@@ -46,7 +46,7 @@ fn seen_exactly(frame: &ViewFrame, mesh: &Mesh) -> Visible {
 
 fn seen_on(frame: &ViewFrame, mesh: &Mesh, device: &Device, tile: usize) -> Visible {
     let mut visible = Visible::new(&Lattice::centres(frame, 0), tile);
-    see_on_device(&mut visible, frame, mesh, device);
+    Machine::new(frame, mesh, device).see(&mut visible, mesh);
     visible
 }
 
@@ -238,7 +238,7 @@ fn samples_on_edges_and_vertices_belong_to_the_triangle_of_exact_mathematics() {
     exact.see(&frame, &mesh);
     for device in devices() {
         let mut seen = Visible::new(&lattice, 8);
-        see_on_device(&mut seen, &frame, &mesh, &device);
+        Machine::new(&frame, &mesh, &device).see(&mut seen, &mesh);
         assert_eq!(seen.triangles(), exact.triangles(), "{device:?}");
     }
 }

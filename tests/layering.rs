@@ -24,9 +24,6 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("crs", &["space"]),
     ("parameter", &[]),
     ("scene", &["space", "parameter", "buffer"]),
-    // The techniques for their declarations.
-    ("scene_file", &["technique", "scene", "space", "parameter"]),
-    ("source", &["scene_file", "scene", "space", "crs", "buffer", "parallel"]),
     ("terrain", &["scene", "space", "index", "parallel"]),
     ("draw_list", &["scene", "space", "parallel"]),
     ("stage", &["draw_list", "terrain", "scene", "space"]),
@@ -59,6 +56,9 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "buffer",
         ],
     ),
+    // The techniques for their declarations.
+    ("scene_file", &["technique", "scene", "space", "parameter"]),
+    ("source", &["scene_file", "scene", "space", "crs", "buffer", "parallel"]),
     ("output", &["buffer"]),
     ("interval", &[]),
     ("footprint", &["draw_list", "terrain", "scene", "space", "interval", "predicate", "index", "parallel"]),
@@ -87,6 +87,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
         "golden",
         &[
             "technique",
+            "canvas",
             "truth",
             "visibility",
             "source",
@@ -123,6 +124,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
         "measure",
         &[
             "technique",
+            "canvas",
             "truth",
             "sampling",
             "visibility",
@@ -140,6 +142,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
         &[
             "measure",
             "technique",
+            "canvas",
             "truth",
             "raster",
             "stage",
@@ -171,31 +174,23 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "buffer",
         ],
     ),
+    // Text alone.
     ("tutorial", &[]),
 ];
 /// What anyone may use: the rooms at the crate's bottom, and the names that stand in the crate itself.
 const ANYONE: &[&str] = &["error", "math", "Error", "Result", "Position"];
 
 /// Files that may stand on one another, and why.
-const CIRCLES: &[(&[&str], &str)] = &[
-    (
-        &["src/crs/mod.rs", "src/crs/wkt.rs"],
-        "`Crs::parse` reads WKT, and WKT may name a code or hold a PROJ string, which `Crs` reads",
-    ),
-    (
-        &[
-            "src/technique/stencil_volume/frame.rs",
-            "src/technique/stencil_volume/tile.rs",
-            "src/technique/stencil_volume/tile/fragments.rs",
-            "src/technique/stencil_volume/tile/points.rs",
-        ],
-        "is opened with the room for a frame's tiles",
-    ),
-];
+const CIRCLES: &[(&[&str], &str)] = &[];
 
 /// Public functions that nothing in this repository but tests calls, and for whom they are.
-const FOR_OTHERS: &[(&str, &str)] =
-    &[("from_plane", "who judges buffers of a program of one's own makes pictures of them")];
+const FOR_OTHERS: &[(&str, &str)] = &[
+    ("from_plane", "who judges buffers of a program of one's own makes pictures of them"),
+    (
+        "largest_deviation",
+        "who drapes a mesh of one's own asks how far it is from the map that it stands for",
+    ),
+];
 
 /// Crates that one room alone may use.
 const OWNED: &[(&str, &str)] = &[("rayon", "parallel"), ("spade", "terrain"), ("exr", "compare")];

@@ -7,6 +7,7 @@
 
 mod declare;
 mod named;
+mod setting;
 mod shape;
 mod value;
 
@@ -14,6 +15,7 @@ pub use declare::Settings;
 pub(crate) use declare::settings;
 pub use named::Named;
 pub(crate) use named::words;
+pub use setting::Setting;
 pub(crate) use shape::color;
 pub use shape::{Key, Range, Rule, Shape, TableShape, choice, key};
-pub use value::{Setting, Value};
+pub use value::Value;

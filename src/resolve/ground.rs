@@ -36,7 +36,7 @@ impl<'a> GroundPaint<'a> {
         match self.ground {
             Ground::Color(_) => self.flat,
             Ground::Hillshade(color) => {
-                let light = self.mesh.surface_triangle(triangle).map_or(1.0, |t| lambert(t.normal()));
+                let light = self.mesh.normal(triangle).map_or(1.0, lambert);
                 let [r, g, b, a] = color.0;
                 self.compositor.paint(Color([r * light, g * light, b * light, a]))
             }

@@ -71,9 +71,9 @@ impl SceneFile {
     /// # Errors
     /// See the module: the first thing that is wrong.
     pub fn parse(text: &str, path: Option<&Path>, overrides: &[Override]) -> Result<SceneFile> {
-        let origin = Origin { text, path, overrides };
+        let origin = Origin { text, path };
         let mut root = tree::parse(&origin)?;
-        overrides::apply(&origin, &mut root)?;
+        overrides::apply(&origin, &mut root, overrides)?;
         if let Value::Table(table) = &root.value {
             check::table(&origin, table, &root.place, &keys::ROOT, "")?;
         }

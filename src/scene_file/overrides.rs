@@ -41,17 +41,12 @@ impl Override {
             dotted_key(path.trim()).ok_or_else(|| refuse("the part before `=` is not a dotted path"))?;
         Ok(Self { text: text.into(), path, value: value.trim().into() })
     }
-
-    /// The override as it was given.
-    pub fn text(&self) -> &str {
-        &self.text
-    }
 }
 
 /// The segments of `a.b."c d"`.
 fn dotted_key(path: &str) -> Option<Vec<String>> {
     let document = format!("{path} = 0");
-    let origin = Origin { text: &document, path: None, overrides: &[] };
+    let origin = Origin { text: &document, path: None };
     let mut node = tree::parse(&origin).ok().filter(|_| !path.contains('\n'))?;
     let mut segments = Vec::new();
     while let Value::Table(Table(mut entries)) = node.value {
@@ -69,9 +64,9 @@ fn bare_or_toml(text: &str, place: &Place) -> Option<Node> {
 }
 
 /// Makes all changes, in order.
-pub(super) fn apply(origin: &Origin<'_>, root: &mut Node) -> Result<()> {
-    for (index, change) in origin.overrides.iter().enumerate() {
-        let place = Place::Override(index);
+pub(super) fn apply(origin: &Origin<'_>, root: &mut Node, changes: &[Override]) -> Result<()> {
+    for change in changes {
+        let place = Place::Override(change.text.clone());
         let value = bare_or_toml(&change.value, &place);
         Walk { origin, place }.set(root, &change.path, value)?;
     }

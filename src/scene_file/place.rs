@@ -1,6 +1,5 @@
 //! Where a value was written: in the file, or in an override.
 
-use super::overrides::Override;
 use crate::error::{Error, Position};
 use std::ops::Range;
 use std::path::Path;
@@ -10,8 +9,8 @@ use std::path::Path;
 pub(super) enum Place {
     /// These bytes of the file.
     File(Range<usize>),
-    /// The override of this number.
-    Override(usize),
+    /// The override with this text.
+    Override(String),
 }
 
 /// What is being read, to turn places into errors.
@@ -19,7 +18,6 @@ pub(super) enum Place {
 pub(super) struct Origin<'a> {
     pub(super) text: &'a str,
     pub(super) path: Option<&'a Path>,
-    pub(super) overrides: &'a [Override],
 }
 
 impl Origin<'_> {
@@ -33,10 +31,7 @@ impl Origin<'_> {
                     None => error,
                 }
             }
-            Place::Override(index) => {
-                let written = self.overrides.get(*index).map_or("", Override::text);
-                Error::new(format!("override `{written}`: {}", what.into()))
-            }
+            Place::Override(written) => Error::new(format!("override `{written}`: {}", what.into())),
         }
     }
 

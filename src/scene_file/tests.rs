@@ -265,7 +265,7 @@ fn every_described_key_is_read_somewhere() {
     let by_column = by_column();
     for text in EVERY_KEY.into_iter().chain([CONE]).chain(by_column.iter().map(String::as_str)) {
         parse(text).unwrap_or_else(|error| panic!("{error}\n{text}"));
-        let origin = Origin { text, path: None, overrides: &[] };
+        let origin = Origin { text, path: None };
         written(&tree::parse(&origin).unwrap().value, &keys::ROOT, "", &mut of_scenes);
     }
     of_parser.retain(|name| !name.starts_with("technique."));

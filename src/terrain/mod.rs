@@ -148,6 +148,18 @@ impl Mesh {
         }
     }
 
+    /// The unit normal of triangle `id` on its upper side, as components east, north and up; `None` for a hole.
+    ///
+    /// # Panics
+    /// When `id` is not below [`Mesh::triangle_ids`].
+    #[inline]
+    pub fn normal(&self, id: u32) -> Option<DVec3> {
+        match self.drape() {
+            Drape::Vertical => self.triangle(id).map(|triangle| upward_normal(&triangle)),
+            Drape::Affine => self.surface_triangle(id).map(|triangle| triangle.normal()),
+        }
+    }
+
     /// The numbers of the corners of triangle `id`, in the order of [`Mesh::triangle`]; `None` for a hole.
     ///
     /// # Panics

@@ -4,8 +4,8 @@
 //! that tells on which side of the opposite edge it passes, and `facing` the sum of the three. Its plan point is the corners' plan points
 //! by these weights, so that a function that is affine in the plan becomes one that is linear on the screen, over `facing`.
 
-use super::facet::TileRays;
 use super::form::{BallForm, Form};
+use super::tile_rays::TileRays;
 use crate::footprint::HalfPlane;
 use crate::interval::Ball;
 use crate::space::Plan;

@@ -1,9 +1,10 @@
 //! What a piece of a pixel knows of an item: whether it lies in it, or what could still tell.
 
-use super::facet::{Facet, TileRays};
+use super::facet::Facet;
 use super::polygon::middle;
 use super::setting::Setting;
 use super::shape::{Ground, distance};
+use super::tile_rays::TileRays;
 use crate::certainty::Known;
 use crate::footprint::Primitive;
 use crate::space::PlanBox;

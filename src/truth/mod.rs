@@ -29,6 +29,7 @@ mod seen;
 mod setting;
 mod shape;
 mod tile;
+mod tile_rays;
 mod visible;
 
 use crate::buffer::{Buffer, Look, Plane, PlaneKind, Values};

@@ -1,8 +1,9 @@
 //! Primitives of footprints as they lie on a pixel: straight ones as lines, round ones by bounds of their distance.
 
-use super::facet::{Facet, Hit, TileRays};
+use super::facet::{Facet, Hit};
 use super::form::{Line, Side};
 use super::polygon::middle;
+use super::tile_rays::TileRays;
 use crate::footprint::{HalfPlane, MOST_SIDES, PixelSize, Primitive};
 use crate::interval::Ball;
 use crate::math;

@@ -1,10 +1,11 @@
 //! The triangles of a tile, and the tile's pixels.
 
-use super::facet::{Facet, Hit, TileRays};
+use super::facet::{Facet, Hit};
 use super::knowledge::Pixel;
 use super::polygon::{self, Pieces};
 use super::refine::Refinery;
 use super::setting::Setting;
+use super::tile_rays::TileRays;
 use super::visible::Sight;
 use super::{Centre, PixelCoverage, Tally};
 use crate::math;

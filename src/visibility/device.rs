@@ -77,11 +77,6 @@ impl Machine {
     }
 }
 
-/// Finds what each sample sees on a machine that is used once.
-pub fn see_on_device(visible: &mut Visible, frame: &ViewFrame, mesh: &Mesh, device: &Device) {
-    Machine::new(frame, mesh, device).see(visible, mesh);
-}
-
 fn hit_of<T: Real>(
     pipeline: &Pipeline<T>,
     at: Screen,

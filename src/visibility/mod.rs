@@ -10,7 +10,7 @@ mod footprint;
 mod hit;
 mod sight;
 
-pub use device::{Machine, see_on_device};
+pub use device::Machine;
 pub use footprint::{FootprintPlane, PixelFootprint};
 pub use hit::{Hit, hit};
 pub use sight::Sight;

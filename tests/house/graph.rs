@@ -5,17 +5,22 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// For each file, the files that define what it names.
 ///
-/// A name that a module passes on (`pub use`) is followed to the file that defines it, so a `mod.rs` is known only to files
-/// that name what stands in it; and a `mod.rs` stands on a file below it when it names something of it, not when it only
-/// declares it or passes its names on. What a type's methods call is not followed: the types say enough.
+/// A name that a module passes on (`pub use`) is followed to the file that defines it. A folder and its head, its `mod.rs`, are read
+/// together: what the head defines for the files below it is no edge, so that a circle is one of files that stand side by side, or in
+/// different folders. What a type's methods call is not followed: the types say enough.
 pub fn edges(house: &House) -> BTreeMap<String, BTreeSet<String>> {
     let names = Names::of(house);
     let of = |file: &String| -> BTreeSet<String> {
         let mentions = house.files[file].mentions.iter().filter(|mention| !mention.is_only_passed_on);
         let known = mentions.filter_map(|mention| names.definition(&mention.path, 0));
-        known.filter(|other| other != file).collect()
+        known.filter(|other| other != file && !is_head_of(other, file)).collect()
     };
     house.files.keys().map(|file| (file.clone(), of(file))).collect()
+}
+
+/// Whether a file is the head of a folder that another lies in.
+fn is_head_of(head: &str, file: &str) -> bool {
+    head.strip_suffix("mod.rs").is_some_and(|folder| file.starts_with(folder))
 }
 
 /// Where each name of the crate is defined.

@@ -182,14 +182,17 @@ fn files_that_stand_on_one_another_are_found() {
 }
 
 #[test]
-fn a_file_that_takes_what_is_defined_in_the_head_of_its_folder_stands_on_it() {
+fn a_head_and_the_files_of_its_folder_are_read_together_but_not_with_those_of_another() {
     let [lib, main] = ROOTS;
     let head = ("src/a/mod.rs", "mod b; pub struct A; fn a() { b::b(A) }");
+    has_circles(&[lib, main, head, ("src/a/b.rs", "use super::A; pub fn b(a: A) {}")], &[]);
+    let inner = ("src/a/b/mod.rs", "mod c; pub struct B; fn b() { super::d::d() }");
+    let c = ("src/a/b/c.rs", "fn c() {}");
+    let outer = ("src/a/mod.rs", "mod b; mod d;");
     has_circles(
-        &[lib, main, head, ("src/a/b.rs", "use super::A; pub fn b(a: A) {}")],
-        &[&["src/a/b.rs", "src/a/mod.rs"]],
+        &[lib, main, outer, inner, c, ("src/a/d.rs", "use super::b::B; pub fn d() { B }")],
+        &[&["src/a/b/mod.rs", "src/a/d.rs"]],
     );
-    has_circles(&[lib, main, head, ("src/a/b.rs", "pub fn b(a: u8) {}")], &[]);
 }
 
 #[test]

@@ -22,11 +22,10 @@ mod flatgeobuf;
 mod geojson;
 #[cfg(feature = "gpkg")]
 mod geopackage;
-#[cfg(not(feature = "gpkg"))]
-#[path = "without_geopackage.rs"]
-mod geopackage;
 mod shapefile;
 mod summary;
+#[cfg(not(feature = "gpkg"))]
+mod without_geopackage;
 #[cfg(feature = "gpkg")]
 mod wkb;
 
@@ -42,6 +41,8 @@ use std::fmt;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
+#[cfg(not(feature = "gpkg"))]
+use without_geopackage as geopackage;
 
 /// A vector file's content.
 #[derive(Debug, Clone)]

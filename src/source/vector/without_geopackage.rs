@@ -1,11 +1,12 @@
 //! What stands in the place of the reader of GeoPackages in a build without the feature `gpkg`: its refusal.
 
+use super::attributes::Wanted;
 use super::collector::Collector;
 use crate::error::{Error, Result};
 use std::path::Path;
 
 /// Refuses to read a layer.
-pub(super) fn read(_: &Path, _: Option<&str>) -> Result<Collector> {
+pub(super) fn read(_: &Path, _: Option<&str>, _: Wanted) -> Result<Collector> {
     Err(missing())
 }
 

@@ -101,11 +101,6 @@ impl TileCache {
             }
         }
     }
-
-    /// Bytes of the tiles that are held.
-    pub(super) fn bytes(&self) -> usize {
-        self.bytes
-    }
 }
 
 #[cfg(test)]
@@ -161,10 +156,10 @@ mod tests {
         ask(&mut cache, &[key(7, 7)], 32);
         ask(&mut cache, &[key(6, 6)], 32);
         assert_eq!(ask(&mut cache, &[key(8, 8)], 32).evicted, 1);
-        assert_eq!(cache.bytes(), 32);
+        assert_eq!(cache.bytes, 32);
         assert_eq!(ask(&mut cache, &[key(6, 6)], 32).found, 1, "used more lately than (7, 7)");
         let counts = ask(&mut cache, &[key(6, 7), key(7, 6), key(8, 6)], 32);
-        assert_eq!((counts.made, cache.bytes()), (3, 48), "a pass holds what it needs");
+        assert_eq!((counts.made, cache.bytes), (3, 48), "a pass holds what it needs");
     }
 
     #[test]

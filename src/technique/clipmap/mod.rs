@@ -158,11 +158,6 @@ impl<'s> Prepare<'s> {
         (self.geometry.stroke_bytes(), self.geometry.index_bytes())
     }
 
-    /// Bytes of the tiles in the cache.
-    pub fn cached_bytes(&self) -> usize {
-        self.cache.lock().unwrap_or_else(PoisonError::into_inner).bytes()
-    }
-
     /// The bytes that the cache may hold.
     fn budget(&self) -> usize {
         (self.settings.cache_mib * 1_048_576.0) as usize
