@@ -8,7 +8,7 @@ use drapery::math;
 use drapery::resolve::Paint;
 use drapery::scene::{BlendMode, Rule};
 use drapery::space::Texel;
-use drapery::technique::clipmap::raster::{Area, Folded, Ink, RasterSettings, TilePlace, TileRaster};
+use drapery::technique::clipmap::raster::{Area, Folded, Ink, RasterSettings, TexelRect, TileRaster};
 use drapery::technique::clipmap::tessellation::Pair;
 use drapery::technique::clipmap::{LineFilter, LinePrimitives, Overlaps, PolygonRaster, TexelFormat};
 use std::hint::black_box;
@@ -142,9 +142,9 @@ impl Items {
     }
 }
 
-fn place(tile: usize) -> TilePlace {
+fn place(tile: usize) -> TexelRect {
     let origin = ((tile % TILES * TILE) as i64, (tile / TILES * TILE) as i64);
-    TilePlace { origin, size: (TILE, TILE) }
+    TexelRect { origin, size: (TILE, TILE) }
 }
 
 fn ours(items: &Items, settings: RasterSettings) -> f32 {

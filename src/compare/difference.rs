@@ -64,7 +64,7 @@ pub(super) fn is_over(distance: f64, tolerance: f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::compare::{Place, Side};
+    use crate::compare::{Side, ValuePlace};
 
     fn row(values: &[f64]) -> Image {
         Image::new(values.len(), 1, 1, values.to_vec()).unwrap()
@@ -106,7 +106,7 @@ mod tests {
         let pair = Image::new(1, 1, 2, vec![0.0; 2]).unwrap();
         assert_eq!(of(&row(&[0.0]), &pair), Mismatch::Channels { expected: 1, actual: 2 });
         let wrong = row(&[0.0, f64::NAN]);
-        let place = Place { x: 1, y: 0, channel: 0 };
+        let place = ValuePlace { x: 1, y: 0, channel: 0 };
         assert_eq!(of(&two, &wrong), Mismatch::NotANumber { side: Side::Actual, place });
         assert_eq!(of(&wrong, &two), Mismatch::NotANumber { side: Side::Expected, place });
         assert_eq!(of(&wrong, &wrong), Mismatch::NotANumber { side: Side::Expected, place });

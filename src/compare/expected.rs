@@ -1,6 +1,6 @@
 //! What is expected of a picture, and what cannot be measured against it.
 
-use super::image::{Image, Place};
+use super::image::{Image, ValuePlace};
 use crate::error::{Error, Result};
 use std::fmt;
 
@@ -30,7 +30,7 @@ impl Expected {
             return Err(Error::usage("the two ends of the expected intervals differ in size or channels"));
         }
         if let Some(index) = (0..lo.values().len()).find(|i| lo.values()[*i] > hi.values()[*i]) {
-            let Place { x, y, channel } = lo.place(index);
+            let ValuePlace { x, y, channel } = lo.place(index);
             return Err(Error::usage(format!(
                 "the expected interval of pixel {x},{y}, channel {channel} is upside down: {} to {}",
                 lo.values()[index],
@@ -88,7 +88,7 @@ pub enum Mismatch {
         /// Whose.
         side: Side,
         /// The first such value.
-        place: Place,
+        place: ValuePlace,
     },
 }
 
@@ -132,7 +132,7 @@ impl fmt::Display for Mismatch {
             Self::Channels { expected, actual } => {
                 write!(f, "other channels: {expected} a pixel are expected, the picture has {actual}")
             }
-            Self::NotANumber { side, place: Place { x, y, channel } } => {
+            Self::NotANumber { side, place: ValuePlace { x, y, channel } } => {
                 let whose = match side {
                     Side::Expected => "the expected picture",
                     Side::Actual => "the picture",

@@ -17,7 +17,7 @@ pub struct Image {
 
 /// A value's place in a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
-pub struct Place {
+pub struct ValuePlace {
     /// The pixel's column, from 0.
     pub x: usize,
     /// The pixel's row, from 0 at the top.
@@ -95,13 +95,13 @@ impl Image {
     }
 
     /// Where the value of this index is.
-    pub(super) fn place(&self, index: usize) -> Place {
+    pub(super) fn place(&self, index: usize) -> ValuePlace {
         let pixel = index / self.channels;
-        Place { x: pixel % self.width, y: pixel / self.width, channel: index % self.channels }
+        ValuePlace { x: pixel % self.width, y: pixel / self.width, channel: index % self.channels }
     }
 
     /// The place of the first value that is not a number.
-    pub(super) fn first_nan(&self) -> Option<Place> {
+    pub(super) fn first_nan(&self) -> Option<ValuePlace> {
         self.values.iter().position(|v| v.is_nan()).map(|index| self.place(index))
     }
 

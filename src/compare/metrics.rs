@@ -1,7 +1,7 @@
 //! The numbers of a comparison.
 
 use super::difference::{Difference, is_over};
-use super::image::Place;
+use super::image::ValuePlace;
 use crate::math;
 
 /// The side of the window in which failing pixels are counted.
@@ -16,7 +16,7 @@ pub struct Metrics {
     /// The largest distance.
     pub max: f64,
     /// The first value that has it, where it is not 0.
-    pub worst: Option<Place>,
+    pub worst: Option<ValuePlace>,
     /// The mean over all values.
     pub mean: f64,
     /// The root of the mean square over all values.
@@ -144,7 +144,7 @@ mod tests {
         values[(2 * 2 + 1) * 4 + 3] = 0.5;
         values[4] = 0.25;
         let metrics = of(2, 3, 4, values, 0.25);
-        assert_eq!(metrics.worst, Some(Place { x: 1, y: 2, channel: 3 }));
+        assert_eq!(metrics.worst, Some(ValuePlace { x: 1, y: 2, channel: 3 }));
         assert_eq!((metrics.max, metrics.mean), (0.5, 0.75 / 24.0));
         assert_eq!(metrics.rmse, (0.3125_f64 / 24.0).sqrt());
         assert_eq!(metrics.channel_max, [0.25, 0.0, 0.0, 0.5]);

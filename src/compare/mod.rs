@@ -28,7 +28,7 @@ mod verdict;
 
 pub use difference::Difference;
 pub use expected::{Expected, Mismatch, Side};
-pub use image::{Image, Place};
+pub use image::{Image, ValuePlace};
 pub use metrics::{Metrics, WINDOW, Window};
 pub use read::same_file;
 pub use report::{COMPARE_SCHEMA, Report};

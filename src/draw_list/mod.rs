@@ -145,14 +145,6 @@ impl DrawList {
         // Of a feature, only its fill comes before another item.
         item.checked_sub(1).filter(|before| feature(*before) == feature(item)).unwrap_or(item)
     }
-
-    /// Bytes held.
-    pub fn bytes(&self) -> usize {
-        size_of_val(&self.items[..])
-            + size_of_val(&self.styles[..])
-            + size_of_val(&self.chains[..])
-            + size_of_val(&self.vertices[..])
-    }
 }
 
 #[cfg(test)]

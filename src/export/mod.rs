@@ -18,7 +18,7 @@ pub use buffers::Buffers;
 pub use bundle::Bundle;
 pub use features::write_features;
 pub use mesh::{plan_points, triangles, vertices};
-pub use parameters::{Camera, Canvas, Ground, Parameters};
+pub use parameters::{Camera, Canvas, GroundParameters, Parameters};
 pub use pictures::Pictures;
 pub use tiles::{TilePicture, tiles};
 

@@ -30,7 +30,7 @@ pub struct Parameters {
     /// The rectangle that the terrain lies in: west, south, east, north.
     pub terrain: [f64; 4],
     /// The terrain's own colour.
-    pub ground: Ground,
+    pub ground: GroundParameters,
     /// On which values colours are composed: `encoded` or `linear`.
     pub compositing_space: &'static str,
     /// How: `over` or `additive`.
@@ -78,7 +78,7 @@ pub struct Camera {
 /// The terrain's own colour.
 #[derive(Debug, serde::Serialize)]
 #[serde(rename_all = "kebab-case", tag = "kind")]
-pub enum Ground {
+pub enum GroundParameters {
     /// One colour.
     Color {
         /// RGBA.
@@ -103,9 +103,9 @@ impl Parameters {
         (technique, settings, device): (&'static str, ByName, ByName),
     ) -> Self {
         let ground = match &scene.ground {
-            scene::Ground::Color(color) => Ground::Color { color: color.0 },
-            scene::Ground::Hillshade(color) => Ground::Hillshade { color: color.0 },
-            scene::Ground::Imagery(imagery) => Ground::Imagery { extent: sides(&imagery.extent) },
+            scene::Ground::Color(color) => GroundParameters::Color { color: color.0 },
+            scene::Ground::Hillshade(color) => GroundParameters::Hillshade { color: color.0 },
+            scene::Ground::Imagery(imagery) => GroundParameters::Imagery { extent: sides(&imagery.extent) },
         };
         Self {
             schema: 1,

@@ -1,7 +1,7 @@
 //! The items of the draw list as sets of plan points, for the truth and for supersampling.
 //!
 //! Input: the draw list, the view and the terrain (widths in pixels depend on them) and which boxes of the plan can be seen. Output:
-//! [`Footprints`]: each item's boundary as small [`Part`]s in a tree of boxes, and exact winding numbers. It borrows the list's
+//! [`Footprints`]: each item's boundary as small [`BorderPart`]s in a tree of boxes, and exact winding numbers. It borrows the list's
 //! vertices. Refuses: nothing; degenerate rings and segments of no length have no points, or those that `docs/semantics.md` says.
 
 mod area;
@@ -22,7 +22,7 @@ use std::ops::Range;
 /// A piece of an item's boundary: an edge of its polygon, or a segment of its stroke with the join at its start and the
 /// caps at its ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Part {
+pub struct BorderPart {
     /// The item that it bounds.
     pub item: u32,
     /// The place of its chain among the item's: first those of its area, then those of its stroke.
@@ -77,7 +77,7 @@ pub struct Footprints<'l> {
     /// The item of each entry of `area_boxes`.
     area_items: Vec<u32>,
     area_boxes: BoxTree,
-    parts: Vec<Part>,
+    parts: Vec<BorderPart>,
     part_boxes: BoxTree,
 }
 
@@ -116,7 +116,7 @@ impl<'l> Footprints<'l> {
 
     /// Calls `visit` with each part whose box meets `plan`, until it returns false. Returns whether it saw all.
     #[inline]
-    pub fn parts_near(&self, plan: &PlanBox, mut visit: impl FnMut(Part) -> bool) -> bool {
+    pub fn parts_near(&self, plan: &PlanBox, mut visit: impl FnMut(BorderPart) -> bool) -> bool {
         self.part_boxes.query(plan, |k| visit(self.parts[k as usize]))
     }
 
@@ -154,7 +154,7 @@ impl<'l> Footprints<'l> {
     }
 
     /// What a part is made of.
-    pub fn primitives(&self, part: Part, out: &mut Vec<Primitive>) {
+    pub fn primitives(&self, part: BorderPart, out: &mut Vec<Primitive>) {
         let (vertices, at) = (self.list.vertices(), part.vertex as usize);
         match stroke_of(self.list, part.item, part.chain) {
             Some((chain, line)) => {
@@ -209,7 +209,7 @@ struct Parts<'a> {
 
 impl Parts<'_> {
     /// All that are seen, and their boxes. The work is cut by chains: one item may have most of them.
-    fn all(&self) -> (Vec<Part>, Vec<PlanBox>) {
+    fn all(&self) -> (Vec<BorderPart>, Vec<PlanBox>) {
         let mut ends = Vec::with_capacity(self.list.items().len());
         let mut count = 0;
         for item in self.list.items() {
@@ -224,7 +224,7 @@ impl Parts<'_> {
     }
 
     /// Those of some of all items' chains; `ends` counts the chains up to each item's last one.
-    fn of_chains(&self, chains: Range<usize>, ends: &[usize]) -> Vec<(Part, PlanBox)> {
+    fn of_chains(&self, chains: Range<usize>, ends: &[usize]) -> Vec<(BorderPart, PlanBox)> {
         let mut found = Vec::new();
         let mut item = ends.partition_point(|end| *end <= chains.start);
         for chain in chains {
@@ -238,11 +238,11 @@ impl Parts<'_> {
     }
 
     /// Those of the chain at a place among an item's.
-    fn of_chain(&self, item: u32, place: u32, found: &mut Vec<(Part, PlanBox)>) {
+    fn of_chain(&self, item: u32, place: u32, found: &mut Vec<(BorderPart, PlanBox)>) {
         let vertices = self.list.vertices();
         let mut add = |vertex: u32, plan: PlanBox| {
             if !plan.is_empty() && (self.is_seen)(&plan) {
-                found.push((Part { item, chain: place, vertex }, plan));
+                found.push((BorderPart { item, chain: place, vertex }, plan));
             }
         };
         if let Some((chain, line)) = stroke_of(self.list, item, place) {

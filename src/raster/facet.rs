@@ -104,7 +104,8 @@ impl Facet {
             (normal / det, det_error <= KEY_ERROR / 8.0 * det.abs() && error * farthest <= KEY_ERROR / 8.0)
         };
         let least_key = if view.is_parallel() { nearest } else { 1.0 / farthest };
-        let shape = Shape { edges: [ab * sign, bc * sign, ca * sign], edge_error: 3.0 * edge_error, key };
+        let shape =
+            TriangleShape { edges: [ab * sign, bc * sign, ca * sign], edge_error: 3.0 * edge_error, key };
         Some(Self::of_shape(id, &shape, (is_key_sure, least_key), sure_keys(view, nearest, farthest)))
     }
 
@@ -112,7 +113,7 @@ impl Facet {
     /// the key on the triangle.
     pub(super) fn of_shape(
         id: u32,
-        shape: &Shape,
+        shape: &TriangleShape,
         (is_key_sure, least_key): (bool, f64),
         (least, most): (f64, f64),
     ) -> Self {
@@ -238,7 +239,7 @@ impl pulp::WithSimd for Fill<'_, '_, '_> {
 }
 
 /// A triangle's edge functions (positive inside, of any scale), a bound of their error in the tile, and its key.
-pub(super) struct Shape {
+pub(super) struct TriangleShape {
     pub(super) edges: [DVec3; 3],
     pub(super) edge_error: f64,
     pub(super) key: DVec3,

@@ -4,7 +4,7 @@
 //! time are then sorted into: no sample near (most), exactly one sample near (decided in place), several
 //! (handed to [`super::Facet::fill`]). The error of a rounded corner bounds every doubt.
 
-use super::facet::{Facet, Shape};
+use super::facet::{Facet, TriangleShape};
 use super::tile::Tile;
 use super::{KEY_ERROR, TileView};
 use crate::math::{max_f32, min_f32};
@@ -302,7 +302,7 @@ impl Patch {
             return;
         }
         let sign = area.signum();
-        let shape = Shape { edges: edges.map(|e| e * sign), edge_error: doubt, key };
+        let shape = TriangleShape { edges: edges.map(|e| e * sign), edge_error: doubt, key };
         let facet = Facet::of_shape(id, &shape, (true, least), (f64::NEG_INFINITY, f64::INFINITY));
         facet.fill(tile, from, to);
     }

@@ -1,6 +1,6 @@
 //! The items near some plan points, and which of them hold a point.
 
-use crate::footprint::{Footprints, HalfPlane, Part, Primitive};
+use crate::footprint::{BorderPart, Footprints, HalfPlane, Primitive};
 use crate::space::{Plan, PlanBox};
 use std::ops::Range;
 
@@ -10,7 +10,7 @@ const MOST_PARTS: usize = 64;
 /// The items whose boundary is near, or that may hold a whole box of the plan.
 #[derive(Debug, Default)]
 pub(super) struct Nearby {
-    parts: Vec<Part>,
+    parts: Vec<BorderPart>,
     strokes: Vec<Primitive>,
     items: Vec<NearItem>,
 }

@@ -3,7 +3,7 @@
 use super::facet::Facet;
 use super::polygon::middle;
 use super::setting::Setting;
-use super::shape::{Ground, distance};
+use super::shape::{PixelGround, distance};
 use super::tile_rays::TileRays;
 use crate::certainty::Known;
 use crate::footprint::Primitive;
@@ -37,16 +37,16 @@ pub(super) struct Pixel<'a> {
 }
 
 impl<'a> Pixel<'a> {
-    pub(super) fn ground(&self, facet: u32) -> Ground<'a> {
+    pub(super) fn ground(&self, facet: u32) -> PixelGround<'a> {
         let size = self.setting.pixel_size;
-        Ground { rays: self.rays, facet: &self.facets[facet as usize], pixel: self.corner, size }
+        PixelGround { rays: self.rays, facet: &self.facets[facet as usize], pixel: self.corner, size }
     }
 }
 
 /// What a fragment knows of an item at first; its stroke is open if the item has one.
 pub(super) fn first_state(
     pixel: &Pixel,
-    (ground, points): (&Ground, &[[f64; 2]]),
+    (ground, points): (&PixelGround, &[[f64; 2]]),
     item: u32,
     has_edges: bool,
     (first, count): (u32, u32),
@@ -66,7 +66,7 @@ pub(super) fn first_state(
 }
 
 /// Whether a piece that no edge of an item's polygon crosses lies where the item wants it, decided exactly at a point of it.
-pub(super) fn polygon_at(pixel: &Pixel, ground: &Ground, points: &[[f64; 2]], item: u32) -> Known {
+pub(super) fn polygon_at(pixel: &Pixel, ground: &PixelGround, points: &[[f64; 2]], item: u32) -> Known {
     let footprints = pixel.setting.footprints;
     let hit = ground.hit(middle(points));
     let rounding = 64.0 * f64::EPSILON * hit.plan.to_vec().abs().max_element();

@@ -7,11 +7,11 @@ use super::form::Line;
 use super::knowledge::{Pixel, State, first_state, polygon_at};
 use super::polygon::{Halves, Pieces, Polygon, ROUNDING};
 use super::setting::Setting;
-use super::shape::{Ground, Shape, Verdict};
+use super::shape::{PixelGround, PixelPrimitive, Verdict};
 use super::visible::{Fragment, SPECK, Sight};
 use super::{ItemCoverage, PixelCoverage};
 use crate::certainty::{Known, PaintMean, PaintRange};
-use crate::footprint::{Part, Primitive};
+use crate::footprint::{BorderPart, Primitive};
 use crate::resolve::Paint;
 use crate::space::PlanBox;
 use std::cmp::Ordering;
@@ -25,16 +25,16 @@ const MOST_LEVEL: u32 = 8;
 /// Room for one pixel's work, used again for the next.
 #[derive(Debug, Default)]
 pub(super) struct Refinery {
-    shapes: Vec<Shape>,
+    shapes: Vec<PixelPrimitive>,
     /// Indices into `shapes`, a run for each state.
     lists: Vec<u32>,
     states: Vec<State>,
-    heap: BinaryHeap<Piece>,
-    parts: Vec<Part>,
+    heap: BinaryHeap<FragmentPiece>,
+    parts: Vec<BorderPart>,
     primitives: Vec<Primitive>,
     fresh: Vec<State>,
     /// Pieces of which nothing is open, where coverage is asked for.
-    closed: Vec<Piece>,
+    closed: Vec<FragmentPiece>,
     /// The area of the pieces that may lie in or out of some item.
     open_area: f64,
     slop: f64,
@@ -46,7 +46,7 @@ pub(super) struct Refinery {
 
 /// A convex piece of a pixel that sees one triangle.
 #[derive(Debug, Clone, Copy)]
-struct Piece {
+struct FragmentPiece {
     shape: Polygon,
     facet: u32,
     area: f64,
@@ -65,7 +65,7 @@ struct Piece {
     number: u64,
 }
 
-impl Piece {
+impl FragmentPiece {
     fn new(fragment: &Fragment, area: f64) -> Self {
         let (shape, facet) = (fragment.shape, fragment.facet);
         let paint = PaintRange::ANY;
@@ -74,22 +74,22 @@ impl Piece {
     }
 }
 
-impl Ord for Piece {
+impl Ord for FragmentPiece {
     fn cmp(&self, other: &Self) -> Ordering {
         self.weight.total_cmp(&other.weight).then(other.number.cmp(&self.number))
     }
 }
-impl PartialOrd for Piece {
+impl PartialOrd for FragmentPiece {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
-impl PartialEq for Piece {
+impl PartialEq for FragmentPiece {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other) == Ordering::Equal
     }
 }
-impl Eq for Piece {}
+impl Eq for FragmentPiece {}
 
 impl Refinery {
     /// The colour of a pixel that sees this: lower bounds, upper bounds, estimate.
@@ -103,7 +103,7 @@ impl Refinery {
             self.slop += ROUNDING + if area < SPECK { area } else { 0.0 };
         }
         for fragment in &sight.fragments {
-            self.look(pixel, pieces, Piece::new(fragment, pieces.area(fragment.shape)), &mut mean);
+            self.look(pixel, pieces, FragmentPiece::new(fragment, pieces.area(fragment.shape)), &mut mean);
         }
         let most = 1u64 << pixel.setting.budget.depth;
         while !self.is_enough(pixel.setting, &mean) && self.count < most {
@@ -169,7 +169,7 @@ impl Refinery {
     }
 
     /// Cuts a piece in two.
-    fn halve(&mut self, pixel: &Pixel, pieces: &mut Pieces, piece: Piece, mean: &mut PaintMean) {
+    fn halve(&mut self, pixel: &Pixel, pieces: &mut Pieces, piece: FragmentPiece, mean: &mut PaintMean) {
         let Some(line) = piece.cut else { return self.closed.push(piece) };
         mean.remove(&piece.paint, piece.area);
         let mut halves = pieces.cut(piece.shape, &line, &mut self.slop);
@@ -179,10 +179,10 @@ impl Refinery {
         }
         let Some(Halves { inner: Some(inner), outer: Some(outer) }) = halves else {
             // No cut helps: nothing more can be learnt of this piece.
-            return self.keep(pixel.setting, Piece { cut: None, ..piece }, mean);
+            return self.keep(pixel.setting, FragmentPiece { cut: None, ..piece }, mean);
         };
         for shape in [inner, outer] {
-            let half = Piece { shape, area: pieces.area(shape), ..piece };
+            let half = FragmentPiece { shape, area: pieces.area(shape), ..piece };
             match piece.states {
                 Some(states) => self.settle(pixel, pieces, half, states, mean),
                 None => self.look(pixel, pieces, half, mean),
@@ -191,7 +191,7 @@ impl Refinery {
     }
 
     /// Finds the items near a piece that has not been looked at.
-    fn look(&mut self, pixel: &Pixel, pieces: &Pieces, piece: Piece, mean: &mut PaintMean) {
+    fn look(&mut self, pixel: &Pixel, pieces: &Pieces, piece: FragmentPiece, mean: &mut PaintMean) {
         if piece.area < SPECK {
             return self.doubt(piece, mean);
         }
@@ -213,13 +213,17 @@ impl Refinery {
             let paint = pixel.setting.crowd_paint(&ground, points);
             let cut = Some(ground.halving_line(points));
             let level = piece.level + 1;
-            self.keep(pixel.setting, Piece { paint, cut, states: None, is_open: true, level, ..piece }, mean);
+            self.keep(
+                pixel.setting,
+                FragmentPiece { paint, cut, states: None, is_open: true, level, ..piece },
+                mean,
+            );
         }
         self.parts = parts;
     }
 
     /// A speck: it may have any colour.
-    fn doubt(&mut self, piece: Piece, mean: &mut PaintMean) {
+    fn doubt(&mut self, piece: FragmentPiece, mean: &mut PaintMean) {
         mean.add(&PaintRange::exact(Paint::CLEAR), piece.area);
         self.slop += piece.area + ROUNDING;
     }
@@ -228,9 +232,9 @@ impl Refinery {
     fn first_states(
         &mut self,
         pixel: &Pixel,
-        (ground, points): (&Ground, &[[f64; 2]]),
+        (ground, points): (&PixelGround, &[[f64; 2]]),
         plan: &PlanBox,
-        parts: &[Part],
+        parts: &[BorderPart],
     ) -> (u32, u32) {
         let footprints = pixel.setting.footprints;
         let mut fresh = std::mem::take(&mut self.fresh);
@@ -260,8 +264,8 @@ impl Refinery {
     fn shapes_near(
         &mut self,
         pixel: &Pixel,
-        (ground, points, plan): (&Ground, &[[f64; 2]], &PlanBox),
-        parts: &[Part],
+        (ground, points, plan): (&PixelGround, &[[f64; 2]], &PlanBox),
+        parts: &[BorderPart],
         is_crowd: bool,
     ) -> State {
         let first = self.lists.len() as u32;
@@ -299,7 +303,7 @@ impl Refinery {
         &mut self,
         pixel: &Pixel,
         pieces: &Pieces,
-        mut piece: Piece,
+        mut piece: FragmentPiece,
         (first, count): (u32, u32),
         mean: &mut PaintMean,
     ) {
@@ -344,7 +348,7 @@ impl Refinery {
     fn update(
         &mut self,
         pixel: &Pixel,
-        ground: &Ground,
+        ground: &PixelGround,
         points: &[[f64; 2]],
         state: &mut State,
     ) -> Option<Line> {
@@ -353,7 +357,7 @@ impl Refinery {
         for k in state.first..state.first + state.count {
             let index = self.lists[k as usize];
             let shape = self.shapes[index as usize];
-            let is_edge = matches!(shape, Shape::Edge { .. });
+            let is_edge = matches!(shape, PixelPrimitive::Edge { .. });
             if if is_edge { state.polygon != Known::Open } else { state.stroke != Known::Open } {
                 continue;
             }
@@ -387,7 +391,7 @@ impl Refinery {
     }
 
     /// Counts a piece as it is, and remembers it if more can be learnt.
-    fn keep(&mut self, setting: &Setting, mut piece: Piece, mean: &mut PaintMean) {
+    fn keep(&mut self, setting: &Setting, mut piece: FragmentPiece, mean: &mut PaintMean) {
         self.count += 1;
         self.slop += ROUNDING;
         mean.add(&piece.paint, piece.area);

@@ -2,7 +2,7 @@
 
 use super::Budget;
 use super::form::{Line, Side};
-use super::shape::Ground;
+use super::shape::PixelGround;
 use crate::certainty::PaintRange;
 use crate::footprint::{Footprints, HalfPlane, PixelSize};
 use crate::interval::Ball;
@@ -73,7 +73,7 @@ impl<'a> Setting<'a> {
     }
 
     /// The paint of a piece that may lie in any number of any items.
-    pub(super) fn crowd_paint(&self, ground: &Ground, piece: &[[f64; 2]]) -> PaintRange {
+    pub(super) fn crowd_paint(&self, ground: &PixelGround, piece: &[[f64; 2]]) -> PaintRange {
         let (base, _) = self.ground_paint(ground, piece, &mut 0.0);
         self.crowd.map_or(base, |crowd| base.under_any_of(&crowd, self.mode))
     }
@@ -81,7 +81,7 @@ impl<'a> Setting<'a> {
     /// The terrain's own paint on a piece, and where to cut it to know more. `slop` grows by what is doubtful.
     pub(super) fn ground_paint(
         &self,
-        ground: &Ground,
+        ground: &PixelGround,
         piece: &[[f64; 2]],
         slop: &mut f64,
     ) -> (PaintRange, Option<Line>) {
@@ -112,7 +112,7 @@ fn opaque(color: Color) -> Color {
 /// The columns and rows of texels that a piece sees, and where to cut it to see fewer.
 fn texels_of(
     imagery: &Imagery,
-    ground: &Ground,
+    ground: &PixelGround,
     piece: &[[f64; 2]],
     slop: &mut f64,
 ) -> (RangeInclusive<usize>, RangeInclusive<usize>, Option<Line>) {

@@ -12,7 +12,7 @@ use glam::{DVec2, DVec3};
 
 /// A primitive on a pixel.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Shape {
+pub(super) enum PixelPrimitive {
     /// A polygon's edge: the line along it, and those across it at its ends (the edge lies on their inner sides).
     Edge { along: Line, ends: [Line; 2] },
     /// A convex part of a stroke; `is_sure` is false for one that may not be there.
@@ -45,7 +45,7 @@ pub(super) enum Verdict {
 
 /// What is needed to bring plan geometry to a pixel.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Ground<'a> {
+pub(super) struct PixelGround<'a> {
     pub(super) rays: &'a TileRays,
     pub(super) facet: &'a Facet,
     /// The pixel's corner in the tile.
@@ -53,7 +53,7 @@ pub(super) struct Ground<'a> {
     pub(super) size: PixelSize,
 }
 
-impl Ground<'_> {
+impl PixelGround<'_> {
     /// The line on the pixel where the visible points' plan points cross a half plane's border.
     pub(super) fn line(&self, of: &HalfPlane) -> Line {
         self.facet.half_plane(self.rays, of).plain(self.rays.span).seen_from(self.pixel).line()
@@ -91,34 +91,34 @@ impl Ground<'_> {
     }
 
     /// A primitive on the pixel.
-    pub(super) fn shape(&self, of: &Primitive) -> Shape {
+    pub(super) fn shape(&self, of: &Primitive) -> PixelPrimitive {
         match of {
             Primitive::Edge { from, to } => self.edge(*from, *to),
             Primitive::Convex(shape) => self.convex(shape.sides(), true),
             Primitive::Perhaps(shape) => self.convex(shape.sides(), false),
             Primitive::Near { from, to, reach, growth } => {
-                Shape::Near(Near { from: *from, to: *to, reach: *reach, growth: *growth })
+                PixelPrimitive::Near(Near { from: *from, to: *to, reach: *reach, growth: *growth })
             }
         }
     }
 
-    fn convex(&self, of: &[HalfPlane], is_sure: bool) -> Shape {
+    fn convex(&self, of: &[HalfPlane], is_sure: bool) -> PixelPrimitive {
         let mut sides = [self.line(&of[0]); MOST_SIDES];
         for (line, side) in sides[1..].iter_mut().zip(&of[1..]) {
             *line = self.line(side);
         }
-        Shape::Convex { sides, count: of.len(), is_sure }
+        PixelPrimitive::Convex { sides, count: of.len(), is_sure }
     }
 
-    fn edge(&self, from: Plan, to: Plan) -> Shape {
+    fn edge(&self, from: Plan, to: Plan) -> PixelPrimitive {
         let [along, start, end] = Primitive::edge_sides(from, to).map(|side| self.line(&side));
-        Shape::Edge { along, ends: [start, end] }
+        PixelPrimitive::Edge { along, ends: [start, end] }
     }
 }
 
-impl Shape {
+impl PixelPrimitive {
     /// Where a piece lies. `slop` grows by the area that the lines' uncertainty makes doubtful.
-    pub(super) fn verdict(&self, ground: &Ground, piece: &[[f64; 2]], slop: &mut f64) -> Verdict {
+    pub(super) fn verdict(&self, ground: &PixelGround, piece: &[[f64; 2]], slop: &mut f64) -> Verdict {
         match self {
             Self::Edge { along, ends } => {
                 for end in ends {
@@ -157,7 +157,7 @@ fn convex_verdict(sides: &[Line], piece: &[[f64; 2]], slop: &mut f64) -> Verdict
 impl Near {
     /// By bounds of `f = distance - reach - growth * r` over the piece, each exact to the second order: on the triangle's plane the distance
     /// and r are convex functions, so each is at least its tangent and at most what its corners say.
-    fn verdict(&self, ground: &Ground, piece: &[[f64; 2]]) -> Verdict {
+    fn verdict(&self, ground: &PixelGround, piece: &[[f64; 2]]) -> Verdict {
         let centre = ground.hit(middle(piece));
         if centre.error >= MOST_ERROR {
             return Verdict::Stuck;
@@ -189,7 +189,7 @@ impl Near {
         }
     }
 
-    fn tangent(&self, ground: &Ground, centre: &Hit) -> Tangent {
+    fn tangent(&self, ground: &PixelGround, centre: &Hit) -> Tangent {
         let foot = nearest(self.from, self.to, centre.plan);
         let away = centre.plan - foot;
         let distance = away.length();
@@ -205,7 +205,7 @@ impl Near {
     }
 
     /// What hits' errors and the roundings here can do to the bounds, metres.
-    fn error(&self, hit: &Hit, centre: &Hit, ground: &Ground) -> f64 {
+    fn error(&self, hit: &Hit, centre: &Hit, ground: &PixelGround) -> f64 {
         let depth = ground.size.eye.map_or(0.0, |eye| (hit.world - eye).length());
         (2.0 + 2.0 * self.growth) * (hit.error + centre.error)
             + 64.0 * f64::EPSILON * (self.size(hit) + (1.0 + self.growth) * depth)

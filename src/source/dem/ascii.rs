@@ -5,7 +5,7 @@
 //! It refuses words that are no numbers, and too few or too many of them, each by line and column.
 
 use super::failure::unreadable;
-use super::frame::{Frame, Part};
+use super::frame::{Frame, PostRange};
 use super::geo_keys::CrsHint;
 use super::grid::{GridFile, Header, RowSink};
 use super::nodata::{Nodata, Precision};
@@ -91,7 +91,7 @@ impl<R: Read + Seek> GridFile for AsciiGrid<R> {
         &self.header
     }
 
-    fn check_promise(&mut self, _part: &Part) -> Result<()> {
+    fn check_promise(&mut self, _part: &PostRange) -> Result<()> {
         let Frame { columns, rows, .. } = self.header.frame;
         let heights = columns as u64 * rows as u64;
         // A height is a digit and a space; the last one may lack the space.
@@ -105,7 +105,7 @@ impl<R: Read + Seek> GridFile for AsciiGrid<R> {
         Ok(())
     }
 
-    fn scan(&mut self, _part: &Part, sink: &mut dyn RowSink) -> Result<()> {
+    fn scan(&mut self, _part: &PostRange, sink: &mut dyn RowSink) -> Result<()> {
         self.check_promise(&self.header.frame.whole())?;
         let Frame { columns, rows, .. } = self.header.frame;
         let mut heights = vec![0.0; columns];

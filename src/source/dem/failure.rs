@@ -1,7 +1,7 @@
 //! What every reader says when it has to give up.
 
 use super::content::MAX_POSTS;
-use super::frame::Part;
+use super::frame::PostRange;
 use crate::error::Error;
 use std::io;
 
@@ -17,7 +17,7 @@ pub(super) fn unreadable(error: io::Error) -> Error {
 }
 
 /// More posts than one call may read.
-pub(super) fn too_many_posts(part: &Part) -> Error {
+pub(super) fn too_many_posts(part: &PostRange) -> Error {
     Error::unsupported(format!(
         "{} x {} posts are more than the {MAX_POSTS} that can be read at once",
         part.columns, part.rows

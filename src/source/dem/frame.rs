@@ -122,12 +122,12 @@ impl Frame {
     }
 
     /// All posts.
-    pub(super) fn whole(&self) -> Part {
-        Part { column: 0, row: 0, columns: self.columns, rows: self.rows }
+    pub(super) fn whole(&self) -> PostRange {
+        PostRange { column: 0, row: 0, columns: self.columns, rows: self.rows }
     }
 
     /// The posts that cover a window, with a note where the window leaves the file.
-    pub(super) fn part(&self, window: Option<[f64; 4]>) -> Result<(Part, Option<String>)> {
+    pub(super) fn part(&self, window: Option<[f64; 4]>) -> Result<(PostRange, Option<String>)> {
         let Some(window) = window else {
             return Ok((self.whole(), None));
         };
@@ -142,7 +142,7 @@ impl Frame {
         let (Some((column, columns)), Some((row, rows))) = (columns, rows) else {
             return Err(self.missed_by(window));
         };
-        let part = Part { column, row, columns, rows };
+        let part = PostRange { column, row, columns, rows };
         let leaves = c0 < 0.0 || r0 < 0.0 || c1 > self.columns as f64 - 1.0 || r1 > self.rows as f64 - 1.0;
         let note = leaves.then(|| {
             format!("the window reaches beyond the terrain, whose posts span {}", show_box(self.bounds()))
@@ -222,14 +222,14 @@ pub(super) fn show_box([x0, y0, x1, y1]: [f64; 4]) -> String {
 
 /// A rectangle of posts, in the file's columns and rows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Part {
+pub(super) struct PostRange {
     pub(super) column: usize,
     pub(super) row: usize,
     pub(super) columns: usize,
     pub(super) rows: usize,
 }
 
-impl Part {
+impl PostRange {
     /// How many posts it has.
     pub(super) fn count(&self) -> usize {
         self.columns * self.rows

@@ -4,7 +4,7 @@
 //! the file stores them; [`Sheet`] alone turns them.
 
 use super::failure::too_many_posts;
-use super::frame::{Frame, Part, Turn};
+use super::frame::{Frame, PostRange, Turn};
 use super::geo_keys::CrsHint;
 use crate::error::{Error, Result};
 use crate::scene::Posts;
@@ -18,10 +18,10 @@ pub(super) trait GridFile {
 
     /// Refuses a file that is too short for the heights it promises for `part`; called before memory is set aside for
     /// them.
-    fn check_promise(&mut self, part: &Part) -> Result<()>;
+    fn check_promise(&mut self, part: &PostRange) -> Result<()>;
 
     /// Hands each post of `part` to `sink` once, in runs along rows; it may hand posts outside, too.
-    fn scan(&mut self, part: &Part, sink: &mut dyn RowSink) -> Result<()>;
+    fn scan(&mut self, part: &PostRange, sink: &mut dyn RowSink) -> Result<()>;
 }
 
 /// Takes heights in the order in which a file stores them.
@@ -47,7 +47,7 @@ pub(super) struct Header {
 
 /// Heights on their way to become [`Posts`].
 pub(super) struct Sheet {
-    part: Part,
+    part: PostRange,
     turn: Turn,
     /// Where the south-west post stands.
     first: DVec2,
@@ -57,7 +57,7 @@ pub(super) struct Sheet {
 
 impl Sheet {
     /// Sets memory aside for a part of a frame; all of it without data yet.
-    pub(super) fn new(frame: &Frame, part: Part) -> Result<Self> {
+    pub(super) fn new(frame: &Frame, part: PostRange) -> Result<Self> {
         let turn = frame.turn();
         let column = part.column + if turn.columns { part.columns - 1 } else { 0 };
         let row = part.row + if turn.rows { part.rows - 1 } else { 0 };

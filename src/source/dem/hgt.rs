@@ -4,7 +4,7 @@
 //! them); -32768 is a void. Source: USGS, "SRTM Topography", section 3.0.
 
 use super::failure::unreadable;
-use super::frame::{Frame, Part};
+use super::frame::{Frame, PostRange};
 use super::geo_keys::CrsHint;
 use super::grid::{GridFile, Header, RowSink};
 use crate::error::{Error, Result};
@@ -53,11 +53,11 @@ impl GridFile for Hgt {
         &self.header
     }
 
-    fn check_promise(&mut self, _part: &Part) -> Result<()> {
+    fn check_promise(&mut self, _part: &PostRange) -> Result<()> {
         Ok(())
     }
 
-    fn scan(&mut self, part: &Part, sink: &mut dyn RowSink) -> Result<()> {
+    fn scan(&mut self, part: &PostRange, sink: &mut dyn RowSink) -> Result<()> {
         let mut bytes = vec![0; part.columns * 2];
         let mut heights = vec![0.0; part.columns];
         for row in part.row..part.row + part.rows {

@@ -6,7 +6,7 @@
 
 use super::content::MAX_POSTS;
 use super::failure::{too_many_posts, unreadable};
-use super::frame::{Frame, Part};
+use super::frame::{Frame, PostRange};
 use super::grid::{GridFile, Header, RowSink};
 use super::options::{DemOptions, PngEncoding};
 use super::world_file;
@@ -69,7 +69,7 @@ impl GridFile for HeightPng {
         &self.header
     }
 
-    fn check_promise(&mut self, _part: &Part) -> Result<()> {
+    fn check_promise(&mut self, _part: &PostRange) -> Result<()> {
         let frame = &self.header.frame;
         let posts = frame.columns * frame.rows;
         if posts > MAX_POSTS {
@@ -85,7 +85,7 @@ impl GridFile for HeightPng {
         Ok(())
     }
 
-    fn scan(&mut self, part: &Part, sink: &mut dyn RowSink) -> Result<()> {
+    fn scan(&mut self, part: &PostRange, sink: &mut dyn RowSink) -> Result<()> {
         self.check_promise(part)?;
         let mut pixels = vec![0; self.pixel_bytes()];
         let decoder = self.decoder.take().ok_or_else(|| Error::internal("a PNG was scanned twice"))?;

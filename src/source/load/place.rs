@@ -8,7 +8,7 @@ use crate::space::{Plan, World};
 use glam::{DVec2, DVec3};
 
 /// The scene's plan and its local zero.
-pub(super) struct Place {
+pub(super) struct PlanFrame {
     /// `None`: coordinates as they are.
     pub(super) space: Option<PlanSpace>,
     /// The place of the plan that the surface was made relative to.
@@ -17,7 +17,7 @@ pub(super) struct Place {
     pub(super) offset: DVec3,
 }
 
-impl Place {
+impl PlanFrame {
     /// Absolute plan coordinates and height of the local zero.
     pub(super) fn origin(&self) -> DVec3 {
         self.anchor.extend(0.0) + self.offset

@@ -2,7 +2,7 @@
 
 use super::blame::{Named, of_key};
 use super::extent::{bounds, grid_bounds, middle, within_reach};
-use super::place::{Map, Place, crs_of, default_plan_space, scale_error};
+use super::place::{Map, PlanFrame, crs_of, default_plan_space, scale_error};
 use super::{place, resample};
 use crate::crs::{Affine, Crs, PlanSpace};
 use crate::error::{Error, Result};
@@ -17,7 +17,7 @@ use glam::DVec2;
 /// The terrain in local coordinates, and where those are.
 pub(super) struct Terrain {
     pub(super) surface: Surface,
-    pub(super) place: Place,
+    pub(super) place: PlanFrame,
     /// The rectangle of the plan that it lies in, local.
     pub(super) bounds: PlanBox,
 }
@@ -41,7 +41,7 @@ pub(super) fn terrain(
     stretch(&mut surface, scene.terrain.vertical_scale)?;
     let offset = scene.terrain.offset;
     let bounds = bounds(&surface);
-    let place = Place { space, anchor, offset };
+    let place = PlanFrame { space, anchor, offset };
     within_reach(&surface, &bounds, place.origin()).map_err(|error| match &scene.terrain.source {
         TerrainSource::File(file) => Named::new(scene, file).blame(error),
         TerrainSource::Generate(_) => of_key(scene, "terrain", error),

@@ -33,13 +33,13 @@ pub(super) fn draw(
     let mesh = &*prepared.stage.mesh_for(view);
     let sight = see(prepared, (mesh, view), options.tile);
     (options.progress)(0.2);
-    Drawing::new(prepared, (mesh, view), sight).frame(options)
+    FramePainter::new(prepared, (mesh, view), sight).frame(options)
 }
 
 /// Decides one pixel of a view as a frame does, with the tiles that it reads: its steps and its code values.
 pub(super) fn explain(prepared: &Prepare, view: &ViewFrame, [x, y]: [usize; 2]) -> (Vec<Step>, [u8; 4]) {
     let mesh = &*prepared.stage.mesh_for(view);
-    let drawing = Drawing::new(prepared, (mesh, view), see(prepared, (mesh, view), visibility::TILE));
+    let drawing = FramePainter::new(prepared, (mesh, view), see(prepared, (mesh, view), visibility::TILE));
     let (painter, mut steps) = (&drawing.painter, Vec::new());
     let plan = painter.sight.hit(x, y).map_or(Plan::new(f64::INFINITY, f64::INFINITY), |hit| hit.plan);
     let reading = painter.reading((x, y), plan, &mut None, &mut steps);
@@ -68,7 +68,7 @@ fn see<'a>(prepared: &Prepare, (mesh, view): (&'a Mesh, &'a ViewFrame), tile: us
 }
 
 /// What a frame is made from.
-struct Drawing<'a> {
+struct FramePainter<'a> {
     prepared: &'a Prepare<'a>,
     view: &'a ViewFrame,
     painter: PixelPainter<'a>,
@@ -113,7 +113,7 @@ const TILES_A_ROW: usize = 16;
 /// The most tiles in a picture of all tiles: 1 GiB while they are held.
 const MOST_SHOWN: usize = 1024;
 
-impl<'a> Drawing<'a> {
+impl<'a> FramePainter<'a> {
     fn new(prepared: &'a Prepare, (mesh, view): (&'a Mesh, &'a ViewFrame), sight: Sight<'a>) -> Self {
         let (scene, settings) = (&prepared.stage.scene, prepared.settings);
         let nearest = nearest(&sight, view);

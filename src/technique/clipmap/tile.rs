@@ -1,7 +1,7 @@
 //! One tile of the texture: its items in draw order, thin lines as line primitives, the others as polygons (Algorithm 2).
 
 use super::geometry::{AreaRings, Chunk, Drawn, Geometry, StrokeStyle};
-use super::raster::{Area, Cut, RasterSettings, TilePlace, TileRaster};
+use super::raster::{Area, Cut, RasterSettings, TexelRect, TileRaster};
 use super::tessellation::{Pair, Sagitta, Strips};
 use super::texture::{TILE, TileKey, VirtualTexture};
 use crate::draw_list::Side;
@@ -157,7 +157,7 @@ impl TexelMap {
 impl Workbench {
     /// For tiles of a size.
     fn new(size: usize, settings: &Settings) -> Self {
-        let place = TilePlace { origin: (0, 0), size: (size, size) };
+        let place = TexelRect { origin: (0, 0), size: (size, size) };
         let raster = RasterSettings {
             polygons: settings.polygons,
             lines: settings.lines,
@@ -179,7 +179,7 @@ impl Workbench {
 
 /// An item to be drawn: an area, or the chunks of a stroke.
 #[derive(Debug, Clone, Copy)]
-enum Piece<'c> {
+enum ItemPiece<'c> {
     Area(AreaRings),
     Stroke(u32, &'c [u32]),
 }
@@ -235,7 +235,7 @@ impl TileMaker<'_> {
                 0.0
             },
         };
-        let drawing = Drawing { maker: self, map, window: self.texture.tile_bounds(key) };
+        let drawing = TilePainter { maker: self, map, window: self.texture.tile_bounds(key) };
         let counts = drawing.draw(bench);
         let rows = (0..size).flat_map(|row| bench.raster.row(row).iter().copied());
         let texels = match self.settings.texel {
@@ -247,13 +247,13 @@ impl TileMaker<'_> {
 }
 
 /// A tile being drawn.
-struct Drawing<'a> {
+struct TilePainter<'a> {
     maker: &'a TileMaker<'a>,
     map: TexelMap,
     window: PlanBox,
 }
 
-impl Drawing<'_> {
+impl TilePainter<'_> {
     fn draw(&self, bench: &mut Workbench) -> TileCounts {
         let geometry = self.maker.geometry;
         let chunks = geometry.chunks_near(&self.window.grown(self.maker.reach_m(self.map.level)));
@@ -264,20 +264,20 @@ impl Drawing<'_> {
         for stroke in strokes {
             let item = geometry.chunk(stroke[0]).item();
             while let Some(area) = areas.next_if(|area| area.item < item) {
-                self.piece(Piece::Area(area), bench, &mut counts);
+                self.piece(ItemPiece::Area(area), bench, &mut counts);
             }
-            self.piece(Piece::Stroke(item, stroke), bench, &mut counts);
+            self.piece(ItemPiece::Stroke(item, stroke), bench, &mut counts);
         }
         for area in areas {
-            self.piece(Piece::Area(area), bench, &mut counts);
+            self.piece(ItemPiece::Area(area), bench, &mut counts);
         }
         counts
     }
 
-    fn piece(&self, piece: Piece, bench: &mut Workbench, counts: &mut TileCounts) {
+    fn piece(&self, piece: ItemPiece, bench: &mut Workbench, counts: &mut TileCounts) {
         let geometry = self.maker.geometry;
         match piece {
-            Piece::Area(area) => {
+            ItemPiece::Area(area) => {
                 let Drawn::Fill(fill) = geometry.drawn(area.item) else { return };
                 self.load_rings(geometry.rings(&area), &mut bench.rings);
                 let rings = bench.rings.slices();
@@ -285,7 +285,7 @@ impl Drawing<'_> {
                 bench.raster.fill(&shape, &fill.ink);
                 counts.areas += 1;
             }
-            Piece::Stroke(item, chunks) => {
+            ItemPiece::Stroke(item, chunks) => {
                 let Drawn::Stroke(style) = geometry.drawn(item) else { return };
                 self.stroke(item, chunks, style, bench, counts);
             }

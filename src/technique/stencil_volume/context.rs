@@ -3,7 +3,7 @@
 use super::extrusion::{Extrusion, Volume};
 use super::face::Outline;
 use super::stencil::{Method, TRACES, Width};
-use super::view::Looks;
+use super::view::VolumeViews;
 use crate::canvas::{Backdrop, FrameOptions, LastGround};
 use crate::raster::Lattice;
 use crate::resolve::Paint;
@@ -48,7 +48,7 @@ pub struct FrameContext<'a> {
     /// The vectors that kernels are run with; the bits are the same with any.
     pub arch: pulp::Arch,
     /// What the view makes of the volumes.
-    pub looks: Looks,
+    pub looks: VolumeViews,
     /// The paint of each style of items.
     paints: Vec<Paint>,
 }
@@ -67,7 +67,7 @@ impl<'a> FrameContext<'a> {
         let mut sight = Sight::new(view, mesh, device, lattice, options.tile);
         sight.see();
         let backdrop = Backdrop::of(&stage.scene, mesh);
-        let looks = Looks::new((stage, view), &lattice, &settings, extrusion);
+        let looks = VolumeViews::new((stage, view), &lattice, &settings, extrusion);
         let shows_counting = TRACES[1..].iter().any(|name| options.wants(name));
         let cancels = settings.overflow == Overflow::Wrap
             && settings.caps == VolumeCaps::Both

@@ -164,7 +164,7 @@ impl Outline {
 
 /// Where the surface points of a tile lie, as far as the depth test needs to know.
 #[derive(Debug, Clone, Copy)]
-pub struct Place {
+pub struct SampleFrame {
     /// Points are kept in single precision relative to this one.
     pub origin: World,
     /// The largest coordinate of a point relative to the origin.
@@ -216,7 +216,7 @@ pub struct Setup<'a> {
     /// The tile.
     pub view: &'a TileView,
     /// Its surface points.
-    pub place: Place,
+    pub place: SampleFrame,
     /// Whether top caps are left out.
     pub is_open_above: bool,
 }
@@ -364,7 +364,7 @@ impl Setup<'_> {
 
     /// The function whose sign is the depth test's, and how small it must not be.
     fn side(&self, outline: &Outline, facing: i32) -> ([f32; 4], f32) {
-        let Place { origin, reach, error } = self.place;
+        let SampleFrame { origin, reach, error } = self.place;
         let [a, b, ..] = outline.corners;
         let o = f64::from(facing);
         let (x, y, z) = if outline.up == 0 {

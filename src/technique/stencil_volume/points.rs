@@ -2,7 +2,7 @@
 
 use super::block::{Block, COLUMNS, ROWS};
 use super::context::{FrameContext, Way};
-use super::face::Place;
+use super::face::SampleFrame;
 use super::view::Entry;
 use crate::math;
 use crate::raster::TileView;
@@ -10,7 +10,7 @@ use crate::space::{Lens, World};
 use std::ops::Range;
 
 /// The surface points of a tile that volumes may touch, in blocks, and where they lie.
-pub fn seen(context: &FrameContext, view: &TileView, entries: &[Entry]) -> (Place, Vec<Block>) {
+pub fn seen(context: &FrameContext, view: &TileView, entries: &[Entry]) -> (SampleFrame, Vec<Block>) {
     let size = (view.width, view.height);
     let mut blocks = Vec::new();
     for row in (0..view.height).step_by(ROWS) {
@@ -73,7 +73,7 @@ impl pulp::WithSimd for Close<'_> {
 }
 
 /// How precisely points are known that reach so far from an origin.
-fn place(view: &TileView, origin: World, reach: f64) -> Place {
+fn place(view: &TileView, origin: World, reach: f64) -> SampleFrame {
     let frame = &view.frame;
     // How far a surface point lies from the start of its ray.
     let picture = match frame.lens() {
@@ -84,5 +84,5 @@ fn place(view: &TileView, origin: World, reach: f64) -> Place {
     let size = frame.eye().to_vec().abs().max_element() + origin.to_vec().abs().max_element();
     // Parameters of hits are good to 2^-30 of themselves.
     let error = (size + far + picture) * (2.0 / (1u64 << 30) as f64);
-    Place { origin, reach: far, error }
+    SampleFrame { origin, reach: far, error }
 }

@@ -2,7 +2,7 @@
 
 use super::block::{Block, COLUMNS, ROWS, SIZE};
 use super::context::FrameContext;
-use super::face::{Face, Place, Setup};
+use super::face::{Face, SampleFrame, Setup};
 use super::points;
 use super::stencil::{Stencil, Traces};
 use super::view::Entry;
@@ -48,7 +48,7 @@ pub struct Tile<'a, R = ()> {
     /// Blocks a row.
     pub blocks_a_row: usize,
     /// Where the surface points lie.
-    pub place: Place,
+    pub place: SampleFrame,
     /// Its stencil planes.
     pub stencil: Stencil,
     /// What each sample has been painted with, by block; empty: nothing.

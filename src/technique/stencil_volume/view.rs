@@ -1,6 +1,6 @@
 //! What a view makes of the volumes: which are in the picture and where, how each is counted, which are cut.
 //!
-//! Input: a stage, the volumes. Output: [`Looks`]. Refuses: nothing.
+//! Input: a stage, the volumes. Output: [`VolumeViews`]. Refuses: nothing.
 //!
 //! The paper's test for z-pass (4.2.1) asks whether the viewpoint lies in the polyhedron's bounding box. A volume that the near
 //! plane cuts beside the eye passes it all the same, so here the box around the eye and the near plane's rectangle is asked.
@@ -42,7 +42,7 @@ impl Entry {
 
 /// What a view makes of each volume.
 #[derive(Debug)]
-pub struct Looks {
+pub struct VolumeViews {
     /// How it is counted.
     pub methods: Vec<Method>,
     /// Whether the near or the far plane cuts faces of it away.
@@ -55,13 +55,13 @@ pub struct Looks {
 }
 
 /// What is found of one volume.
-struct Look {
+struct VolumeView {
     window: Option<[u32; 4]>,
     is_near: bool,
     is_cut: bool,
 }
 
-impl Looks {
+impl VolumeViews {
     /// Looks at all volumes.
     pub fn new(
         at: (&Stage, &ViewFrame),
@@ -71,7 +71,7 @@ impl Looks {
     ) -> Self {
         let viewer = Viewer::new(at, lattice, settings);
         let looks = parallel::map(&extrusion.volumes, |volume| viewer.look(extrusion, volume));
-        let method = |look: &Look| match settings.method {
+        let method = |look: &VolumeView| match settings.method {
             Counting::Automatic if look.is_near => Method::ZFail,
             Counting::Automatic | Counting::ZPass => Method::ZPass,
             Counting::ZFail => Method::ZFail,
@@ -143,14 +143,14 @@ impl<'a> Viewer<'a> {
         Self { frame, lattice, far: settings.far, is_sound, low: low - slack, high: high + slack }
     }
 
-    fn look(&self, extrusion: &Extrusion, volume: &Volume) -> Look {
+    fn look(&self, extrusion: &Extrusion, volume: &Volume) -> VolumeView {
         if volume.high <= volume.low {
-            return Look { window: None, is_near: false, is_cut: false };
+            return VolumeView { window: None, is_near: false, is_cut: false };
         }
         let (low, high) =
             (nadir(volume.plan.min, volume.low).to_vec(), nadir(volume.plan.max, volume.high).to_vec());
         let is_near = low.cmple(self.high).all() && self.low.cmple(high).all();
-        Look { window: self.window(extrusion, volume), is_near, is_cut: self.is_cut(low, high) }
+        VolumeView { window: self.window(extrusion, volume), is_near, is_cut: self.is_cut(low, high) }
     }
 
     /// Whether some of a box may lie before the near or behind the far plane that clips.

@@ -1,6 +1,6 @@
 //! How a TIFF's samples are cut into blocks (strips or tiles), and where those lie in the file.
 
-use super::super::frame::Part;
+use super::super::frame::PostRange;
 use super::tags::{Directory, Source, tag};
 use crate::error::{Error, Result};
 use std::io::{Read, Seek};
@@ -44,7 +44,7 @@ impl Block {
     }
 
     /// The rows of `part` in it, counted from its own first.
-    pub(super) fn rows_of(&self, part: &Part) -> Range<usize> {
+    pub(super) fn rows_of(&self, part: &PostRange) -> Range<usize> {
         let from = part.row.max(self.first.1) - self.first.1;
         let to = (part.row + part.rows).min(self.first.1 + self.size.1) - self.first.1;
         from..to
@@ -119,7 +119,7 @@ impl Layout {
     }
 
     /// The blocks that hold samples of `part`, in file order.
-    pub(super) fn blocks_of(&self, part: &Part) -> impl Iterator<Item = Block> + use<'_> {
+    pub(super) fn blocks_of(&self, part: &PostRange) -> impl Iterator<Item = Block> + use<'_> {
         let (across, down) = self.block;
         let columns = part.column / across..(part.column + part.columns).div_ceil(across);
         let rows = part.row / down..(part.row + part.rows).div_ceil(down);

@@ -12,7 +12,7 @@ mod sample;
 mod tags;
 
 use super::failure::unreadable;
-use super::frame::Part;
+use super::frame::PostRange;
 use super::grid::{GridFile, Header, RowSink};
 use crate::error::{Error, Result};
 use codec::Compression;
@@ -67,7 +67,7 @@ impl<R: Read + Seek> GeoTiff<R> {
     fn scan_block(
         &mut self,
         block: &Block,
-        part: &Part,
+        part: &PostRange,
         buffers: &mut Buffers,
         sink: &mut dyn RowSink,
     ) -> Result<()> {
@@ -106,7 +106,7 @@ impl<R: Read + Seek> GeoTiff<R> {
     }
 
     /// Hands on the rows of a block that the file leaves out.
-    fn fill_block(&self, block: &Block, part: &Part, buffers: &mut Buffers, sink: &mut dyn RowSink) {
+    fn fill_block(&self, block: &Block, part: &PostRange, buffers: &mut Buffers, sink: &mut dyn RowSink) {
         buffers.heights.clear();
         buffers.heights.resize(self.columns_in(block), self.head.nodata.left_out());
         let Head { nodata, scaling, .. } = &self.head;
@@ -122,7 +122,7 @@ impl<R: Read + Seek> GridFile for GeoTiff<R> {
         &self.head.header
     }
 
-    fn check_promise(&mut self, part: &Part) -> Result<()> {
+    fn check_promise(&mut self, part: &PostRange) -> Result<()> {
         let mut stored = 0_usize;
         for block in self.head.layout.blocks_of(part) {
             if block.is_left_out() {
@@ -139,7 +139,7 @@ impl<R: Read + Seek> GridFile for GeoTiff<R> {
         Ok(())
     }
 
-    fn scan(&mut self, part: &Part, sink: &mut dyn RowSink) -> Result<()> {
+    fn scan(&mut self, part: &PostRange, sink: &mut dyn RowSink) -> Result<()> {
         self.check_promise(part)?;
         let mut buffers = Buffers::default();
         let blocks: Vec<_> = self.head.layout.blocks_of(part).collect();

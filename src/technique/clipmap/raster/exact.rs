@@ -45,7 +45,7 @@ impl Span {
 
 /// A ring's edges.
 #[derive(Debug, Clone, Copy)]
-struct Piece {
+struct RingEdges {
     edges: (u32, u32),
     rows: (u32, u32),
 }
@@ -97,7 +97,7 @@ pub(super) struct Accumulator {
     /// Columns of the row at hand in which pieces may overlap.
     overlaps: Vec<(i32, i32)>,
     edges: Vec<[Fixed; 2]>,
-    pieces: Vec<Piece>,
+    pieces: Vec<RingEdges>,
     /// The pieces of each row (the edges, of an item that has many), once they are asked for.
     of_rows: Vec<Vec<u32>>,
     are_rows_sorted: bool,
@@ -231,7 +231,7 @@ impl Accumulator {
         }
         let edges = (start as u32, self.edges.len() as u32);
         if edges.0 < edges.1 {
-            self.pieces.push(Piece { edges, rows: (rows.0 as u32, rows.1 as u32) });
+            self.pieces.push(RingEdges { edges, rows: (rows.0 as u32, rows.1 as u32) });
         }
         self.rows = (self.rows.0.min(rows.0), self.rows.1.max(rows.1));
     }

@@ -89,18 +89,18 @@ impl Edge {
 
     /// Its part in a row that it passes through.
     #[inline(always)]
-    pub(super) fn in_row(&self, row: i64) -> Piece {
+    pub(super) fn in_row(&self, row: i64) -> EdgePiece {
         let (north, south) = (row << BITS, (row + 1) << BITS);
         let top = if self.top.y >= north { self.top } else { Fixed { x: self.x_at(north), y: north } };
         let bottom =
             if self.bottom.y <= south { self.bottom } else { Fixed { x: self.x_at(south), y: south } };
-        Piece { top, bottom }
+        EdgePiece { top, bottom }
     }
 }
 
 /// The part of an edge in a row of texels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Piece {
+pub(super) struct EdgePiece {
     pub(super) top: Fixed,
     pub(super) bottom: Fixed,
 }

@@ -42,7 +42,7 @@ use winding::Texel as Winding;
 
 /// A tile's place in its level.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct TilePlace {
+pub struct TexelRect {
     /// Column and row of its first texel.
     pub origin: (i64, i64),
     /// Columns and rows.
@@ -97,7 +97,7 @@ pub struct TileRaster {
     rectangles: Accumulator,
     /// The texels of other line primitives.
     mask: Mask,
-    place: TilePlace,
+    place: TexelRect,
     table: Option<(f64, Table)>,
     rows: Rows,
     ring: Vec<Texel>,
@@ -128,7 +128,7 @@ enum Source {
 
 impl TileRaster {
     /// An empty tile.
-    pub fn new(place: TilePlace, settings: RasterSettings) -> Self {
+    pub fn new(place: TexelRect, settings: RasterSettings) -> Self {
         Self {
             settings,
             canvas: Canvas::new(place.size, settings.texel),
@@ -355,7 +355,7 @@ enum Polygons {
 }
 
 impl Polygons {
-    fn new(TilePlace { origin, size }: TilePlace, way: PolygonRaster, keeps_edges: bool) -> Self {
+    fn new(TexelRect { origin, size }: TexelRect, way: PolygonRaster, keeps_edges: bool) -> Self {
         match way {
             PolygonRaster::Aliased => Self::Aliased(Centres::new(origin, size)),
             PolygonRaster::TinySkia => Self::Smooth(Smooth::new(origin, size)),

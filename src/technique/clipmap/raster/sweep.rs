@@ -6,7 +6,7 @@ use super::winding::{Fragment, Texel, Windings};
 
 /// A part of an edge in one texel of the row (in column 0 of all: west of the tile).
 #[derive(Debug, Clone, Copy)]
-struct Part {
+struct EdgePart {
     /// The column, counted from the one west of the tile.
     column: u32,
     top: Fixed,
@@ -20,7 +20,7 @@ struct Part {
 #[derive(Debug, Default)]
 pub(super) struct Sweep {
     is_ready: bool,
-    parts: Vec<Part>,
+    parts: Vec<EdgePart>,
     /// The parts of columns before this have been passed.
     column: u32,
     /// So many parts have been passed.
@@ -62,7 +62,7 @@ impl Sweep {
         let y_at = |x: i64| edge.y_at(x).clamp(part.top.y, part.bottom.y);
         let mut push = |column: i64, (top, bottom): (Fixed, Fixed), is_within: bool| {
             if top.y < bottom.y {
-                self.parts.push(Part {
+                self.parts.push(EdgePart {
                     column: (column + 1) as u32,
                     top,
                     bottom,

@@ -14,8 +14,8 @@ const EXACT: RasterSettings = RasterSettings {
     texel: TexelFormat::F32,
 };
 
-fn tile(size: usize) -> TilePlace {
-    TilePlace { origin: (0, 0), size: (size, size) }
+fn tile(size: usize) -> TexelRect {
+    TexelRect { origin: (0, 0), size: (size, size) }
 }
 
 fn white() -> Ink {
@@ -271,7 +271,7 @@ fn a_tile_has_the_bits_of_the_same_part_of_a_larger_tile() {
     ];
     for settings in ways {
         let base = 70_000.0;
-        let whole = TilePlace { origin: (70_000, 300), size: (128, 128) };
+        let whole = TexelRect { origin: (70_000, 300), size: (128, 128) };
         let mut large = TileRaster::new(whole, settings);
         draw_scene(&mut large, base);
         let painted = large.texels().iter().filter(|t| t[3] > 0.0).count();
@@ -280,7 +280,7 @@ fn a_tile_has_the_bits_of_the_same_part_of_a_larger_tile() {
             [(0, 0, 64, 64), (64, 32, 64, 96), (37, 51, 13, 70), (127, 0, 1, 128)]
         {
             let place =
-                TilePlace { origin: (70_000 + column as i64, 300 + row as i64), size: (width, height) };
+                TexelRect { origin: (70_000 + column as i64, 300 + row as i64), size: (width, height) };
             let mut small = TileRaster::new(place, settings);
             draw_scene(&mut small, base);
             for y in 0..height {
@@ -300,7 +300,7 @@ fn items_of_many_edges_have_the_bits_of_the_same_items_of_few() {
         // Half of them on corners and sides of texels, where there are ties.
         let place = |v: f64| 64.0 * if run % 2 == 0 { (v * 128.0).floor() / 128.0 } else { v };
         let ring: Vec<Texel> = (0..150).map(|_| Texel::new(place(random()), place(random()))).collect();
-        let drawn = |place: TilePlace| {
+        let drawn = |place: TexelRect| {
             let settings =
                 RasterSettings { overlaps: if run < 3 { Overlaps::Once } else { Overlaps::Blend }, ..EXACT };
             let ink = Ink::new(Paint([0.1, 0.2, 0.3, 0.4]), BlendMode::Over);
@@ -322,7 +322,7 @@ fn items_of_many_edges_have_the_bits_of_the_same_items_of_few() {
         for (column, row) in
             (0..64).step_by(4).flat_map(|row| (0..64).step_by(16).map(move |column| (column, row)))
         {
-            let part = drawn(TilePlace { origin: (column as i64, row as i64), size: (16, 4) });
+            let part = drawn(TexelRect { origin: (column as i64, row as i64), size: (16, 4) });
             let is_same = |y: usize| part.row(y) == &whole.row(row + y)[column..column + 16];
             assert!((0..4).all(is_same), "run {run}, {column} {row}");
         }

@@ -47,7 +47,7 @@ pub(super) struct Texel {
 
 /// A rectangle of the texel.
 #[derive(Debug, Clone, Copy)]
-struct Part {
+struct TexelPart {
     min: [f64; 2],
     max: [f64; 2],
 }
@@ -86,7 +86,7 @@ impl Texel {
         visit: &mut impl FnMut(Windings, f64),
     ) {
         merge(&mut self.corner, &mut self.steps, 0.0);
-        let whole = Part { min: [0.0; 2], max: [1.0; 2] };
+        let whole = TexelPart { min: [0.0; 2], max: [1.0; 2] };
         if self.fragments.len() <= CROWD {
             let mut room =
                 Room { heights: std::mem::take(&mut self.heights), order: std::mem::take(&mut self.order) };
@@ -142,7 +142,7 @@ impl Room {
         fragments: &[Fragment],
         steps: &[Step],
         corner: Windings,
-        part: &Part,
+        part: &TexelPart,
         visit: &mut impl FnMut(Windings, f64),
     ) {
         // Find where anything ends or crosses.
@@ -188,7 +188,7 @@ impl Room {
         fragments: &[Fragment],
         steps: &[Step],
         (corner, is_alike): (Windings, &impl Fn((i32, i32)) -> bool),
-        part: &Part,
+        part: &TexelPart,
         depth: u32,
         visit: &mut impl FnMut(Windings, f64),
     ) {
@@ -206,7 +206,7 @@ impl Room {
         for quarter in 0..4 {
             let low = |axis: usize, far: bool| part.min[axis] + if far { 0.5 * size[axis] } else { 0.0 };
             let min = [low(0, quarter & 1 == 1), low(1, quarter & 2 == 2)];
-            let inner = Part { min, max: [min[0] + 0.5 * size[0], min[1] + 0.5 * size[1]] };
+            let inner = TexelPart { min, max: [min[0] + 0.5 * size[0], min[1] + 0.5 * size[1]] };
             let (mut inside, mut west) = (Vec::new(), steps.to_vec());
             fragments.iter().for_each(|f| f.clip(&inner, &mut inside, &mut west));
             let mut start = corner;
@@ -241,7 +241,7 @@ impl Fragment {
     }
 
     /// Cuts the part in a rectangle out, and adds what the part west of it does along its side.
-    fn clip(&self, part: &Part, inside: &mut Vec<Self>, west: &mut Vec<Step>) {
+    fn clip(&self, part: &TexelPart, inside: &mut Vec<Self>, west: &mut Vec<Step>) {
         let (north, south) = (part.min[1], part.max[1]);
         if self.bottom[1] <= north || self.top[1] >= south {
             return;
@@ -301,7 +301,7 @@ mod tests {
     /// A closed ring in and around the unit square as fragments and western steps.
     fn texel(rings: &[Vec<[f64; 2]>]) -> Texel {
         let mut texel = Texel::default();
-        let unit = Part { min: [0.0; 2], max: [1.0; 2] };
+        let unit = TexelPart { min: [0.0; 2], max: [1.0; 2] };
         for ring in rings {
             for k in 0..ring.len() {
                 let (from, to) = (ring[k], ring[(k + 1) % ring.len()]);
@@ -394,7 +394,7 @@ mod tests {
             let mut crowd = texel(&rings);
             let quartered = covered(&mut crowd);
             let mut slabs = 0.0;
-            let whole = Part { min: [0.0; 2], max: [1.0; 2] };
+            let whole = TexelPart { min: [0.0; 2], max: [1.0; 2] };
             let mut again = texel(&rings);
             merge(&mut again.corner, &mut again.steps, 0.0);
             Room::default().slabs(&again.fragments, &again.steps, again.corner, &whole, &mut |winding, area| {
