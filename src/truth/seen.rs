@@ -8,7 +8,7 @@ use crate::terrain::Mesh;
 /// What a view may see of the plan.
 pub(super) enum SeenPlan {
     /// What lies under the terrain, between its heights, in the view.
-    Below { frustum: Frustum, bounds: PlanBox, heights: (f64, f64) },
+    Below { frustum: Box<Frustum>, bounds: PlanBox, heights: (f64, f64) },
     /// The boxes of the plan of those leaves of the terrain's hierarchy that may be seen.
     Leaves(BoxTree),
 }
@@ -18,7 +18,7 @@ impl SeenPlan {
     pub(super) fn new(mesh: &Mesh, view: &ViewFrame) -> Self {
         let frustum = Frustum::new(view, [0.0, 0.0], [view.width() as f64, view.height() as f64]);
         if let Some(heights) = mesh.heights() {
-            return Self::Below { frustum, bounds: mesh.plan_bounds(), heights };
+            return Self::Below { frustum: Box::new(frustum), bounds: mesh.plan_bounds(), heights };
         }
         let mut leaves = Vec::new();
         frustum.for_each_leaf(mesh, mesh.root(), &mut |node, _| leaves.extend(mesh.plan_of(node)));

@@ -472,13 +472,16 @@ fn violations(seed: u64, count: usize) -> Vec<String> {
     wrong
 }
 
+/// An item, and whether it holds the piece; `None`: it is not said.
+type Claim = (u32, Option<bool>);
+
 /// Whether what a piece claims is so at a point of the screen.
 fn judge(
     scene: &Scene,
     frame: &ViewFrame,
     triangles: &[(u32, SurfaceTriangle)],
     at: [f64; 2],
-    (claimed, claims): (Option<(u32, Hit)>, &[(u32, Option<bool>)]),
+    (claimed, claims): (Option<(u32, Hit)>, &[Claim]),
 ) -> Result<(), String> {
     let (from, along) = ray(frame, at);
     let near = triangles.iter().filter(|(_, t)| !passes_by(frame, at, &t.world));
