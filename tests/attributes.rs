@@ -1,5 +1,7 @@
 //! Layers by their columns: a picture by classes is the picture of a layer for each class.
 
+#![cfg(feature = "render")]
+
 mod drawing;
 
 use drapery::technique::Kind;
@@ -54,4 +56,22 @@ fn a_picture_by_classes_is_that_of_a_layer_for_each_class() {
     );
     let [one, reversed] = [&one, &reversed].map(|stage| frame_of(Kind::InverseProjection, stage, &[]).image);
     assert!(one != reversed, "the order is seen");
+}
+
+#[test]
+fn areas_and_lines_of_one_look_keep_their_own_parts_of_it() {
+    let features = r#"features = [
+  { polygon = [[-300, -200], [0, -200], [0, 150], [-300, 150]], properties = { k = "a" } },
+  { line = [[50, -250], [300, 200]], properties = { k = "a" } },
+]"#;
+    let styled = |color: &str| {
+        let stroke = format!("{{ color = {color}, width_m = 30 }}");
+        let layer = format!("[[layer]]\n{features}\noutline = {stroke}\nline = {stroke}");
+        stage(&scene(TERRAIN, CAMERA, &layer), &[])
+    };
+    let (plain, by_column) = (styled("\"#cc2200\""), styled("{ by = \"k\", map = { a = \"#cc2200\" } }"));
+    assert_eq!((plain.draw_list.items().len(), by_column.draw_list.items().len()), (2, 2));
+    for kind in Kind::ALL {
+        assert!(frame_of(kind, &plain, &[]).image == frame_of(kind, &by_column, &[]).image, "{kind:?}");
+    }
 }

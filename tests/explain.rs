@@ -1,5 +1,7 @@
 //! Why a pixel has its colour: the steps are those of the code that draws frames, and lead to the frame's pixel.
 
+#![cfg(feature = "render")]
+
 mod drawing;
 
 use drapery::canvas::mean;

@@ -50,6 +50,16 @@ pub(super) struct Hit {
     pub(super) error: f64,
 }
 
+/// Which side of a triangle is seen, told by the bounds where they do: 1, -1, or 0 where it is seen edge-on.
+fn side_seen(rays: &TileRays, (depth, facing): (&BallForm, &BallForm), corners: &[World; 3]) -> f64 {
+    let decisive = if rays.is_central { depth.c } else { facing.c };
+    match (decisive.is_positive(), decisive.is_negative()) {
+        (true, _) => 1.0,
+        (_, true) => -1.0,
+        _ => predicate::facing(&rays.frame, corners),
+    }
+}
+
 impl Facet {
     /// `None`: it is seen edge-on, or lies beyond the planes of near and far.
     pub(super) fn new(rays: &TileRays, id: u32, triangle: &SurfaceTriangle) -> Option<Self> {
@@ -67,12 +77,7 @@ impl Facet {
             BallVec::difference(b.to_vec(), a.to_vec()).cross(BallVec::difference(c.to_vec(), a.to_vec()));
         let facing = rays.dot_along(normal);
         let depth = rays.dot_from(normal, BallVec::exact(a.to_vec())).signed(-1.0);
-        let decisive = if rays.is_central { depth.c } else { facing.c };
-        let sign = match (decisive.is_positive(), decisive.is_negative()) {
-            (true, _) => 1.0,
-            (_, true) => -1.0,
-            _ => predicate::facing(&rays.frame, &corners),
-        };
+        let sign = side_seen(rays, (&depth, &facing), &corners);
         if sign == 0.0 {
             return None;
         }

@@ -37,15 +37,18 @@ pub(super) fn styled(
     Ok(styles)
 }
 
-/// All that may differ between the styles of a layer.
+/// All that may differ between the styles of a layer: which parts there are, their colours and widths. (A part's width has the same unit in
+/// all of them.)
 fn bits(style: &Style) -> Vec<u64> {
     let outline = style.outline.map(|outline| outline.line);
+    let parts = [style.fill.is_some(), outline.is_some(), style.line.is_some()].map(u64::from);
     let lines = || outline.iter().chain(&style.line);
     let widths = lines().map(|line| match line.width {
         Width::Metres(width) | Width::Pixels(width) => width.to_bits(),
     });
     let colors = style.fill.iter().map(|fill| fill.color).chain(lines().map(|line| line.color));
-    colors.flat_map(|Color(channels)| channels.map(f64::to_bits)).chain(widths).collect()
+    let colors = colors.flat_map(|Color(channels)| channels.map(f64::to_bits));
+    parts.into_iter().chain(colors).chain(widths).collect()
 }
 
 /// Which parts of a style a feature takes; what it does not take is not asked of its columns.
@@ -144,8 +147,9 @@ fn along<T: Copy>(stops: &[(f64, T)], number: f64, mix: impl Fn(T, T, f64) -> T)
         return stops[above.saturating_sub(1)].1;
     }
     let ((low, a), (high, b)) = (stops[above - 1], stops[above]);
-    // Halves, since the difference of two doubles may be none.
-    mix(a, b, (0.5 * number - 0.5 * low) / (0.5 * high - 0.5 * low))
+    // The difference of two doubles may be none: half of it is. (Halves of the smallest doubles would be nothing.)
+    let by = if (high - low).is_finite() { 1.0 } else { 0.5 };
+    mix(a, b, (by * number - by * low) / (by * high - by * low))
 }
 
 fn between(a: f64, b: f64, t: f64) -> f64 {

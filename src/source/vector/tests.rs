@@ -62,7 +62,6 @@ fn shp_parts(kind: u32, parts: &[&[(f64, f64)]]) -> Vec<u8> {
     out
 }
 
-#[cfg(feature = "gpkg")]
 fn wkb_polygon() -> Vec<u8> {
     let mut out = vec![b'G', b'P', 0, 1, 0, 0, 0, 0];
     out.extend([1]);

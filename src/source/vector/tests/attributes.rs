@@ -250,6 +250,7 @@ fn a_dbf_of_which_anything_is_missing_is_refused() {
 }
 
 /// A GeoPackage with one table of squares, its columns declared and filled as told.
+#[cfg(feature = "gpkg")]
 fn gpkg_with(columns: &str, rows: &[&str]) -> (tempfile::TempDir, PathBuf) {
     let (folder, path) = file("a.gpkg", &gpkg(&["t"], &wkb_polygon()));
     let db = rusqlite::Connection::open(&path).unwrap();
@@ -262,6 +263,7 @@ fn gpkg_with(columns: &str, rows: &[&str]) -> (tempfile::TempDir, PathBuf) {
     (folder, path)
 }
 
+#[cfg(feature = "gpkg")]
 #[test]
 fn geopackage_columns_have_sqlites_types() {
     let (_folder, path) = gpkg_with(
@@ -438,6 +440,7 @@ fn tables() -> Vec<Vec<u8>> {
 }
 
 /// A GeoPackage with attributes, made once.
+#[cfg(feature = "gpkg")]
 fn sound_gpkg() -> &'static [u8] {
     static MADE: std::sync::OnceLock<Vec<u8>> = std::sync::OnceLock::new();
     MADE.get_or_init(|| {
@@ -481,6 +484,11 @@ proptest! {
             prop_assert!(!e.is_internal() && e.path().is_some());
         }
     }
+}
+
+#[cfg(feature = "gpkg")]
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(1000))]
 
     #[test]
     fn any_damage_to_a_geopackages_columns_gives_values_or_words((changes, cut) in changes()) {
