@@ -2,7 +2,7 @@
 //!
 //! Input: triangles of a [`Mesh`](crate::terrain::Mesh) by number, a [`Lattice`] of samples, a tile of it. Output: a [`Tile`] with the nearest
 //! triangle and a depth key of each sample. A fast filter (single precision for small triangles, double for all others)
-//! with a proven bound decides nearly every sample; [`crate::predicate`] decides the rest. So the result depends on
+//! with a proven bound decides nearly every sample; `crate::predicate` decides the rest. So the result depends on
 //! neither the order of the triangles nor the cut into tiles. Refuses: nothing; a triangle that is seen edge-on covers
 //! no sample, one behind the near plane is not seen.
 

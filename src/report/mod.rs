@@ -1,7 +1,7 @@
 //! Speed against error: what every technique costs and how far its picture is from the truth.
 //!
 //! Input: an opened scene, which [`measure()`] runs by every technique over its settings ([`sweep`]). Output: [`Measured`], its [`Run`]s and
-//! pictures; [`write`] makes of several a [`Report`] as `report.json`, `report.csv` ([`table`]), plots ([`plot`]) and one page that needs no
+//! pictures; [`write()`] makes of several a [`Report`] as `report.json`, `report.csv` ([`table`]), plots ([`plot`]) and one page that needs no
 //! network ([`page`]). The papers' own tables are [`tables`]. Refuses: nothing that draws.
 //!
 //! ```no_run

@@ -17,7 +17,7 @@
 //! with a bound of its error; pieces are cut along the computed line, and the strip between it and where the exact line may be
 //! counts as doubtful: its area times all possible colours is added to the interval. Round borders are never approximated: a piece
 //! is in or out by bounds of the distance, or open. No decision is shared with a technique but the signs of
-//! [`crate::predicate`].
+//! `crate::predicate`.
 
 mod draped;
 mod facet;
