@@ -36,8 +36,10 @@
 //! 6. [`buffer`] holds images, [`output`] writes files, [`parallel`] says how many threads there are.
 //!
 //! Internals, public for the tests and benches of this repository, which may change in any version: [`crs`], [`source`] (files become
-//! scenes), [`draw_list`] (what is painted), [`parameter`] (what is declared of settings), [`terrain`] (a mesh with bounding boxes of heights), [`raster`] and [`visibility`] (which triangle each sample sees, exactly),
-//! [`resolve`] (colours are composed), [`index`], [`tiling`] and [`canvas`] (what frames are made of), [`certainty`] (how doubt composes), [`sampling`] (plain supersampling), [`math`]; and what is not public at all.
+//! scenes), [`parameter`] (what is declared of settings), [`draw_list`] (what is painted), [`terrain`] (a mesh with bounding boxes),
+//! [`raster`] and [`visibility`] (which triangle each sample sees, exactly), [`resolve`] (colours are composed), [`index`], [`tiling`] and
+//! [`canvas`] (what frames are made of), [`certainty`] (how doubt composes), [`sampling`] (plain supersampling), [`math`]; and what is not
+//! public at all.
 //!
 //! # Features
 //!

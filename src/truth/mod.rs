@@ -7,6 +7,7 @@
 //! ```text
 //!   seen.rs     which boxes of the plan a view may see
 //!   tile.rs     a tile's triangles, by the terrain's hierarchy; squares down to pixels
+//!   tile_rays.rs the tile's rays, with bounds of their errors
 //!   facet.rs    a triangle on the tile: sides, nearness, its map to the plan (draped.rs), with bounds of their errors (form.rs)
 //!   visible.rs  the pixel cut into convex fragments that see one triangle (polygon.rs), and sky
 //!   refine.rs   fragments cut along footprints' borders (shape.rs) until little is unknown of which items hold them
