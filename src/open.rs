@@ -45,12 +45,13 @@ impl Opened {
         Self::load(SceneText::parse(text, None, &[])?, &|_| {})
     }
 
-    /// Loads what a scene file names. `progress` is told what is being read.
+    /// Loads what a scene file names. `progress` is told what is being read or made.
     ///
     /// # Errors
     /// When a data file cannot be read or understood, or the terrain has no triangle.
     pub fn load(text: SceneText, progress: &dyn Fn(&str)) -> Result<Self> {
         let (scene, surface) = load::load(&text.file, progress)?;
+        progress("making the surface");
         let stage = Stage::new(scene, surface).map_err(|error| of_terrain(error, &text.file))?;
         Ok(Self { text, stage })
     }

@@ -175,6 +175,33 @@ fn the_result_has_every_field_of_the_contract_and_no_path_of_the_machine() {
 }
 
 #[test]
+fn a_technique_alone_is_drawn_without_the_truth_and_errors_are_told_when_they_are_asked_for() {
+    let place = Place::new();
+    let line = |said: &str| said.lines().find(|line| line.starts_with("clipmap ")).unwrap().to_owned();
+    let alone = place.rendered(&["-t", "clipmap", "-o", "alone"]);
+    assert!(!line(&alone).contains("error"), "{alone}");
+    let judged = place.rendered(&["-t", "clipmap", "--errors", "-o", "judged"]);
+    assert!(line(&judged).contains("error max "), "{judged}");
+    place.rendered(&["-t", "clipmap", "-t", "truth", "-o", "both"]);
+    let runs =
+        ["alone", "judged", "both"].map(|folder| place.result(folder)["runs"].as_array().unwrap().clone());
+    assert_eq!(runs.each_ref().map(Vec::len), [1, 1, 2], "--errors writes no picture of the truth");
+    assert!(runs[0][0].get("error").is_none());
+    assert_eq!(runs[1][0]["error"], runs[2][1]["error"]);
+    assert!(runs[1][0]["error"]["rmse"].is_f64());
+    assert_eq!(runs[0][0]["image"], runs[1][0]["image"]);
+}
+
+#[test]
+fn how_exact_a_truth_is_that_nobody_asked_for_is_told_to_mean_nothing() {
+    let place = Place::new();
+    let said = place.rendered(&["-t", "clipmap", "--truth-width", "0.01"]);
+    assert!(said.contains("note: the truth is not computed"), "{said}");
+    let said = place.rendered(&["-t", "clipmap", "--truth-width", "0.01", "--errors"]);
+    assert!(!said.contains("not computed"), "{said}");
+}
+
+#[test]
 fn the_hash_of_an_image_is_of_its_pixels() {
     let place = Place::new();
     place.rendered(&[]);

@@ -1,10 +1,12 @@
 //! `drapery info FILE`
 
+use super::bar::Bar;
 use super::columns::told;
 use super::print::print;
 use super::stop::Outcome;
 use clap::ValueEnum;
 use drapery::crs::PlanSpace;
+use drapery::measure::Watch;
 use drapery::scene_file::{CameraSpec, GroundSpec, LayerSource, SceneFile, Spot, TerrainSource, ViewSpec};
 use drapery::source::dem::{self, DemOptions, DemSummary, PngEncoding};
 use drapery::source::load;
@@ -40,11 +42,14 @@ enum Encoding {
 pub(super) fn run(arguments: &Arguments) -> Outcome {
     let path = &arguments.file;
     std::fs::metadata(path).map_err(|error| Error::io("this file cannot be read", error).in_file(path))?;
+    let bar = Bar::new();
+    bar.start(&format!("reading {}", path.display()));
     let tables = match extension(path).as_str() {
         "toml" => vec![of_scene(&SceneFile::read(path, &[])?)],
         "shp" | "geojson" | "json" | "fgb" | "gpkg" => of_vectors(path)?,
         _ => vec![of_terrain(path, arguments.encoding)?],
     };
+    drop(bar);
     let text: Vec<String> = tables.iter().map(Table::text).collect();
     print(&text.join("\n"))
 }

@@ -10,6 +10,7 @@ mod completions;
 mod export;
 mod golden;
 mod info;
+mod lines;
 mod new;
 mod print;
 mod refusal;

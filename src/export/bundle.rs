@@ -64,9 +64,11 @@ impl<'a> Bundle<'a> {
         technique::applies(self.technique, stage)?;
         let certified = Certified::of((stage, &view), &self.budget, 1, watch)?;
         let (buffers, view) = (&Buffers::All, &view);
-        let mut files = RunFiles { stage, view, certified: &certified, buffers, batch: &mut batch, watch };
-        let truth = files.truth()?;
+        let mut files =
+            RunFiles { stage, view, certified: Some(&certified), buffers, batch: &mut batch, watch };
+        let truth = files.truth(&certified)?;
         let (run, frame) = files.technique(self.technique, 1)?;
+        watch.start("tiles and mesh");
         for TilePicture { name, picture } in tiles_of(&frame, stage) {
             batch.stage(&format!("tiles/{name}.png"), |to| write_png(&picture, to))?;
         }

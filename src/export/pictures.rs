@@ -16,8 +16,10 @@ pub struct Pictures<'a> {
     pub stage: &'a Stage,
     /// The hash of its scene file (`SceneFile::hash`), for `result.json`.
     pub hash: &'a str,
-    /// Whether the truth's own picture is written. (It is computed in any case: errors are distances from it.)
+    /// Whether the truth's own picture is written.
     pub truth: bool,
+    /// Whether distances from the truth are told, for which it must be computed; where its picture is written, they are.
+    pub errors: bool,
     /// By what it is drawn.
     pub techniques: &'a [Kind],
     /// The buffers that are written beside the pictures.
@@ -36,16 +38,17 @@ impl Pictures<'_> {
     pub fn write(&self, mut batch: Batch, watch: &dyn Watch) -> Result<RenderResult> {
         let view = self.stage.view()?;
         let truths = if self.truth { self.repeat } else { 1 };
-        let certified = Certified::of((self.stage, &view), self.budget, truths, watch)?;
+        let certify = || Certified::of((self.stage, &view), self.budget, truths, watch);
+        let certified = (self.truth || self.errors).then(certify).transpose()?;
         let mut files = RunFiles {
             stage: self.stage,
             view: &view,
-            certified: &certified,
+            certified: certified.as_ref(),
             buffers: self.buffers,
             batch: &mut batch,
             watch,
         };
-        let truth = if self.truth { Some(files.truth()) } else { None };
+        let truth = certified.as_ref().filter(|_| self.truth).map(|certified| files.truth(certified));
         let techniques = self.techniques.iter().map(|kind| Ok(files.technique(*kind, self.repeat)?.0));
         let runs: Result<Vec<RunResult>> = truth.into_iter().chain(techniques).collect();
         let result = RenderResult {
@@ -58,5 +61,58 @@ impl Pictures<'_> {
         batch.stage("result.json", |to| to.write_all(text.as_bytes()))?;
         batch.commit()?;
         Ok(result)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::Mutex;
+
+    /// Who writes down which steps there are.
+    #[derive(Default)]
+    struct Steps(Mutex<Vec<String>>);
+
+    impl Watch for Steps {
+        fn milliseconds(&self) -> f64 {
+            0.0
+        }
+
+        fn start(&self, what: &str) {
+            self.0.lock().unwrap().push(what.to_owned());
+        }
+
+        fn part(&self, what: &str) {
+            self.0.lock().unwrap().push(format!("- {what}"));
+        }
+    }
+
+    /// The steps of drawing by a technique, and whether its run tells an error.
+    fn steps(truth: bool, errors: bool) -> (Vec<String>, bool) {
+        let scene = crate::Opened::parse(crate::tutorial::SMALL_SCENE).unwrap();
+        let folder = tempfile::tempdir().unwrap();
+        let buffers = Buffers::named(&[], truth, &[Kind::StencilVolume]).unwrap();
+        let pictures = Pictures {
+            stage: &scene.stage,
+            hash: "",
+            truth,
+            errors,
+            techniques: &[Kind::StencilVolume],
+            buffers: &buffers,
+            budget: &Budget::default(),
+            repeat: 1,
+        };
+        let watch = Steps::default();
+        let result = pictures.write(Batch::into(folder.path()).unwrap(), &watch).unwrap();
+        (watch.0.into_inner().unwrap(), result.runs.iter().all(|run| run.error.is_some()))
+    }
+
+    #[test]
+    fn the_truth_is_computed_where_it_or_an_error_is_wanted_and_only_there() {
+        let technique = ["stencil-volume", "- preparing", "- drawing"];
+        let all = ["truth", "stencil-volume", "- preparing", "- drawing"];
+        assert_eq!(steps(false, false), (technique.map(String::from).to_vec(), false));
+        assert_eq!(steps(false, true), (all.map(String::from).to_vec(), true));
+        assert_eq!(steps(true, false), (all.map(String::from).to_vec(), true));
     }
 }

@@ -16,7 +16,8 @@ use crate::truth::{self, Truth};
 pub(super) struct RunFiles<'a> {
     pub(super) stage: &'a Stage,
     pub(super) view: &'a ViewFrame,
-    pub(super) certified: &'a Certified,
+    /// The truth, where distances from it are to be told.
+    pub(super) certified: Option<&'a Certified>,
     pub(super) buffers: &'a Buffers,
     pub(super) batch: &'a mut Batch,
     pub(super) watch: &'a dyn Watch,
@@ -24,8 +25,7 @@ pub(super) struct RunFiles<'a> {
 
 impl RunFiles<'_> {
     /// Stages the truth's files.
-    pub(super) fn truth(&mut self) -> Result<RunResult> {
-        let certified = self.certified;
+    pub(super) fn truth(&mut self, certified: &Certified) -> Result<RunResult> {
         let truth = &certified.truth;
         let image = truth.image();
         let path = format!("{}.png", truth::NAME);
@@ -72,17 +72,18 @@ impl RunFiles<'_> {
         Ok((run, drawn.frame))
     }
 
-    /// How far a picture is from the truth.
-    fn error(&self, image: &Buffer<[u8; 4]>) -> Result<ErrorResult> {
-        let metrics = self.certified.metrics(image)?;
-        Ok(ErrorResult {
-            max: Some(metrics.max),
-            mean: Some(metrics.mean),
-            rmse: Some(metrics.rmse),
-            p99: Some(metrics.p99),
-            over_one_code_value: Some(metrics.over_one_code_value),
-            reference_width_max: Some(self.certified.truth.widest()),
-        })
+    /// How far a picture is from the truth; `None` where that was not computed.
+    fn error(&self, image: &Buffer<[u8; 4]>) -> Result<Option<ErrorResult>> {
+        let Some(certified) = self.certified else { return Ok(None) };
+        let metrics = certified.metrics(image)?;
+        Ok(Some(ErrorResult {
+            max: metrics.max,
+            mean: metrics.mean,
+            rmse: metrics.rmse,
+            p99: metrics.p99,
+            over_one_code_value: metrics.over_one_code_value,
+            reference_width_max: certified.truth.widest(),
+        }))
     }
 
     /// Stages buffers of a technique that has such.

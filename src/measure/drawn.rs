@@ -54,8 +54,10 @@ impl Drawn {
         let (mut prepare_ms, mut frame_ms) = (Vec::new(), Vec::new());
         let mut drawn: Option<Self> = None;
         for turn in 1..=repeat {
+            watch.part("preparing");
             let (prepared, ms) = timed(watch, || technique::prepare(kind, stage))?;
             prepare_ms.push(ms);
+            watch.part("drawing");
             let (mut frame, ms) = timed(watch, || frame((&*prepared, view), &[], watch))?;
             frame_ms.push(ms);
             if drawn.as_ref().is_some_and(|before| before.frame.image != frame.image) {
@@ -63,6 +65,7 @@ impl Drawn {
             }
             let buffers = buffers_of(kind, wants_buffer);
             if turn == repeat && !buffers.is_empty() {
+                watch.part("buffers");
                 let with_buffers = self::frame((&*prepared, view), &buffers, watch)?;
                 if with_buffers.image != frame.image {
                     return Err(unequal(kind.name()));

@@ -10,7 +10,10 @@ pub trait Watch: Sync {
     /// Another piece of work begins.
     fn start(&self, _what: &str) {}
 
-    /// This share (0..=1) of the work is done; called from any thread.
+    /// Another part of that piece of work begins.
+    fn part(&self, _what: &str) {}
+
+    /// This share (0..=1) of the work, or of its part, is done; called from any thread.
     fn done(&self, _share: f64) {}
 
     /// Something that a person should know.

@@ -57,8 +57,9 @@ pub struct RunResult {
     pub structure_bytes: usize,
     /// What was counted.
     pub counts: ByName,
-    /// How far the picture is from the truth.
-    pub error: ErrorResult,
+    /// How far the picture is from the truth; absent where that was not computed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub error: Option<ErrorResult>,
     /// The buffers that were asked for.
     pub buffers: Vec<BufferResult>,
 }
@@ -76,21 +77,21 @@ pub struct ImageResult {
     pub hash: String,
 }
 
-/// How far a picture is from the truth, in units of 1; `None` (null) where no truth was computed.
-#[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize)]
+/// How far a picture is from the truth, in units of 1.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct ErrorResult {
     /// The largest.
-    pub max: Option<f64>,
+    pub max: f64,
     /// The mean.
-    pub mean: Option<f64>,
+    pub mean: f64,
     /// The root of the mean square.
-    pub rmse: Option<f64>,
+    pub rmse: f64,
     /// What 99 of 100 values do not exceed.
-    pub p99: Option<f64>,
+    pub p99: f64,
     /// The share of pixels that are off by more than 1/255.
-    pub over_one_code_value: Option<f64>,
+    pub over_one_code_value: f64,
     /// The width of the widest interval of the truth.
-    pub reference_width_max: Option<f64>,
+    pub reference_width_max: f64,
 }
 
 /// A buffer.
@@ -168,7 +169,14 @@ mod tests {
                 frame_ms: 2.0,
                 structure_bytes: 12,
                 counts: ByName::from_pairs([("refused", u64::MAX), ("full", 1)]),
-                error: ErrorResult::default(),
+                error: Some(ErrorResult {
+                    max: 0.5,
+                    mean: 0.25,
+                    rmse: 0.125,
+                    p99: 0.5,
+                    over_one_code_value: 0.75,
+                    reference_width_max: 0.001,
+                }),
                 buffers: Vec::new(),
             }],
         }
@@ -216,18 +224,27 @@ mod tests {
                 "full": 1
               },
               "error": {
-                "max": null,
-                "mean": null,
-                "rmse": null,
-                "p99": null,
-                "over_one_code_value": null,
-                "reference_width_max": null
+                "max": 0.5,
+                "mean": 0.25,
+                "rmse": 0.125,
+                "p99": 0.5,
+                "over_one_code_value": 0.75,
+                "reference_width_max": 0.001
               },
               "buffers": []
             }
           ]
         }
         "#);
+    }
+
+    #[test]
+    fn a_run_without_the_truth_says_nothing_of_an_error() {
+        let mut result = example();
+        result.runs[0].error = None;
+        let back: Value = serde_json::from_str(&result.to_json().unwrap()).unwrap();
+        let run = back["runs"][0].as_object().unwrap();
+        assert!(!run.contains_key("error") && run.contains_key("counts"));
     }
 
     #[test]

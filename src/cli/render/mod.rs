@@ -7,7 +7,8 @@ use super::scene_input;
 use super::stop::{Outcome, Status};
 use super::truth_arguments::TruthArguments;
 use drapery::export::{Buffers, Pictures};
-use drapery::output::{Batch, RenderResult, RunResult};
+use drapery::measure::Watch;
+use drapery::output::{Batch, ErrorResult, RenderResult, RunResult};
 use drapery::scene_file::SceneText;
 use drapery::truth::Budget;
 use drapery::{Result, parallel};
@@ -18,6 +19,8 @@ const EXAMPLES: &str = "\
 Examples:
   drapery render                                        the built-in scene, every technique
   drapery render scene.toml -t truth -o pictures        only the right picture
+  drapery render scene.toml -t clipmap                  this picture alone, without the truth: soon there
+  drapery render scene.toml -t clipmap --errors         and how far it is from the truth
   drapery render scene.toml -t inverse-projection --set technique.inverse-projection.samples=5
   drapery render scene.toml --set layer.roads.line.width_m=20 --set 'camera.eye=[0,-5000,3000]'
   drapery render scene.toml -t truth --buffers depth,lo,hi
@@ -34,6 +37,9 @@ pub(super) struct Arguments {
     /// How to render; may be repeated. Default: the truth and every technique that applies.
     #[arg(short, long = "technique", value_name = "T")]
     techniques: Vec<techniques::Name>,
+    /// Tell how far pictures are from the truth, which takes its time. Told in any case where `-t` is left out or names the truth.
+    #[arg(long)]
+    errors: bool,
     /// Change the scene: a dotted path and a TOML value; may be repeated. No value removes the key.
     #[arg(long = "set", value_name = "PATH=VALUE")]
     overrides: Vec<String>,
@@ -59,6 +65,11 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
     let scene = scene_input::read(arguments.scene.as_deref(), &arguments.overrides)?;
     let batch = Batch::into(&arguments.output)?;
     let bar = Bar::new();
+    if !asked.truth && !arguments.errors && budget != Budget::default() {
+        bar.note(
+            "the truth is not computed, so how exact it is to be means nothing: say --errors, or -t truth",
+        );
+    }
     let result = parallel::with_threads(arguments.threads, || {
         render(arguments, (&asked, &budget), &scene, batch, &bar)
     })?;
@@ -83,6 +94,7 @@ fn render(
         stage,
         hash: &text.file.hash,
         truth: asked.truth,
+        errors: arguments.errors,
         techniques: &kinds,
         buffers: &Buffers::named(&arguments.buffers, asked.truth, &kinds)?,
         budget,
@@ -93,13 +105,13 @@ fn render(
 
 /// A run in a line, for people.
 fn told(arguments: &Arguments, run: &RunResult) -> String {
+    let told = |error: &ErrorResult| format!("  error max {:.4} mean {:.6}", error.max, error.mean);
     format!(
-        "{}  {}  prepare {:.0} ms  frame {:.0} ms  error max {:.4} mean {:.6}",
+        "{}  {}  prepare {:.0} ms  frame {:.0} ms{}",
         run.technique,
         arguments.output.join(&run.image.path).display(),
         run.prepare_ms,
         run.frame_ms,
-        run.error.max.unwrap_or_default(),
-        run.error.mean.unwrap_or_default(),
+        run.error.as_ref().map(told).unwrap_or_default(),
     )
 }

@@ -51,7 +51,7 @@ impl ValueEnum for Name {
 /// What a call asks for by name.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Asked {
-    /// Whether the truth's own picture is written. (It is computed in any case: errors are distances from it.)
+    /// Whether the truth's own picture is written.
     pub(super) truth: bool,
     /// The techniques, each once; `None`: all that apply.
     pub(super) kinds: Option<Vec<Kind>>,
