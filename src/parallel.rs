@@ -6,6 +6,9 @@
 use crate::error::{Error, Result};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc::{self, RecvTimeoutError, Sender};
+use std::thread::{self, JoinHandle};
+use std::time::Duration;
 
 /// `f` of every item, in the order of the items.
 pub fn map<T: Sync, U: Send>(items: &[T], f: impl Fn(&T) -> U + Send + Sync) -> Vec<U> {
@@ -53,6 +56,36 @@ impl<'a> Progress<'a> {
     pub fn step(&self) {
         let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
         (self.tell)(done as f64 / self.pieces as f64);
+    }
+}
+
+/// A thread that does something again and again beside the work, until it is dropped; no result may depend on it.
+#[derive(Debug)]
+pub struct Beat {
+    stop: Option<Sender<()>>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Beat {
+    /// Does `f` after each `pause`; `None` where the machine has no thread for it.
+    pub fn every(pause: Duration, f: impl Fn() + Send + 'static) -> Option<Self> {
+        let (stop, stopped) = mpsc::channel::<()>();
+        let beat = move || {
+            while stopped.recv_timeout(pause) == Err(RecvTimeoutError::Timeout) {
+                f();
+            }
+        };
+        let thread = thread::Builder::new().name("beat".into()).spawn(beat).ok()?;
+        Some(Self { stop: Some(stop), thread: Some(thread) })
+    }
+}
+
+impl Drop for Beat {
+    fn drop(&mut self) {
+        drop(self.stop.take());
+        if let Some(thread) = self.thread.take() {
+            let _ = thread.join();
+        }
     }
 }
 
@@ -105,6 +138,16 @@ pub fn with_threads<U: Send>(threads: usize, f: impl FnOnce() -> U + Send) -> Re
 mod tests {
     use super::*;
     use std::sync::Mutex;
+
+    #[test]
+    fn a_beat_ends_when_it_is_dropped() {
+        let (tell, told) = mpsc::channel();
+        let beat = Beat::every(Duration::from_millis(1), move || drop(tell.send(()))).unwrap();
+        told.recv().unwrap();
+        drop(beat);
+        while told.try_recv().is_ok() {}
+        assert_eq!(told.recv(), Err(mpsc::RecvError), "nobody is left who could send");
+    }
 
     #[test]
     fn progress_is_told_once_a_piece_and_ends_with_all() {

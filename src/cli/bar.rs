@@ -3,11 +3,10 @@
 use super::lines::Lines;
 use super::refusal::harmless;
 use drapery::measure::Watch;
+use drapery::parallel::Beat;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{self, IsTerminal, Write};
-use std::sync::mpsc::{self, RecvTimeoutError, Sender};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
 /// Steps of the bar.
@@ -27,7 +26,7 @@ pub(super) struct Bar {
 
 enum Shown {
     Bar(ProgressBar, Mutex<String>),
-    Lines(Arc<Mutex<Lines>>, Option<Looking>),
+    Lines(Arc<Mutex<Lines>>, Option<Beat>),
 }
 
 impl Bar {
@@ -45,8 +44,15 @@ impl Bar {
             Shown::Bar(bar, Mutex::default())
         } else {
             let lines = Arc::new(Mutex::new(Lines::default()));
-            let looking = Looking::at(Arc::clone(&lines), began);
-            Shown::Lines(lines, looking)
+            let seen = Arc::clone(&lines);
+            // Some steps tell nothing until they are done, so somebody else must look whether a line is due.
+            let look = Beat::every(LOOK, move || {
+                let due = locked(&seen).due(began.elapsed().as_secs_f64());
+                if let Some(line) = due {
+                    let _ = writeln!(io::stderr(), "{}", harmless(&line));
+                }
+            });
+            Shown::Lines(lines, look)
         };
         Self { began, shown }
     }
@@ -106,39 +112,7 @@ impl Drop for Bar {
     fn drop(&mut self) {
         match &mut self.shown {
             Shown::Bar(bar, _) => bar.finish_and_clear(),
-            Shown::Lines(_, looking) => drop(looking.take()),
-        }
-    }
-}
-
-/// A thread that looks whether a line is due: some steps tell nothing until they are done.
-struct Looking {
-    stop: Option<Sender<()>>,
-    thread: Option<JoinHandle<()>>,
-}
-
-impl Looking {
-    /// `None` where there are no threads: then there are no lines either.
-    fn at(lines: Arc<Mutex<Lines>>, began: Instant) -> Option<Self> {
-        let (stop, stopped) = mpsc::channel::<()>();
-        let look = move || {
-            while stopped.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
-                let due = locked(&lines).due(began.elapsed().as_secs_f64());
-                if let Some(line) = due {
-                    let _ = writeln!(io::stderr(), "{}", harmless(&line));
-                }
-            }
-        };
-        let thread = thread::Builder::new().name("progress".into()).spawn(look).ok()?;
-        Some(Self { stop: Some(stop), thread: Some(thread) })
-    }
-}
-
-impl Drop for Looking {
-    fn drop(&mut self) {
-        drop(self.stop.take());
-        if let Some(thread) = self.thread.take() {
-            let _ = thread.join();
+            Shown::Lines(_, look) => drop(look.take()),
         }
     }
 }

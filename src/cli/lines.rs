@@ -1,5 +1,7 @@
 //! What is said of long work where nobody sees a bar: a line when ten seconds have passed, and then now and then.
 
+use drapery::math::min;
+
 /// Seconds until the first line.
 const FIRST: f64 = 10.0;
 /// The most seconds between two lines.
@@ -45,7 +47,7 @@ impl Lines {
             return None;
         }
         self.due = now + self.quiet;
-        self.quiet = (2.0 * self.quiet).min(MOST);
+        self.quiet = min(2.0 * self.quiet, MOST);
         let mut line = format!("after {now:.0} s: {}", self.step);
         if let Some(part) = &self.part {
             line += &format!(", {part}");
