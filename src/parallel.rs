@@ -142,7 +142,10 @@ mod tests {
     #[test]
     fn a_beat_ends_when_it_is_dropped() {
         let (tell, told) = mpsc::channel();
-        let beat = Beat::every(Duration::from_millis(1), move || drop(tell.send(()))).unwrap();
+        let beat = Beat::every(Duration::from_millis(1), move || {
+            let _ = tell.send(());
+        })
+        .unwrap();
         told.recv().unwrap();
         drop(beat);
         while told.try_recv().is_ok() {}
