@@ -4,3 +4,4 @@ pub mod dem;
 pub mod generate;
 pub mod load;
 pub mod vector;
+mod zip;

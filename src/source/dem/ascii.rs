@@ -9,13 +9,12 @@ use super::frame::{Frame, PostRange};
 use super::geo_keys::CrsHint;
 use super::grid::{GridFile, Header, RowSink};
 use super::nodata::{Nodata, Precision};
+use super::site::Site;
 use super::text::{Word, Words, number_help};
 use crate::error::{Error, Position, Result};
 use glam::DVec2;
 use std::collections::BTreeMap;
-use std::fs::File;
 use std::io::{BufReader, Read, Seek, SeekFrom};
-use std::path::Path;
 
 /// An Esri ASCII grid.
 pub(super) struct AsciiGrid<R> {
@@ -28,8 +27,8 @@ pub(super) struct AsciiGrid<R> {
 }
 
 impl<R: Read + Seek> AsciiGrid<R> {
-    /// Reads the header, and the `.prj` file beside `path`.
-    pub(super) fn open(mut input: R, path: Option<&Path>) -> Result<Self> {
+    /// Reads the header, and the `.prj` file beside it.
+    pub(super) fn open(mut input: R, site: Option<&Site>) -> Result<Self> {
         let length = input.seek(SeekFrom::End(0)).map_err(unreadable)?;
         input.rewind().map_err(unreadable)?;
         let mut words = Words::new(BufReader::with_capacity(1 << 16, input));
@@ -42,7 +41,7 @@ impl<R: Read + Seek> AsciiGrid<R> {
             layout: "rows".into(),
             nodata: Some(declared.to_string()),
             frame: keys.frame()?,
-            crs_hint: path.and_then(prj_beside),
+            crs_hint: site.map(prj_beside).transpose()?.flatten(),
             notes: Vec::new(),
         };
         Ok(Self {
@@ -248,20 +247,20 @@ fn height_of(word: &Word<'_>) -> Result<f64> {
 }
 
 /// What the `.prj` file beside a grid says.
-fn prj_beside(path: &Path) -> Option<CrsHint> {
+fn prj_beside(site: &Site) -> Result<Option<CrsHint>> {
     const LONGEST: u64 = 1 << 16;
-    let beside = ["prj", "PRJ"].map(|e| path.with_extension(e));
-    let file = beside.iter().filter(|p| p.is_file()).find_map(|p| File::open(p).ok())?;
-    let mut bytes = Vec::new();
-    file.take(LONGEST).read_to_end(&mut bytes).ok()?;
-    let text = String::from_utf8_lossy(&bytes).trim().to_owned();
+    let paths = ["prj", "PRJ"].map(|e| site.path().with_extension(e));
+    let Some(file) = site.beside(paths)? else {
+        return Ok(None);
+    };
+    let text = file.text(LONGEST).map_err(|error| error.in_file(file.path()))?.trim().to_owned();
     let is_wkt = ["PROJC", "GEOGC", "GEODC", "COMPD", "BOUNDCRS"]
         .iter()
         .any(|k| text.to_ascii_uppercase().starts_with(k));
-    if is_wkt {
-        Some(CrsHint::Wkt(text))
+    Ok(Some(if is_wkt {
+        CrsHint::Wkt(text)
     } else {
         let first = text.lines().next().unwrap_or_default().to_owned();
-        Some(CrsHint::Unknown(format!("{}: {first}", "the .prj file beside it")))
-    }
+        CrsHint::Unknown(format!("{}: {first}", "the .prj file beside it"))
+    }))
 }

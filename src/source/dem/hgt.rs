@@ -7,9 +7,9 @@ use super::failure::unreadable;
 use super::frame::{Frame, PostRange};
 use super::geo_keys::CrsHint;
 use super::grid::{GridFile, Header, RowSink};
+use super::site::Input;
 use crate::error::{Error, Result};
 use glam::DVec2;
-use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
 use std::path::Path;
 
@@ -17,14 +17,14 @@ const VOID: i16 = -32768;
 
 /// An SRTM tile.
 pub(super) struct Hgt {
-    file: File,
+    file: Input,
     header: Header,
 }
 
 impl Hgt {
     /// Tells size and place from the file's length and name.
-    pub(super) fn open(file: File, path: &Path) -> Result<Self> {
-        let length = file.metadata().map_err(unreadable)?.len();
+    pub(super) fn open(file: Input, path: &Path) -> Result<Self> {
+        let length = file.length()?;
         let posts = posts_a_side(length)?;
         let name = path.file_stem().unwrap_or_default().to_string_lossy();
         let (lon, lat) = south_west(&name).ok_or_else(|| unnamed(&name))?;

@@ -10,6 +10,7 @@
 //! | SRTM tile | `.hgt` | `hgt` |
 //! | Esri ASCII grid | `.asc` | `ascii` |
 //! | points | `.xyz` | `xyz` |
+//! | one of these in a zip archive | first bytes | `site` |
 //!
 //! Every grid is read the same way: its header gives a `Frame` (where the posts stand), the window a `Part` of it, and
 //! the reader hands the heights of that part row by row to a `RowSink`: a `Sheet` that becomes [`Posts`], or a tally
@@ -33,6 +34,7 @@ mod nodata;
 mod open;
 mod options;
 mod png;
+pub(super) mod site;
 mod summary;
 mod text;
 pub(super) mod world_file;

@@ -7,36 +7,42 @@ use super::grid::GridFile;
 use super::hgt::Hgt;
 use super::options::DemOptions;
 use super::png::HeightPng;
+use super::site::{Input, Site};
 use super::xyz::Xyz;
 use crate::error::{Error, Result};
-use std::fs::File;
-use std::io::{self, Read, Seek};
+use std::io::Read;
 use std::path::Path;
 
 /// An opened terrain file.
 pub(super) enum DemFile {
     Grid(Box<dyn GridFile>),
-    Points(Xyz<File>),
+    Points(Xyz<Input>),
 }
 
-/// Opens a terrain file and reads its header.
+/// Opens a terrain file, or the only one of an archive, and reads its header.
 pub(super) fn open(path: &Path, options: &DemOptions) -> Result<DemFile> {
-    let mut file = open_file(path)?;
-    let mut magic = Vec::new();
-    (&mut file).take(8).read_to_end(&mut magic).map_err(unreadable)?;
-    file.rewind().map_err(unreadable)?;
+    let site = Site::on_disk(path);
+    match &magic(&site)?[..] {
+        [b'P', b'K', 3 | 5, ..] => open_site(&site.in_archive()?, options),
+        _ => open_site(&site, options),
+    }
+}
+
+fn open_site(site: &Site, options: &DemOptions) -> Result<DemFile> {
+    let magic = magic(site)?;
     if magic.is_empty() {
         return Err(Error::new("the file is empty").help("fetch it again"));
     }
     refuse_packed(&magic)?;
-    let extension = extension(path);
+    let file = site.open()?;
+    let extension = site.extension();
     let grid: Box<dyn GridFile> = match (magic.as_slice(), extension.as_str()) {
         ([b'I', b'I', 42 | 43, 0, ..] | [b'M', b'M', 0, 42 | 43, ..], _) => {
-            Box::new(GeoTiff::open(file, Some(path), options.bounds)?)
+            Box::new(GeoTiff::open(file, Some(site), options.bounds)?)
         }
-        ([0x89, b'P', b'N', b'G', ..], _) => Box::new(HeightPng::open(file, path, options)?),
-        (_, "hgt") => Box::new(Hgt::open(file, path)?),
-        (_, "asc" | "agr") => Box::new(AsciiGrid::open(file, Some(path))?),
+        ([0x89, b'P', b'N', b'G', ..], _) => Box::new(HeightPng::open(file, site, options)?),
+        (_, "hgt") => Box::new(Hgt::open(file, site.path())?),
+        (_, "asc" | "agr") => Box::new(AsciiGrid::open(file, Some(site))?),
         (_, "xyz") => return Ok(DemFile::Points(Xyz::open(file)?)),
         (_, "tif" | "tiff" | "png") => return Err(not_what_it_says(&extension)),
         _ => return Err(unknown(&extension)),
@@ -44,40 +50,29 @@ pub(super) fn open(path: &Path, options: &DemOptions) -> Result<DemFile> {
     Ok(DemFile::Grid(grid))
 }
 
-/// Whether a file begins like a PNG.
-pub(super) fn is_png(path: &Path) -> bool {
-    let mut magic = [0; 4];
-    let read = open_file(path).map(|mut file| file.read_exact(&mut magic).is_ok());
-    read.unwrap_or(false) && magic == [0x89, b'P', b'N', b'G']
+/// The first bytes of a file.
+fn magic(site: &Site) -> Result<Vec<u8>> {
+    let mut magic = Vec::new();
+    site.open()?.take(8).read_to_end(&mut magic).map_err(unreadable)?;
+    Ok(magic)
 }
 
-/// Opens a plain file for reading.
-fn open_file(path: &Path) -> Result<File> {
-    let refuse = |e: io::Error| Error::io("cannot be opened", e).help("check the path");
-    let meta = std::fs::metadata(path).map_err(refuse)?;
-    if meta.is_dir() {
-        return Err(Error::new("this is a directory").help("name the terrain file in it"));
-    }
-    if !meta.is_file() {
-        return Err(Error::new("this is not a plain file").help("copy its content into a file first"));
-    }
-    File::open(path).map_err(refuse)
+/// Whether a file begins like a PNG.
+pub(super) fn is_png(path: &Path) -> bool {
+    let begins = |site: &Site| magic(site).map(|magic| magic.starts_with(b"\x89PNG"));
+    let site = Site::on_disk(path);
+    begins(&site).unwrap_or(false) || site.in_archive().is_ok_and(|site| begins(&site).unwrap_or(false))
 }
 
 fn refuse_packed(magic: &[u8]) -> Result<()> {
     let (kind, tool) = match magic {
-        [b'P', b'K', 3 | 5, ..] => ("a zip archive", "unzip"),
+        [b'P', b'K', 3 | 5, ..] => ("a zip archive in another", "unzip"),
         [0x1f, 0x8b, ..] => ("packed with gzip", "gunzip -k"),
         [0xfd, b'7', b'z', b'X', b'Z', ..] => ("packed with xz", "xz -dk"),
         [b'B', b'Z', b'h', ..] => ("packed with bzip2", "bunzip2 -k"),
         _ => return Ok(()),
     };
     Err(Error::unsupported(format!("the file is {kind}")).help(format!("unpack it first: {tool} FILE")))
-}
-
-fn extension(path: &Path) -> String {
-    let extension = path.extension().unwrap_or_default();
-    extension.to_string_lossy().to_ascii_lowercase()
 }
 
 fn not_what_it_says(extension: &str) -> Error {

@@ -9,20 +9,19 @@ use super::failure::{too_many_posts, unreadable};
 use super::frame::{Frame, PostRange};
 use super::grid::{GridFile, Header, RowSink};
 use super::options::{DemOptions, PngEncoding};
+use super::site::{Input, Site};
 use super::world_file;
 use crate::error::{Error, Result};
 use image::codecs::png::PngDecoder;
 use image::{ImageDecoder, ImageError, Limits};
-use std::fs::File;
 use std::io::{BufReader, Read, Seek};
-use std::path::Path;
 
 /// Deflate cannot expand a byte into more.
 const LARGEST_EXPANSION: u64 = 1040;
 
 /// A PNG of encoded heights.
 pub(super) struct HeightPng {
-    decoder: Option<PngDecoder<BufReader<File>>>,
+    decoder: Option<PngDecoder<BufReader<Input>>>,
     header: Header,
     encoding: PngEncoding,
     channels: usize,
@@ -31,12 +30,12 @@ pub(super) struct HeightPng {
 
 impl HeightPng {
     /// Reads the header.
-    pub(super) fn open(mut file: File, path: &Path, options: &DemOptions) -> Result<Self> {
+    pub(super) fn open(mut file: Input, site: &Site, options: &DemOptions) -> Result<Self> {
         let encoding = options.encoding.ok_or_else(|| {
             Error::new("a PNG does not say how its colours encode heights")
                 .help("say it: encoding = \"terrarium\" or encoding = \"mapbox\"")
         })?;
-        let file_length = file.metadata().map_err(unreadable)?.len();
+        let file_length = file.length()?;
         let stored = channels(&mut file)?;
         let decoder = PngDecoder::with_limits(BufReader::new(file), limits()).map_err(damaged)?;
         let channels = usize::from(decoder.color_type().channel_count());
@@ -45,7 +44,7 @@ impl HeightPng {
         }
         let (columns, rows) = decoder.dimensions();
         let size = (columns as usize, rows as usize);
-        let (frame, note) = place(path, size, options.bounds)?;
+        let (frame, note) = place(site, size, options.bounds)?;
         let header = Header {
             format: "PNG",
             sample: "uint8 x 3".into(),
@@ -117,8 +116,8 @@ fn height_of(encoding: PngEncoding, pixel: &[u8]) -> f64 {
     }
 }
 
-fn place(path: &Path, size: (usize, usize), bounds: Option<[f64; 4]>) -> Result<(Frame, &'static str)> {
-    if let Some(frame) = world_file::frame_beside(path, size)? {
+fn place(site: &Site, size: (usize, usize), bounds: Option<[f64; 4]>) -> Result<(Frame, &'static str)> {
+    if let Some(frame) = world_file::frame_beside(site, size)? {
         return Ok((frame, "placed by the world file beside it; it has no CRS"));
     }
     match bounds {
@@ -131,7 +130,7 @@ fn place(path: &Path, size: (usize, usize), bounds: Option<[f64; 4]>) -> Result<
 }
 
 /// The channels of an 8-bit RGB or RGBA image, as its header states them (a decoder would expand palettes).
-fn channels(file: &mut File) -> Result<usize> {
+fn channels(file: &mut Input) -> Result<usize> {
     let mut header = [0; 26];
     file.read_exact(&mut header).and_then(|()| file.rewind()).map_err(unreadable)?;
     let kind = match (header[24], header[25]) {

@@ -6,6 +6,7 @@ use crate::buffer::Buffer;
 use crate::error::{Error, Result};
 use crate::scene::{Color, Ground, Imagery};
 use crate::scene_file::{GroundSpec, SceneFile};
+use crate::source::dem::site::Site;
 use crate::source::dem::world_file;
 use crate::space::{Plan, PlanBox};
 use glam::DVec2;
@@ -58,7 +59,7 @@ fn texels(path: &Path) -> Result<Buffer<Color>> {
 
 /// What the image covers: what a world file beside it says, in the coordinates of the plan's CRS, else the terrain.
 fn extent(path: &Path, size: (usize, usize), terrain: &Terrain) -> Result<PlanBox> {
-    let Some(frame) = world_file::frame_beside(path, size)? else {
+    let Some(frame) = world_file::frame_beside(&Site::on_disk(path), size)? else {
         return Ok(terrain.bounds);
     };
     if !frame.is_upright() {

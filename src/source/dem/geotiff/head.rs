@@ -5,6 +5,7 @@
 use super::super::geo_keys::GeoKeys;
 use super::super::grid::Header;
 use super::super::nodata::Nodata;
+use super::super::site::Site;
 use super::codec::{Compression, Predictor};
 use super::layout::Layout;
 use super::place;
@@ -12,7 +13,6 @@ use super::sample::Sample;
 use super::tags::{Directory, Endian, Source, tag};
 use crate::error::{Error, Result};
 use std::io::{Read, Seek};
-use std::path::Path;
 
 /// All that the tags say.
 pub(super) struct Head {
@@ -36,10 +36,10 @@ pub(super) struct Coding {
 }
 
 impl Head {
-    /// Reads the tags; `path` serves to find a world file, `bounds` stands in for a missing place.
+    /// Reads the tags; `site` serves to find a world file, `bounds` stands in for a missing place.
     pub(super) fn read<R: Read + Seek>(
         source: &mut Source<R>,
-        path: Option<&Path>,
+        site: Option<&Site>,
         bounds: Option<[f64; 4]>,
     ) -> Result<Self> {
         let directory = Directory::read(source)?;
@@ -47,7 +47,7 @@ impl Head {
         let (coding, bands) = coding(&directory, source)?;
         let layout = layout(&directory, source, size, &coding)?;
         let keys = geo_keys(&directory, source)?;
-        let (frame, note) = place::frame(&directory, source, &keys, size, (path, bounds))?;
+        let (frame, note) = place::frame(&directory, source, &keys, size, (site, bounds))?;
         let declared = directory.text(source, tag::GDAL_NODATA)?;
         let nodata = nodata(declared.as_deref(), coding.sample)?;
         let scaling = scaling(&directory, source)?;

@@ -14,12 +14,12 @@ mod tags;
 use super::failure::unreadable;
 use super::frame::PostRange;
 use super::grid::{GridFile, Header, RowSink};
+use super::site::Site;
 use crate::error::{Error, Result};
 use codec::Compression;
 use head::{Coding, Head};
 use layout::Block;
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
-use std::path::Path;
 use tags::Source;
 
 /// An opened GeoTIFF.
@@ -29,10 +29,10 @@ pub(super) struct GeoTiff<R> {
 }
 
 impl<R: Read + Seek> GeoTiff<R> {
-    /// Reads and judges the header; `path` serves to find a world file, `bounds` stands in for a missing place.
-    pub(super) fn open(input: R, path: Option<&Path>, bounds: Option<[f64; 4]>) -> Result<Self> {
+    /// Reads and judges the header; `site` serves to find a world file, `bounds` stands in for a missing place.
+    pub(super) fn open(input: R, site: Option<&Site>, bounds: Option<[f64; 4]>) -> Result<Self> {
         let mut source = Source::new(BufReader::new(input))?;
-        let head = Head::read(&mut source, path, bounds)?;
+        let head = Head::read(&mut source, site, bounds)?;
         Ok(Self { source, head })
     }
 

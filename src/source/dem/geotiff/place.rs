@@ -5,12 +5,12 @@
 
 use super::super::frame::Frame;
 use super::super::geo_keys::GeoKeys;
+use super::super::site::Site;
 use super::super::world_file;
 use super::tags::{Directory, Source, tag};
 use crate::error::{Error, Result};
 use glam::DVec2;
 use std::io::{Read, Seek};
-use std::path::Path;
 
 /// The frame of a TIFF, and a note where the file itself does not give it.
 pub(super) fn frame<R: Read + Seek>(
@@ -18,7 +18,7 @@ pub(super) fn frame<R: Read + Seek>(
     source: &mut Source<R>,
     keys: &GeoKeys,
     size: (usize, usize),
-    (path, bounds): (Option<&Path>, Option<[f64; 4]>),
+    (site, bounds): (Option<&Site>, Option<[f64; 4]>),
 ) -> Result<(Frame, Option<String>)> {
     if let Some([a, b, x, d, e, y]) = affine(directory, source)? {
         let (column, row) = (DVec2::new(a, d), DVec2::new(b, e));
@@ -26,7 +26,7 @@ pub(super) fn frame<R: Read + Seek>(
         let first = DVec2::new(x, y) + (column + row) * half;
         return Ok((Frame::new(size, first, (column, row))?, None));
     }
-    let beside = path.map(|p| world_file::frame_beside(p, size)).transpose()?;
+    let beside = site.map(|s| world_file::frame_beside(s, size)).transpose()?;
     let (frame, note) = match (beside.flatten(), bounds) {
         (Some(frame), _) => (frame, "placed by the world file beside it"),
         (None, Some(bounds)) => (Frame::within(size, bounds)?, "placed by the given bounds"),

@@ -46,7 +46,7 @@ fn wrong_beginnings_and_unknown_kinds_are_refused() {
     for (name, bytes, expected) in [
         ("a.tif", &b"<html>oops</html>"[..], "does not begin like one"),
         ("a.tif", b"", "empty"),
-        ("a.hgt", b"PK\x03\x04....", "unzip"),
+        ("a.hgt", b"PK\x03\x04....", "half a download"),
         ("a.tif", b"\xfd7zXZ\0..", "xz -dk"),
         ("a.dted", b"UHL1....", "unknown"),
         ("N43E006.hgt", b"12345678", "1201"),

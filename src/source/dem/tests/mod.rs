@@ -1,5 +1,6 @@
 //! Tests of the terrain readers on files that they make themselves.
 
+mod archive;
 mod ascii;
 mod frames;
 mod geotiff;
