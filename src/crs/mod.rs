@@ -12,19 +12,24 @@
 //! - ETRS89, NAD83, NZGD2000, GDA94 and their like count as WGS 84 (they differ by less than 2 m).
 //!
 //! # Determinism
-//! Transverse Mercator, Mercator, Web Mercator, Lambert conformal conic, the local plane and datum shifts are our
-//! own, on `libm`: the same bits everywhere. All other projections go through `proj4rs`, rounded to 2^-20 m and
-//! 2^-36 degrees.
+//! Transverse Mercator, Mercator, Web Mercator, Lambert's conformal cone and equal-area plane, Albers, the stereographic projections of a
+//! pole and of any place (double), the Swiss oblique Mercator, Krovak, the local plane and datum shifts are our own, on `libm`: the
+//! same bits everywhere. All other projections go through `proj4rs`, rounded to 2^-20 m and 2^-36 degrees, where
+//! processors may differ by one such step; [`PlanFrom::note`] says so.
 
+mod authalic;
 mod conic;
 mod datum;
 mod degrees;
 mod ellipsoid;
 mod epsg;
+mod gauss;
 mod imported;
 mod plan;
 mod proj_string;
 mod projection;
+mod sphere;
+mod stereographic;
 mod transverse_mercator;
 mod wkt;
 mod wkt_names;
@@ -151,6 +156,11 @@ impl Crs {
     /// Whether its coordinates are longitude and latitude.
     pub fn is_geographic(&self) -> bool {
         matches!(self.projection, Projection::Geographic)
+    }
+
+    /// Whether its projection is another library's, whose last bits differ between processors.
+    pub(crate) fn is_imported(&self) -> bool {
+        matches!(self.projection, Projection::Imported(_))
     }
 
     /// What to call it before people.

@@ -210,6 +210,14 @@ impl PlanFrom {
         &self.file
     }
 
+    /// What the user should know before comparing bits of what the map places: that its projection is not our own.
+    pub fn note(&self) -> Option<String> {
+        let strange = [&self.file, self.plan.crs()].into_iter().find(|crs| crs.is_imported());
+        strange
+            .filter(|_| !self.same)
+            .map(|crs| format!("coordinates of {} may differ by 2^-20 m between processors", crs.name()))
+    }
+
     /// The map as shift and scale, where it is one (so that a grid stays a grid). For the local plane this holds for
     /// longitudes within half a turn of the centre.
     pub fn affine(&self) -> Option<Affine> {

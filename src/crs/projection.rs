@@ -1,10 +1,13 @@
 //! The projections by name, with their origins and false coordinates.
 
+use super::authalic::{Albers, AzimuthalEqualArea};
 use super::conic::{Lambert, Mercator, parallel_radius};
 use super::degrees::wrapped;
 use super::ellipsoid::Ellipsoid;
+use super::gauss::{Krovak, SwissMercator};
 use super::imported::Imported;
 use super::proj_string::Definition;
+use super::stereographic::{ObliqueStereographic, PolarStereographic};
 use super::transverse_mercator::TransverseMercator;
 use crate::error::{Error, Result};
 use glam::DVec2;
@@ -14,11 +17,24 @@ use glam::DVec2;
 pub(crate) enum Projection {
     /// They stay what they are.
     Geographic,
-    Transverse(Origin, TransverseMercator),
-    Lambert(Origin, Lambert),
-    Mercator(Origin, Mercator),
+    /// Our own.
+    Own(Origin, Box<Form>),
     /// Not our own.
     Imported(Box<Imported>),
+}
+
+/// A projection of our own, with its zero at the central meridian.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Form {
+    Transverse(TransverseMercator),
+    Lambert(Lambert),
+    Mercator(Mercator),
+    Albers(Albers),
+    AzimuthalEqualArea(AzimuthalEqualArea),
+    PolarStereographic(PolarStereographic),
+    ObliqueStereographic(ObliqueStereographic),
+    Swiss(SwissMercator),
+    Krovak(Krovak),
 }
 
 /// Where a projection's zero is.
@@ -28,6 +44,7 @@ pub(crate) struct Origin {
     pub(crate) lon_0: f64,
     /// False easting and northing in metres.
     pub(crate) offset: DVec2,
+    pub(crate) axes: Axes,
 }
 
 impl Origin {
@@ -35,17 +52,59 @@ impl Origin {
         Ok(Self {
             lon_0: definition.number_or("lon_0", 0.0)?,
             offset: DVec2::new(definition.number_or("x_0", 0.0)?, definition.number_or("y_0", 0.0)?),
+            axes: Axes::new(definition).unwrap_or(Axes::EAST_NORTH),
         })
     }
 
     fn agrees_with(&self, other: &Self) -> bool {
-        (self.lon_0 - other.lon_0).abs() < 1e-9 && (self.offset - other.offset).length() < 1e-3
+        (self.lon_0 - other.lon_0).abs() < 1e-9
+            && (self.offset - other.offset).length() < 1e-3
+            && self.axes == other.axes
+    }
+}
+
+/// Which ways x and y count: east and north, but for some surveys.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Axes {
+    /// Whether x runs along the meridian.
+    swapped: bool,
+    /// 1 for east and north, -1 for west and south, in the order of x and y.
+    signs: DVec2,
+}
+
+impl Axes {
+    const EAST_NORTH: Self = Self { swapped: false, signs: DVec2::ONE };
+
+    /// `None` for axes that are not two in the plane and one up.
+    fn new(definition: &Definition) -> Option<Self> {
+        let mut letters = definition.text("axis").unwrap_or("enu").chars();
+        let mut next = || match letters.next()? {
+            'e' => Some((false, 1.0)),
+            'w' => Some((false, -1.0)),
+            'n' => Some((true, 1.0)),
+            's' => Some((true, -1.0)),
+            _ => None,
+        };
+        let ((swapped, x), (other, y)) = (next()?, next()?);
+        (swapped != other && letters.eq(['u'])).then(|| Self { swapped, signs: DVec2::new(x, y) })
+    }
+
+    fn ordered(&self, p: DVec2) -> DVec2 {
+        if self.swapped { DVec2::new(p.y, p.x) } else { p }
+    }
+
+    fn of_east_north(&self, p: DVec2) -> DVec2 {
+        self.ordered(p) * self.signs
+    }
+
+    fn east_north(&self, q: DVec2) -> DVec2 {
+        self.ordered(q * self.signs)
     }
 }
 
 impl Projection {
     pub(crate) fn new(definition: &Definition, ellipsoid: Ellipsoid) -> Result<Self> {
-        let plain = matches!(definition.text("axis"), None | Some("enu"));
+        let plain = Axes::new(definition).is_some();
         match definition.text("proj").unwrap_or("") {
             "longlat" | "latlong" | "latlon" | "lonlat" => Ok(Self::Geographic),
             "geocent" | "cart" => Err(Error::unsupported("geocentric coordinates have no plan")
@@ -54,83 +113,108 @@ impl Projection {
             "utm" if plain => utm(definition, ellipsoid),
             "lcc" if plain => lambert(definition, ellipsoid),
             "merc" | "webmerc" if plain => mercator(definition, ellipsoid),
+            "aea" if plain => albers(definition, ellipsoid),
+            "laea" if plain => azimuthal(definition, ellipsoid),
+            "stere" if plain && is_polar(definition)? => stereographic(definition, ellipsoid),
+            "sterea" if plain => double_stereographic(definition, ellipsoid),
+            "somerc" if plain => swiss(definition, ellipsoid),
+            "krovak" if plain && definition.text("czech").is_none() => krovak(definition, ellipsoid),
             _ => Ok(Self::Imported(Box::new(Imported::new(definition, &ellipsoid)?))),
         }
     }
 
     /// Degrees of Greenwich to metres, for our own projections; `None` out of the domain.
     pub(crate) fn forward(&self, p: DVec2, prime_meridian: f64) -> Option<DVec2> {
-        let origin = self.origin()?;
+        let Self::Own(origin, form) = self else { return None };
         let lam = wrapped(p.x - prime_meridian - origin.lon_0).to_radians();
-        let lat = p.y.to_radians();
-        let q = match self {
-            Self::Transverse(_, t) => t.forward(lam, lat),
-            Self::Lambert(_, l) => l.forward(lam, lat),
-            Self::Mercator(_, m) => m.forward(lam, lat),
-            Self::Geographic | Self::Imported(_) => None,
-        };
-        q.map(|q| q + origin.offset)
+        form.forward(lam, p.y.to_radians()).map(|q| origin.axes.of_east_north(q + origin.offset))
     }
 
     /// Metres to degrees of Greenwich, for our own projections; `None` out of the domain.
     pub(crate) fn inverse(&self, p: DVec2, prime_meridian: f64) -> Option<DVec2> {
-        let origin = self.origin()?;
-        let q = p - origin.offset;
-        let (lam, lat) = match self {
-            Self::Transverse(_, t) => t.inverse(q),
-            Self::Lambert(_, l) => l.inverse(q),
-            Self::Mercator(_, m) => m.inverse(q),
-            Self::Geographic | Self::Imported(_) => None,
-        }?;
+        let Self::Own(origin, form) = self else { return None };
+        let (lam, lat) = form.inverse(origin.axes.east_north(p) - origin.offset)?;
         let lon = wrapped(lam.to_degrees() + origin.lon_0 + prime_meridian);
         Some(DVec2::new(lon, lat.to_degrees()))
     }
 
     /// The sphere of Web Mercator, which is not the ellipsoid of its datum.
     pub(crate) fn own_ellipsoid(&self) -> Option<Ellipsoid> {
-        match self {
-            Self::Mercator(_, m) => Some(m.ellipsoid),
+        let Self::Own(_, form) = self else { return None };
+        match **form {
+            Form::Mercator(m) => Some(m.ellipsoid),
             _ => None,
-        }
-    }
-
-    fn origin(&self) -> Option<&Origin> {
-        match self {
-            Self::Transverse(o, _) | Self::Lambert(o, _) | Self::Mercator(o, _) => Some(o),
-            Self::Geographic | Self::Imported(_) => None,
         }
     }
 
     /// Whether two projections of one ellipsoid give the same coordinates, to the millimetre.
     pub(crate) fn agrees_with(&self, other: &Self) -> bool {
-        let origins = match (self.origin(), other.origin()) {
-            (Some(a), Some(b)) => a.agrees_with(b),
-            _ => true,
-        };
-        let close = |a: f64, b: f64| (a - b).abs() < 1e-9;
-        origins
-            && match (self, other) {
-                (Self::Geographic, Self::Geographic) => true,
-                (Self::Transverse(_, a), Self::Transverse(_, b)) => {
-                    close(a.lat_0, b.lat_0) && close(a.k_0, b.k_0)
-                }
-                (Self::Lambert(_, a), Self::Lambert(_, b)) => {
-                    close(a.lat_0, b.lat_0)
-                        && close(a.k_0, b.k_0)
-                        && close(a.parallels[0], b.parallels[0])
-                        && close(a.parallels[1], b.parallels[1])
-                }
-                (Self::Mercator(_, a), Self::Mercator(_, b)) => close(a.k_0, b.k_0),
-                (Self::Imported(a), Self::Imported(b)) => a.agrees_with(b),
-                _ => false,
-            }
+        match (self, other) {
+            (Self::Geographic, Self::Geographic) => true,
+            (Self::Own(a, one), Self::Own(b, two)) => a.agrees_with(b) && one.agrees_with(two),
+            (Self::Imported(a), Self::Imported(b)) => a.agrees_with(b),
+            _ => false,
+        }
+    }
+}
+
+impl Form {
+    /// Longitude from the central meridian and latitude (radians) to metres.
+    fn forward(&self, lam: f64, lat: f64) -> Option<DVec2> {
+        match self {
+            Self::Transverse(p) => p.forward(lam, lat),
+            Self::Lambert(p) => p.forward(lam, lat),
+            Self::Mercator(p) => p.forward(lam, lat),
+            Self::Albers(p) => p.forward(lam, lat),
+            Self::AzimuthalEqualArea(p) => p.forward(lam, lat),
+            Self::PolarStereographic(p) => p.forward(lam, lat),
+            Self::ObliqueStereographic(p) => p.forward(lam, lat),
+            Self::Swiss(p) => p.forward(lam, lat),
+            Self::Krovak(p) => p.forward(lam, lat),
+        }
+    }
+
+    /// Metres to longitude from the central meridian and latitude (radians).
+    fn inverse(&self, q: DVec2) -> Option<(f64, f64)> {
+        match self {
+            Self::Transverse(p) => p.inverse(q),
+            Self::Lambert(p) => p.inverse(q),
+            Self::Mercator(p) => p.inverse(q),
+            Self::Albers(p) => p.inverse(q),
+            Self::AzimuthalEqualArea(p) => p.inverse(q),
+            Self::PolarStereographic(p) => p.inverse(q),
+            Self::ObliqueStereographic(p) => p.inverse(q),
+            Self::Swiss(p) => p.inverse(q),
+            Self::Krovak(p) => p.inverse(q),
+        }
+    }
+
+    /// What tells it from others of its kind on one ellipsoid: degrees and ratios.
+    fn numbers(&self) -> [f64; 4] {
+        match self {
+            Self::Transverse(p) => [p.lat_0, p.k_0, 0.0, 0.0],
+            Self::Lambert(p) => [p.lat_0, p.k_0, p.parallels[0], p.parallels[1]],
+            Self::Mercator(p) => [p.k_0, 0.0, 0.0, 0.0],
+            Self::Albers(p) => [p.lat_0, p.parallels[0], p.parallels[1], 0.0],
+            Self::AzimuthalEqualArea(p) => [p.lat_0, 0.0, 0.0, 0.0],
+            Self::PolarStereographic(p) => [p.lat_ts, p.k_0, 0.0, 0.0],
+            Self::ObliqueStereographic(p) => [p.lat_0, p.k_0, 0.0, 0.0],
+            Self::Swiss(p) => [p.lat_0, p.k_0, 0.0, 0.0],
+            Self::Krovak(p) => [p.lat_0, p.k_0, 0.0, 0.0],
+        }
+    }
+
+    fn agrees_with(&self, other: &Self) -> bool {
+        let mut pairs = self.numbers().into_iter().zip(other.numbers());
+        std::mem::discriminant(self) == std::mem::discriminant(other)
+            && pairs.all(|(a, b)| (a - b).abs() < 1e-9)
     }
 }
 
 fn transverse(definition: &Definition, ellipsoid: Ellipsoid) -> Result<Projection> {
     let lat_0 = latitude(definition, "lat_0", 0.0)?;
     let projection = TransverseMercator::new(ellipsoid, lat_0, definition.scale()?);
-    Ok(Projection::Transverse(Origin::new(definition)?, projection))
+    own(definition, Form::Transverse(projection))
 }
 
 fn utm(definition: &Definition, ellipsoid: Ellipsoid) -> Result<Projection> {
@@ -142,8 +226,9 @@ fn utm(definition: &Definition, ellipsoid: Ellipsoid) -> Result<Projection> {
     let origin = Origin {
         lon_0: zone * 6.0 - 183.0,
         offset: DVec2::new(500_000.0, if south { 10_000_000.0 } else { 0.0 }),
+        axes: Axes::new(definition).unwrap_or(Axes::EAST_NORTH),
     };
-    Ok(Projection::Transverse(origin, TransverseMercator::new(ellipsoid, 0.0, 0.9996)))
+    Ok(Projection::Own(origin, Box::new(Form::Transverse(TransverseMercator::new(ellipsoid, 0.0, 0.9996)))))
 }
 
 fn lambert(definition: &Definition, ellipsoid: Ellipsoid) -> Result<Projection> {
@@ -157,7 +242,7 @@ fn lambert(definition: &Definition, ellipsoid: Ellipsoid) -> Result<Projection> 
             "Lambert's projection takes standard parallels off the poles that are not opposite to each other",
         )
     })?;
-    Ok(Projection::Lambert(Origin::new(definition)?, made))
+    own(definition, Form::Lambert(made))
 }
 
 fn mercator(definition: &Definition, ellipsoid: Ellipsoid) -> Result<Projection> {
@@ -170,7 +255,64 @@ fn mercator(definition: &Definition, ellipsoid: Ellipsoid) -> Result<Projection>
         0.0 => definition.scale()?,
         lat => parallel_radius(&ellipsoid, lat.to_radians()),
     };
-    Ok(Projection::Mercator(Origin::new(definition)?, Mercator::new(ellipsoid, k_0)))
+    own(definition, Form::Mercator(Mercator::new(ellipsoid, k_0)))
+}
+
+fn albers(definition: &Definition, ellipsoid: Ellipsoid) -> Result<Projection> {
+    let first = latitude(definition, "lat_1", 0.0)?;
+    let second = latitude(definition, "lat_2", 0.0)?;
+    let made = Albers::new(ellipsoid, [first, second], latitude(definition, "lat_0", 0.0)?);
+    let made = made.ok_or_else(|| {
+        Error::new(format!("the parallels {first} and {second} do not span a cone"))
+            .help("Albers' projection takes standard parallels that are not opposite to each other")
+    })?;
+    own(definition, Form::Albers(made))
+}
+
+fn azimuthal(definition: &Definition, ellipsoid: Ellipsoid) -> Result<Projection> {
+    let lat_0 = latitude(definition, "lat_0", 0.0)?;
+    own(definition, Form::AzimuthalEqualArea(AzimuthalEqualArea::new(ellipsoid, lat_0)))
+}
+
+fn is_polar(definition: &Definition) -> Result<bool> {
+    Ok(latitude(definition, "lat_0", 0.0)?.abs() > 90.0 - 1e-9)
+}
+
+/// Of a pole: `+lat_ts` tells the scale, and only where it tells nothing does `+k_0` (PROJ's rule).
+fn stereographic(definition: &Definition, ellipsoid: Ellipsoid) -> Result<Projection> {
+    let pole = latitude(definition, "lat_0", 90.0)?;
+    let true_scale = latitude(definition, "lat_ts", pole)?.abs().copysign(pole);
+    let k_0 = if true_scale.abs() > 90.0 - 1e-9 { definition.scale()? } else { 1.0 };
+    let made = PolarStereographic::new(ellipsoid, true_scale, k_0);
+    own(definition, Form::PolarStereographic(made))
+}
+
+fn double_stereographic(definition: &Definition, ellipsoid: Ellipsoid) -> Result<Projection> {
+    let lat_0 = latitude(definition, "lat_0", 0.0)?;
+    let made = ObliqueStereographic::new(ellipsoid, lat_0, definition.scale()?);
+    let made = made.ok_or_else(|| {
+        Error::new("the double stereographic projection has its origin off the poles")
+            .help("a pole has +proj=stere")
+    })?;
+    own(definition, Form::ObliqueStereographic(made))
+}
+
+fn swiss(definition: &Definition, ellipsoid: Ellipsoid) -> Result<Projection> {
+    let lat_0 = latitude(definition, "lat_0", 0.0)?;
+    own(definition, Form::Swiss(SwissMercator::new(ellipsoid, lat_0, definition.scale()?)))
+}
+
+/// What a text leaves out is that of the survey of Czechoslovakia (PROJ's rule).
+fn krovak(definition: &Definition, ellipsoid: Ellipsoid) -> Result<Projection> {
+    let lat_0 = latitude(definition, "lat_0", 49.5)?;
+    let k_0 = if definition.text("k_0").is_some() { definition.scale()? } else { 0.9999 };
+    let mut origin = Origin::new(definition)?;
+    origin.lon_0 = definition.number_or("lon_0", 24.0 + 5.0 / 6.0)?;
+    Ok(Projection::Own(origin, Box::new(Form::Krovak(Krovak::new(ellipsoid, lat_0, k_0)))))
+}
+
+fn own(definition: &Definition, form: Form) -> Result<Projection> {
+    Ok(Projection::Own(Origin::new(definition)?, Box::new(form)))
 }
 
 fn latitude(definition: &Definition, key: &str, default: f64) -> Result<f64> {

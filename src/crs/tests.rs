@@ -1,5 +1,9 @@
+use super::degrees::wrapped;
 use super::*;
+use crate::math;
 use proptest::prelude::*;
+
+mod own;
 
 fn crs(text: &str) -> Crs {
     Crs::parse(text).unwrap()
@@ -52,12 +56,16 @@ fn conic_and_mercator_agree_with_proj() {
 
 #[test]
 fn imported_projections_agree_with_proj_to_a_tenth_of_a_millimetre() {
-    // reference: PROJ 9
+    // reference: PROJ 9.5.1, on each code's own datum
     for (text, lon, lat, x, y) in [
-        ("EPSG:3035", 10.5, 47.2, 4_358_915.335_064_176_5, 2_676_397.674_318_239),
-        ("EPSG:3035", 25.0, 60.0, 5_152_827.253_890_325, 4_188_383.611_105_125_4),
-        ("EPSG:2056", 7.5, 46.9, 2_604_603.059_048_793_7, 1_194_176.530_537_348_7),
+        ("EPSG:29873", 115.0, 5.0, 590121.1779573819, 553415.8095151458),
+        ("EPSG:3168", 102.0, 4.0, 445100.28590808174, 442475.4979159335),
+        ("EPSG:3375", 102.0, 4.0, 445072.33326358895, 442508.8986183557),
+        ("EPSG:5880", -50.0, -12.0, 5435595.308444151, 8669754.14760566),
+        ("EPSG:28191", 35.2, 31.8, 169107.5076776513, 134175.20106805803),
+        ("EPSG:4087", 10.0, 50.0, 1113194.9079327357, 5565974.539663678),
     ] {
+        assert!(crs(text).is_imported(), "{text}");
         let p = projected(text, lon, lat);
         assert!((p - DVec2::new(x, y)).length() < 1e-4, "{text}: {p}");
         assert_eq!(p.x * 1_048_576.0, (p.x * 1_048_576.0).round());
@@ -105,6 +113,12 @@ fn the_bits_of_our_own_projections_are_golden() {
     assert_eq!(bits("EPSG:2193", 174.78, -41.3), (4_700_262_808_449_493_200, 4_707_584_575_592_973_850));
     assert_eq!(bits("EPSG:31287", 11.3, 47.1), (4_687_683_120_720_074_110, 4_689_886_579_336_773_952));
     assert_eq!(bits("EPSG:3857", -122.0, 47.0), (13_936_924_879_435_502_495, 4_708_138_264_427_673_111));
+    assert_eq!(bits("EPSG:3035", 25.0, 60.0), (4_707_290_817_109_146_933, 4_706_248_896_663_826_774));
+    assert_eq!(bits("EPSG:5070", -118.2, 34.3), (13_924_753_059_924_104_030, 4_699_125_751_097_894_072));
+    assert_eq!(bits("EPSG:3413", -50.0, 70.5), (13_908_997_202_027_082_453, 13_925_187_862_273_631_158));
+    assert_eq!(bits("EPSG:28992", 4.9, 52.37), (4_683_106_027_621_189_740, 4_692_108_512_661_243_615));
+    assert_eq!(bits("EPSG:2056", 7.5, 46.9), (4_702_847_753_826_265_391, 4_697_879_760_864_365_514));
+    assert_eq!(bits("EPSG:5514", 14.42, 50.09), (13_918_001_135_964_843_807, 13_920_576_806_679_542_358));
 }
 
 const UTM_33S: &str = r#"PROJCS["WGS_1984_UTM_Zone_33S",GEOGCS["GCS_WGS_1984",DATUM["D_WGS_1984",SPHEROID["WGS_1984",6378137,298.257223563]],PRIMEM["Greenwich",0],UNIT["Degree",0.017453292519943295]],PROJECTION["Transverse_Mercator"],PARAMETER["latitude_of_origin",0],PARAMETER["central_meridian",15],PARAMETER["scale_factor",0.9996],PARAMETER["false_easting",500000],PARAMETER["false_northing",10000000],UNIT["Meter",1]]"#;

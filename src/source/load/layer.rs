@@ -122,13 +122,23 @@ fn from_file<'a>(
         let error = Error::new(format!("nothing in this layer can be drawn: {told}"));
         return Err(blame(error.help("leave the layer out, or give a file with polygons or lines")));
     }
-    notes.append(&mut file.notes);
     let columns = Columns::of_file(&mut file, named);
-    let key = format!("layer.{}.crs", spec.name);
-    let stated = spec.crs.as_ref().map(|text| Crs::parse(text)).transpose();
-    let stated = stated.map_err(|error| of_key(scene, &key, error))?;
+    let stated = stated_crs(scene, spec)?;
+    if let Some(stated) = &stated {
+        // What the file's own CRS lacks is of no matter then.
+        let own = file.crs.as_ref().and_then(Crs::note);
+        file.notes.retain(|text| Some(text) != own.as_ref());
+        file.notes.extend(stated.note());
+    }
+    notes.append(&mut file.notes);
     let map = map(stated.or(file.crs), terrain, named.file, notes).map_err(blame)?;
     Ok(Found { features: file.features, columns, map, shift: terrain.place.shift(spec.offset) })
+}
+
+/// The CRS that the scene says a layer is in.
+fn stated_crs(scene: &SceneFile, spec: &LayerSpec) -> Result<Option<Crs>> {
+    let stated = spec.crs.as_ref().map(|text| Crs::parse(text)).transpose();
+    stated.map_err(|error| of_key(scene, &format!("layer.{}.crs", spec.name), error))
 }
 
 /// The rings or polylines of a shape.
@@ -165,6 +175,7 @@ fn map(own: Option<Crs>, terrain: &Terrain, file: &DataFile, notes: &mut Vec<Str
     let map = space.plan_from(&own)?;
     if map.affine().is_none() {
         notes.push(format!("reprojected from {} to {}", own.name(), space.describe()));
+        notes.extend(map.note());
     }
     Ok(Map::From(Box::new(map)))
 }

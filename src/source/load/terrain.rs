@@ -34,7 +34,7 @@ pub(super) fn terrain(
             let surface = Surface::Grid(
                 generate::terrain(generator).map_err(|error| of_key(scene, "terrain.generate", error))?,
             );
-            (surface, asked_plan(scene)?, DVec2::ZERO)
+            (surface, asked_plan(scene, notes)?, DVec2::ZERO)
         }
         TerrainSource::File(file) => from_file(scene, file, progress, notes)?,
     };
@@ -50,10 +50,13 @@ pub(super) fn terrain(
 }
 
 /// The plan that the scene asks for.
-fn asked_plan(scene: &SceneFile) -> Result<Option<PlanSpace>> {
+fn asked_plan(scene: &SceneFile, notes: &mut Vec<String>) -> Result<Option<PlanSpace>> {
     let parse = |text: &String| Crs::parse(text).and_then(PlanSpace::projected);
     let parsed = scene.crs.as_ref().map(parse).transpose();
-    parsed.map_err(|error| of_key(scene, "crs", error))
+    let space = parsed.map_err(|error| of_key(scene, "crs", error))?;
+    let note = space.as_ref().and_then(|space| space.crs().note());
+    notes.extend(note.map(|text| format!("crs: {text}")));
+    Ok(space)
 }
 
 type Placed = (Surface, Option<PlanSpace>, DVec2);
@@ -66,7 +69,7 @@ fn from_file(
 ) -> Result<Placed> {
     let named = Named::new(scene, file);
     named.require()?;
-    let asked = asked_plan(scene)?;
+    let asked = asked_plan(scene, notes)?;
     progress(&format!("reading {}", file.written));
     let dem = dem::read(named.path(), &options(scene)).map_err(|error| named.blame(error))?;
     let note = &mut |text: String| notes.push(format!("terrain: {text}"));
@@ -162,6 +165,9 @@ fn plan_and_map(
     }
     if map.affine().is_none() {
         note(format!("reprojected from {} to {}", own.name(), space.describe()));
+        if let Some(text) = map.note() {
+            note(text);
+        }
     }
     Ok((Some(space), Map::From(Box::new(map))))
 }

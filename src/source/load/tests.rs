@@ -382,6 +382,51 @@ fn a_layer_in_another_crs_is_reprojected_with_a_note() {
     );
 }
 
+/// The notes of a scene with a layer in a CRS of its own over a terrain in another.
+fn notes_of_crs(scene: &str, terrain: &str, layer: &str) -> Vec<String> {
+    let line = r#"{"type":"LineString","coordinates":[[9.001,46.0515],[9.004,46.0525]]}"#;
+    let folder = Folder::new()
+        .with("d.asc", grid((5, 5), (500_000.0, 5_099_600.0), 100.0, hills))
+        .with("l.geojson", line);
+    let text = format!(
+        "{scene}\nterrain = {{ source = \"d.asc\", crs = \"{terrain}\" }}\n[[layer]]\nsource = \"l.geojson\"\ncrs = \"{layer}\"\nline = {{ color = \"#000000\", width_m = 4.0 }}",
+    );
+    folder.load(&text).unwrap().0.notes
+}
+
+#[test]
+fn an_unknown_datum_is_told_however_the_crs_was_given() {
+    const UNKNOWN: &str = "+proj=longlat +ellps=bessel";
+    const UNKNOWN_UTM: &str = "+proj=utm +zone=32 +ellps=bessel";
+    for (scene, terrain, layer, by) in [
+        ("", "EPSG:32632", UNKNOWN, "layer `l`: "),
+        ("", UNKNOWN_UTM, "EPSG:4326", "terrain: "),
+        ("crs = \"+proj=utm +zone=32 +ellps=bessel\"", "EPSG:32632", "EPSG:4326", "crs: "),
+    ] {
+        let notes = notes_of_crs(scene, terrain, layer);
+        let expected = format!("{by}no datum shift is known for +");
+        let told = notes.iter().filter(|note| note.starts_with(&expected)).count();
+        assert_eq!(told, 1, "{by} {notes:?}");
+    }
+    let notes = notes_of_crs("", "EPSG:32632", "EPSG:4326");
+    assert!(!notes.iter().any(|note| note.contains("datum")), "{notes:?}");
+}
+
+#[test]
+fn a_projection_of_another_library_is_told_where_it_places_anything() {
+    const CASSINI: &str = "+proj=cass +lat_0=46 +lon_0=9 +ellps=WGS84";
+    let told = |scene: &str, terrain: &str, layer: &str| {
+        let notes = notes_of_crs(scene, terrain, layer);
+        let told = notes.iter().filter(|note| note.contains("2^-20 m between processors"));
+        told.map(|note| note.split(':').next().unwrap_or("").to_owned()).collect::<Vec<_>>()
+    };
+    let asked = format!("crs = \"{CASSINI}\"");
+    assert_eq!(told(&asked, "EPSG:32632", "EPSG:4326"), ["terrain", "layer `l`"]);
+    assert_eq!(told("", CASSINI, "EPSG:4326"), ["layer `l`"]);
+    assert_eq!(told("", CASSINI, CASSINI), [""; 0]);
+    assert_eq!(told("", "EPSG:3035", "EPSG:2056"), [""; 0]);
+}
+
 #[test]
 fn imagery_covers_the_terrain_or_what_its_world_file_says() {
     let mut png = std::io::Cursor::new(Vec::new());
