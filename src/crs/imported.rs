@@ -53,6 +53,10 @@ impl Imported {
         self.definition.agrees_with(&other.definition)
     }
 
+    pub(crate) fn counts_east_north(&self) -> bool {
+        matches!(self.definition.text("axis"), None | Some("enu"))
+    }
+
     pub(crate) fn forward(&self, p: DVec2) -> Option<DVec2> {
         let mut q = (p.x.to_radians(), p.y.to_radians(), 0.0);
         transform(&self.geographic, &self.projected, &mut q).ok()?;

@@ -7,6 +7,7 @@
 //! # What the text of a CRS leaves open
 //! - Coordinates are x (east), y (north), or longitude, latitude, whatever axis order the authority states: that is
 //!   how files store them.
+//! - Axes that a CRS counts west and south stay so: that is how files store them, too.
 //! - Datum shifts are Helmert transformations; there are no grid files. Where neither the text nor the list of EPSG
 //!   datums knows a shift, longitudes and latitudes are taken for those of WGS 84, and [`Crs::note`] says so.
 //! - ETRS89, NAD83, NZGD2000, GDA94 and their like count as WGS 84 (they differ by less than 2 m).
@@ -23,6 +24,7 @@ mod datum;
 mod degrees;
 mod ellipsoid;
 mod epsg;
+mod epsg_corrections;
 mod gauss;
 mod imported;
 mod plan;
@@ -69,8 +71,14 @@ impl Crs {
     /// The CRS of an EPSG code.
     ///
     /// # Errors
-    /// When the code is not known or names a system without a plane of coordinates (geocentric, vertical).
+    /// When the code is not known, names a system without a plane of coordinates (geocentric, vertical), or is one of few that
+    /// the list and EPSG define differently.
     pub fn from_epsg(code: u32) -> Result<Self> {
+        if let Some(help) = epsg_corrections::refused(code) {
+            return Err(
+                Error::unsupported(format!("EPSG:{code} cannot be placed to the metre here")).help(help)
+            );
+        }
         let known = epsg::known(code).ok_or_else(|| {
             Error::unsupported(format!("EPSG:{code} is not a CRS known here"))
                 .help("write it as a PROJ string or as WKT, or reproject the data")
@@ -79,6 +87,10 @@ impl Crs {
             e.help(format!("EPSG:{code} cannot be used: reproject the data, for example to UTM"))
         })?;
         crs.epsg = Some(code);
+        if crs.is_geographic() {
+            // The unit of angles is what a PROJ string cannot say.
+            crs.unit = wkt::degrees_per_unit_of(known.wkt);
+        }
         let words = known.wkt.split('"').nth(1).unwrap_or("");
         crs.name = format!("EPSG:{code} ({words})");
         Ok(crs)

@@ -48,11 +48,15 @@ impl PlanSpace {
     /// The plane of a projected CRS. Its coordinates in the plan are metres, also where the CRS counts in feet.
     ///
     /// # Errors
-    /// When the CRS is geographic: its degrees are no plane.
+    /// When the CRS is geographic: its degrees are no plane. When it counts west or south: its plane is turned, or mirrored.
     pub fn projected(crs: Crs) -> Result<Self> {
         if crs.is_geographic() {
             return Err(Error::new(format!("{} is in degrees, not a plane", crs.name()))
                 .help("name a projected CRS such as 'EPSG:32733', or leave crs out: a DEM in degrees gets its local plane"));
+        }
+        if !crs.projection.counts_east_north() {
+            return Err(Error::unsupported(format!("{} counts west or south, a plan counts east and north", crs.name()))
+                .help("name another CRS as the scene's crs (for EPSG:5513 it is EPSG:5514; +axis=enu turns the axes of a PROJ string)"));
         }
         Ok(Self(Kind::Projected(crs)))
     }

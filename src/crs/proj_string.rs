@@ -74,6 +74,13 @@ impl Definition {
     }
 
     pub(crate) fn ellipsoid(&self) -> Result<Ellipsoid> {
+        if let Some(key) = ["R_A", "R_V", "R_a", "R_g", "R_h", "R_lat_a", "R_lat_g", "e", "es"]
+            .iter()
+            .find(|key| self.text(key).is_some())
+        {
+            return Err(Error::unsupported(format!("+{key} in the PROJ string is not supported"))
+                .help("give the ellipsoid as +a= and +rf=, or the sphere as +R="));
+        }
         if let Some(radius) = self.number("R")? {
             return Ok(Ellipsoid::from_inverse_flattening(positive("R", radius)?, 0.0));
         }

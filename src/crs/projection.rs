@@ -138,6 +138,15 @@ impl Projection {
         Some(DVec2::new(lon, lat.to_degrees()))
     }
 
+    /// Whether x counts east and y north.
+    pub(crate) fn counts_east_north(&self) -> bool {
+        match self {
+            Self::Geographic => true,
+            Self::Own(origin, _) => origin.axes == Axes::EAST_NORTH,
+            Self::Imported(imported) => imported.counts_east_north(),
+        }
+    }
+
     /// The sphere of Web Mercator, which is not the ellipsoid of its datum.
     pub(crate) fn own_ellipsoid(&self) -> Option<Ellipsoid> {
         let Self::Own(_, form) = self else { return None };

@@ -3,6 +3,7 @@ use super::*;
 use crate::math;
 use proptest::prelude::*;
 
+mod epsg_list;
 mod own;
 
 fn crs(text: &str) -> Crs {
@@ -166,6 +167,9 @@ fn every_wkt_of_the_epsg_list_is_the_same_crs_without_its_codes() {
         let Ok(expected) = Crs::from_epsg(u32::from(code)) else {
             continue;
         };
+        if epsg_corrections::corrected(u32::from(code), known.proj4) != known.proj4 {
+            continue;
+        }
         let bare = known
             .wkt
             .replace("AUTHORITY[\"EPSG\"", "AUTHORITY[\"NONE\"")
@@ -176,7 +180,7 @@ fn every_wkt_of_the_epsg_list_is_the_same_crs_without_its_codes() {
         }
     }
     // What is left: shifts that the code's PROJ string has and its WKT does not, and rare projections.
-    assert!(other.len() * 50 < same, "{same} same, {} other: {other:?}", other.len());
+    assert!(other.len() * 80 < same, "{same} same, {} other: {other:?}", other.len());
 }
 
 #[test]
@@ -228,6 +232,7 @@ fn what_is_not_a_crs_is_refused_in_words() {
         "+proj=merc +a=nan",
         "+proj=utm +zone=3 +towgs84=1,2",
         "+proj=tmerc +lat_0=1e9",
+        "+proj=laea +lat_0=52 +ellps=GRS80 +R_A",
     ] {
         let error = Crs::parse(text).expect_err(text);
         assert!(!error.is_internal() && !error.what().is_empty(), "{text}: {error}");

@@ -14,12 +14,20 @@ const DEEPEST: usize = 24;
 const LONGEST: usize = 200_000;
 
 pub(crate) fn parse(text: &str) -> Result<Crs> {
+    crs_of(&root(text)?)
+}
+
+fn root(text: &str) -> Result<Node> {
     if text.len() > LONGEST {
         return Err(malformed("it is longer than any CRS"));
     }
-    let mut reader = Reader { text, at: 0 };
-    let root = reader.node(0)?;
-    crs_of(&root)
+    Reader { text, at: 0 }.node(0)
+}
+
+/// The degrees in a unit of a geographic CRS; 1 where the text says nothing.
+pub(crate) fn degrees_per_unit_of(text: &str) -> f64 {
+    let root = root(text).ok();
+    root.as_ref().and_then(|root| root.find(&GEOGRAPHIC)).map_or(1.0, degrees_per_unit)
 }
 
 fn malformed(why: &str) -> Error {
@@ -218,7 +226,7 @@ fn crs_of_parameters(node: &Node) -> Result<Crs> {
         node.find(&GEOGRAPHIC).ok_or_else(|| malformed("a projected CRS lacks its geographic one"))?;
     let angle = degrees_per_unit(geographic);
     let mut text = match PROJECTED.contains(&node.keyword.as_str()) {
-        true => projection_text(node, angle)?,
+        true => projection_text(node, angle)? + axes_of(node),
         false => "+proj=longlat".to_owned(),
     };
     let ellipsoid = ellipsoid_of(geographic)?;
@@ -273,6 +281,17 @@ fn prime_meridian_of(geographic: &Node) -> Option<f64> {
     let own = meridian.child(&ANGLE).and_then(|unit| unit.number(1)).map(f64::to_degrees);
     let degrees = meridian.number(1)? * own.unwrap_or(1.0);
     (degrees != 0.0).then_some(degrees)
+}
+
+/// The axes of a survey that counts west and south. (East and north are meant in this order, whatever the text's.)
+fn axes_of(node: &Node) -> &'static str {
+    let mut directions = node.children().filter(|n| n.keyword == "AXIS").filter_map(|axis| axis.text(1));
+    let mut next = || directions.next().unwrap_or("").to_ascii_lowercase();
+    match (next().as_str(), next().as_str()) {
+        ("west", "south") => " +axis=wsu",
+        ("south", "west") => " +axis=swu",
+        _ => "",
+    }
 }
 
 fn projection_text(node: &Node, angle: f64) -> Result<String> {
