@@ -97,6 +97,10 @@ pub struct TerrainSpec {
     pub bounds: Option<[f64; 4]>,
     /// How a PNG encodes heights.
     pub encoding: Option<HeightEncoding>,
+    /// Which band of a file with several holds the heights, from 1.
+    pub band: Option<usize>,
+    /// A stored value that means no data, beside those that the file declares.
+    pub nodata: Option<f64>,
     /// How cells are split.
     pub diagonal: Diagonal,
     /// Heights are multiplied by this.

@@ -19,6 +19,8 @@ pub(super) fn terrain(section: &mut Section<'_>) -> Result<TerrainSpec> {
         crs: section.text("crs")?,
         bounds: rectangle(section, "bounds")?,
         encoding: section.name("encoding")?,
+        band: section.integer("band")?,
+        nodata: section.number("nodata")?,
         diagonal: section.name("diagonal")?.unwrap_or_default(),
         vertical_scale: section.number("vertical_scale")?.unwrap_or(1.0),
         ground: ground(section)?,
@@ -29,7 +31,7 @@ fn source(section: &mut Section<'_>) -> Result<TerrainSource> {
     if let Some(taken) = section.text_at("source")? {
         return Ok(TerrainSource::File(data_file(section.origin(), taken)));
     }
-    if let Some((key, place)) = section.first_of(&["window", "crs", "bounds", "encoding"]) {
+    if let Some((key, place)) = section.first_of(&["window", "crs", "bounds", "encoding", "band", "nodata"]) {
         return Err(
             section.error_at(place, format!("`terrain.{key}` goes with a `source`, not with `generate`"))
         );

@@ -27,6 +27,16 @@ pub(super) static TERRAIN: TableShape = TableShape {
             "The rectangle [x0, y0, x1, y1] that the data covers, for a file that does not say it (PNG).",
         ),
         key("encoding", choice::<HeightEncoding>(), "How a PNG encodes heights."),
+        key(
+            "band",
+            Shape::Integer(1, 4096),
+            "Which band of a file with several holds the heights. Default: the first; a picture of colours is refused.",
+        ),
+        key(
+            "nodata",
+            Shape::Number(Range::Finite),
+            "A stored value that means no data, beside those that the file declares.",
+        ),
         key("diagonal", choice::<Diagonal>(), "How cells are split. Default: \"sw-ne\"."),
         key(
             "vertical_scale",

@@ -11,6 +11,7 @@ use super::grid::{GridFile, Header, RowSink};
 use super::nodata::{Nodata, Precision};
 use super::site::Site;
 use super::text::{Word, Words, number_help};
+use super::vertical::VerticalUnit;
 use crate::error::{Error, Position, Result};
 use glam::DVec2;
 use std::collections::BTreeMap;
@@ -28,11 +29,12 @@ pub(super) struct AsciiGrid<R> {
 
 impl<R: Read + Seek> AsciiGrid<R> {
     /// Reads the header, and the `.prj` file beside it.
-    pub(super) fn open(mut input: R, site: Option<&Site>) -> Result<Self> {
+    pub(super) fn open(mut input: R, site: Option<&Site>, more_nodata: [Option<f64>; 2]) -> Result<Self> {
         let length = input.seek(SeekFrom::End(0)).map_err(unreadable)?;
         input.rewind().map_err(unreadable)?;
         let mut words = Words::new(BufReader::with_capacity(1 << 16, input));
         let (keys, first) = Keys::read(&mut words)?;
+        let prj = site.map(prj_beside).transpose()?.flatten();
         let declared = keys.get("nodata_value").unwrap_or(-9999.0);
         let header = Header {
             format: "Esri ASCII grid",
@@ -41,15 +43,18 @@ impl<R: Read + Seek> AsciiGrid<R> {
             layout: "rows".into(),
             nodata: Some(declared.to_string()),
             frame: keys.frame()?,
-            crs_hint: site.map(prj_beside).transpose()?.flatten(),
+            unit: prj.as_deref().and_then(unit_of_prj),
+            crs_hint: prj.as_deref().map(crs_of_prj),
+            scaling: None,
             notes: Vec::new(),
         };
+        let [beside, user] = more_nodata;
         Ok(Self {
             words,
             first: Some(first),
             length,
             header,
-            nodata: Nodata::new(Some(declared), Precision::Double),
+            nodata: Nodata::new([Some(declared), beside, user], Precision::Double),
         })
     }
 
@@ -246,21 +251,38 @@ fn height_of(word: &Word<'_>) -> Result<f64> {
     }
 }
 
-/// What the `.prj` file beside a grid says.
-fn prj_beside(site: &Site) -> Result<Option<CrsHint>> {
+/// The text of the `.prj` file beside a grid.
+fn prj_beside(site: &Site) -> Result<Option<String>> {
     const LONGEST: u64 = 1 << 16;
     let paths = ["prj", "PRJ"].map(|e| site.path().with_extension(e));
     let Some(file) = site.beside(paths)? else {
         return Ok(None);
     };
-    let text = file.text(LONGEST).map_err(|error| error.in_file(file.path()))?.trim().to_owned();
-    let is_wkt = ["PROJC", "GEOGC", "GEODC", "COMPD", "BOUNDCRS"]
+    let text = file.text(LONGEST).map_err(|error| error.in_file(file.path()))?;
+    Ok(Some(text.trim().to_owned()))
+}
+
+fn crs_of_prj(text: &str) -> CrsHint {
+    let is_wkt = ["PROJC", "GEOGC", "GEODC", "COMPD", "COMPOUNDCRS", "BOUNDCRS"]
         .iter()
         .any(|k| text.to_ascii_uppercase().starts_with(k));
-    Ok(Some(if is_wkt {
-        CrsHint::Wkt(text)
+    if is_wkt {
+        CrsHint::Wkt(text.to_owned())
     } else {
         let first = text.lines().next().unwrap_or_default().to_owned();
         CrsHint::Unknown(format!("{}: {first}", "the .prj file beside it"))
-    }))
+    }
+}
+
+/// The unit of heights: of the vertical CRS, or of the line `Zunits` that older programs of Esri write.
+fn unit_of_prj(text: &str) -> Option<VerticalUnit> {
+    let zunits = text.lines().find_map(|line| {
+        let (key, word) = line.trim().split_once(char::is_whitespace)?;
+        key.eq_ignore_ascii_case("zunits").then(|| word.trim())
+    });
+    match zunits {
+        Some(word) if word.eq_ignore_ascii_case("no") => None,
+        Some(word) => VerticalUnit::of_word(word),
+        None => VerticalUnit::of_wkt(text),
+    }
 }

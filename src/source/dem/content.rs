@@ -17,6 +17,8 @@ pub struct Dem {
     pub surface: Surface,
     /// What the file says of its CRS, as it says it.
     pub crs_hint: Option<CrsHint>,
+    /// Whether the file says in which unit its heights are; they are in metres in any case.
+    pub states_unit: bool,
     /// What the user should know.
     pub notes: Vec<String>,
 }

@@ -53,6 +53,12 @@ impl Frame {
         Self::new(size, DVec2::new(x0, y1) + (column + row) * 0.5, (column, row))
     }
 
+    /// A frame by GDAL's six numbers: cell (c, r) has its corner at `x = a + b c + d r`, `y = e + f c + g r`.
+    pub(super) fn of_geo_transform(size: (usize, usize), [a, b, d, e, f, g]: [f64; 6]) -> Result<Self> {
+        let (column, row) = (DVec2::new(b, f), DVec2::new(d, g));
+        Self::new(size, DVec2::new(a, e) + (column + row) * 0.5, (column, row))
+    }
+
     /// A frame for a file that says nothing of its place: cell 1, the south-west post at (0, 0).
     pub(super) fn local(size: (usize, usize)) -> Result<Self> {
         let first = DVec2::new(0.0, size.1 as f64 - 1.0);
@@ -233,6 +239,14 @@ impl PostRange {
     /// How many posts it has.
     pub(super) fn count(&self) -> usize {
         self.columns * self.rows
+    }
+
+    /// What lies in it of the samples from `column` on in `row`, and the column of the first of these.
+    pub(super) fn clip<'a>(&self, row: usize, column: usize, samples: &'a [f64]) -> (usize, &'a [f64]) {
+        let from = self.column.max(column);
+        let to = (self.column + self.columns).min(column + samples.len());
+        let inside = row >= self.row && row < self.row + self.rows && from < to;
+        if inside { (from, &samples[from - column..to - column]) } else { (from, &[]) }
     }
 }
 

@@ -1,8 +1,9 @@
 //! GeoTIFF keys -> what they say of the CRS.
 //!
 //! Source: OGC 19-008r4, "GeoTIFF Standard" 1.1: key directory in section 7.1, keys in annex D. Vertical keys say nothing
-//! here but the unit, of which a note is made. It refuses nothing: what it cannot read becomes [`CrsHint::Unknown`].
+//! here but the unit. It refuses nothing: what it cannot read becomes [`CrsHint::Unknown`].
 
+use super::vertical::VerticalUnit;
 use std::collections::BTreeMap;
 
 /// What a terrain file says of its CRS, as it says it.
@@ -51,6 +52,7 @@ mod key {
     pub(super) const CENTER_LON: u16 = 3088;
     pub(super) const CENTER_LAT: u16 = 3089;
     pub(super) const SCALE: u16 = 3092;
+    pub(super) const VERTICAL_CRS: u16 = 4096;
     pub(super) const VERTICAL_UNITS: u16 = 4099;
 }
 
@@ -89,13 +91,22 @@ impl GeoKeys {
         self.code(key::RASTER_TYPE) == Some(2)
     }
 
-    /// The vertical unit, where one is declared that is not the metre.
-    pub(super) fn foreign_vertical_unit(&self) -> Option<String> {
-        match self.code(key::VERTICAL_UNITS)? {
-            0 | METRE | USER_DEFINED => None,
-            9002 => Some("feet".into()),
-            9003 => Some("US survey feet".into()),
-            other => Some(format!("units of EPSG:{other}")),
+    /// What heights count in, where anything is said of it: by the unit's key, the vertical CRS, a compound CRS, or a text of
+    /// Esri's programs.
+    pub(super) fn vertical_unit(&self) -> Option<VerticalUnit> {
+        let code = |key| self.code(key).filter(|code| is_register(*code));
+        let of_crs = [key::VERTICAL_CRS, key::PROJECTED_CRS, key::GEODETIC_CRS]
+            .into_iter()
+            .find_map(|key| VerticalUnit::of_crs_code(code(key)?.into()))
+            .or_else(|| VerticalUnit::of_wkt(&self.esri_wkt()?));
+        let Some(unit) = code(key::VERTICAL_UNITS).map(VerticalUnit::of_unit_code) else {
+            return of_crs;
+        };
+        // The key has no direction: that is the CRS's.
+        let down = of_crs.is_some_and(|unit| unit.metres() < 0.0);
+        match unit {
+            VerticalUnit::Metres(metres, words) if down => Some(VerticalUnit::Metres(-metres, words)),
+            unit => Some(unit),
         }
     }
 
@@ -377,7 +388,18 @@ mod tests {
             panic!("a CRS in feet is not understood");
         };
         assert!(why.starts_with("Maine: ") && why.contains("EPSG:9003"), "{why}");
-        assert_eq!(feet.foreign_vertical_unit(), Some("feet".into()));
+        assert_eq!(feet.vertical_unit().map(|unit| unit.metres()), Some(0.3048));
+    }
+
+    #[test]
+    fn the_vertical_crs_tells_the_unit_where_no_key_does() {
+        let metres = |entries: &[[u16; 4]]| keys(entries, &[], "").vertical_unit().map(|unit| unit.metres());
+        let survey_foot = Some(1200.0 / 3937.0);
+        assert_eq!(metres(&[[1024, 0, 1, 1], [3072, 0, 1, 2263], [4096, 0, 1, 6360]]), survey_foot);
+        assert_eq!(metres(&[[1024, 0, 1, 1], [3072, 0, 1, 8712]]), survey_foot);
+        assert_eq!(metres(&[[1024, 0, 1, 1], [3072, 0, 1, 32633], [4096, 0, 1, 5773]]), None);
+        assert_eq!(metres(&[[4096, 0, 1, 6358], [4099, 0, 1, 9001]]), Some(-1.0));
+        assert_eq!(metres(&[[4096, 0, 1, 32767], [4099, 0, 1, 9002]]), Some(0.3048));
     }
 
     #[test]

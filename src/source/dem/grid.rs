@@ -6,6 +6,7 @@
 use super::failure::too_many_posts;
 use super::frame::{Frame, PostRange, Turn};
 use super::geo_keys::CrsHint;
+use super::vertical::VerticalUnit;
 use crate::error::{Error, Result};
 use crate::scene::Posts;
 use crate::space::Plan;
@@ -42,6 +43,11 @@ pub(super) struct Header {
     pub(super) nodata: Option<String>,
     pub(super) frame: Frame,
     pub(super) crs_hint: Option<CrsHint>,
+    /// What the samples count in, once scaled; the metre where nothing is said.
+    pub(super) unit: Option<VerticalUnit>,
+    /// Factor and offset from samples to heights in that unit.
+    pub(super) scaling: Option<(f64, f64)>,
+    /// What the user should know; a scan may add to it.
     pub(super) notes: Vec<String>,
 }
 
@@ -73,7 +79,10 @@ impl Sheet {
         if self.infinite > 0 {
             notes.push(format!("{} infinite heights are taken as no data", self.infinite));
         }
-        note_range(&self.heights, notes)?;
+        if self.heights.iter().all(|h| h.is_nan()) {
+            return Err(Error::new("no post of the wanted part holds data")
+                .help("choose another window, or check the file's nodata value and masks with gdalinfo"));
+        }
         Posts::new(
             (self.part.columns, self.part.rows),
             Plan::from(self.first),
@@ -86,48 +95,20 @@ impl Sheet {
 impl RowSink for Sheet {
     fn take(&mut self, row: usize, column: usize, heights: &[f64]) {
         let part = self.part;
-        if row < part.row || row >= part.row + part.rows {
+        let (from, inside) = part.clip(row, column, heights);
+        if inside.is_empty() {
             return;
         }
-        let from = part.column.max(column);
-        let to = (part.column + part.columns).min(column + heights.len());
         let row = row - part.row;
         let row = if self.turn.rows { part.rows - 1 - row } else { row };
         let line = &mut self.heights[row * part.columns..][..part.columns];
-        for c in from..to {
-            let mut height = heights[c - column];
+        for (c, mut height) in (from - part.column..).zip(inside.iter().copied()) {
             if height.is_infinite() {
                 self.infinite += 1;
                 height = f64::NAN;
             }
-            let c = c - part.column;
             let c = if self.turn.columns { part.columns - 1 - c } else { c };
             line[c] = height;
         }
     }
 }
-
-/// Refuses a part without any data; notes heights that the Earth does not have.
-fn note_range(heights: &[f64], notes: &mut Vec<String>) -> Result<()> {
-    let mut range = [f64::INFINITY, f64::NEG_INFINITY];
-    for &h in heights {
-        range = [crate::math::min(h, range[0]), crate::math::max(h, range[1])];
-    }
-    let [low, high] = range;
-    if low > high {
-        return Err(Error::new("no post of the wanted part holds data")
-            .help("choose another window, or check the file's nodata value with gdalinfo"));
-    }
-    if low < DEEPEST || high > HIGHEST {
-        notes.push(format!(
-            "heights run from {low} to {high}: if that is a nodata value, declare it (gdal_edit.py -a_nodata VALUE)"
-        ));
-    }
-    Ok(())
-}
-
-/// Below the deepest sea floor, in metres.
-const DEEPEST: f64 = -11_500.0;
-
-/// Above the highest summit, in metres or feet.
-const HIGHEST: f64 = 30_000.0;

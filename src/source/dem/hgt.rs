@@ -7,6 +7,7 @@ use super::failure::unreadable;
 use super::frame::{Frame, PostRange};
 use super::geo_keys::CrsHint;
 use super::grid::{GridFile, Header, RowSink};
+use super::nodata::{Nodata, Precision};
 use super::site::Input;
 use crate::error::{Error, Result};
 use glam::DVec2;
@@ -19,11 +20,12 @@ const VOID: i16 = -32768;
 pub(super) struct Hgt {
     file: Input,
     header: Header,
+    nodata: Nodata,
 }
 
 impl Hgt {
     /// Tells size and place from the file's length and name.
-    pub(super) fn open(file: Input, path: &Path) -> Result<Self> {
+    pub(super) fn open(file: Input, path: &Path, more_nodata: [Option<f64>; 2]) -> Result<Self> {
         let length = file.length()?;
         let posts = posts_a_side(length)?;
         let name = path.file_stem().unwrap_or_default().to_string_lossy();
@@ -42,9 +44,13 @@ impl Hgt {
             nodata: Some(VOID.to_string()),
             frame,
             crs_hint: Some(CrsHint::Epsg(4326)),
+            unit: None,
+            scaling: None,
             notes: Vec::new(),
         };
-        Ok(Self { file, header })
+        let [beside, user] = more_nodata;
+        let nodata = Nodata::new([Some(VOID.into()), beside, user], Precision::Whole);
+        Ok(Self { file, header, nodata })
     }
 }
 
@@ -67,16 +73,12 @@ impl GridFile for Hgt {
                 .and_then(|_| self.file.read_exact(&mut bytes))
                 .map_err(unreadable)?;
             for (height, pair) in heights.iter_mut().zip(bytes.as_chunks().0) {
-                *height = height_of(i16::from_be_bytes(*pair));
+                *height = self.nodata.height(i16::from_be_bytes(*pair).into());
             }
             sink.take(row, part.column, &heights);
         }
         Ok(())
     }
-}
-
-fn height_of(sample: i16) -> f64 {
-    if sample == VOID { f64::NAN } else { f64::from(sample) }
 }
 
 fn posts_a_side(length: u64) -> Result<usize> {

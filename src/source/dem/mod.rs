@@ -24,20 +24,26 @@
 
 mod ascii;
 mod content;
+mod extremes;
 mod failure;
 pub(super) mod frame;
 mod geo_keys;
 mod geotiff;
 mod grid;
 mod hgt;
+mod mask;
 mod nodata;
 mod open;
 mod options;
 mod png;
+mod refined;
+mod sidecar;
 pub(super) mod site;
 mod summary;
 mod text;
+mod vertical;
 pub(super) mod world_file;
+mod xml;
 mod xyz;
 
 #[cfg(test)]
@@ -68,17 +74,17 @@ pub fn read(path: &Path, options: &DemOptions) -> Result<Dem> {
 
 /// Reads the wanted part of a grid.
 fn read_grid(file: &mut dyn GridFile, window: Option<[f64; 4]>) -> Result<Dem> {
-    let mut notes = file.header().notes.clone();
     let crs_hint = file.header().crs_hint.clone();
     let frame = file.header().frame;
     let (part, note) = frame.part(window)?;
-    notes.extend(note);
     file.check_promise(&part)?;
     if part.count() > MAX_POSTS {
         return Err(failure::too_many_posts(&part));
     }
     let mut sheet = Sheet::new(&frame, part)?;
     file.scan(&part, &mut sheet)?;
+    let mut notes = file.header().notes.clone();
+    notes.extend(note);
     let posts = sheet.finish(&mut notes)?;
-    Ok(Dem { surface: Surface::Grid(posts), crs_hint, notes })
+    Ok(Dem { surface: Surface::Grid(posts), crs_hint, states_unit: file.header().unit.is_some(), notes })
 }

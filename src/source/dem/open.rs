@@ -2,11 +2,13 @@
 
 use super::ascii::AsciiGrid;
 use super::failure::unreadable;
-use super::geotiff::GeoTiff;
+use super::geotiff::{GeoTiff, MaskPlace};
 use super::grid::GridFile;
 use super::hgt::Hgt;
 use super::options::DemOptions;
 use super::png::HeightPng;
+use super::refined::Refined;
+use super::sidecar::Sidecar;
 use super::site::{Input, Site};
 use super::xyz::Xyz;
 use crate::error::{Error, Result};
@@ -34,20 +36,55 @@ fn open_site(site: &Site, options: &DemOptions) -> Result<DemFile> {
         return Err(Error::new("the file is empty").help("fetch it again"));
     }
     refuse_packed(&magic)?;
-    let file = site.open()?;
     let extension = site.extension();
-    let grid: Box<dyn GridFile> = match (magic.as_slice(), extension.as_str()) {
-        ([b'I', b'I', 42 | 43, 0, ..] | [b'M', b'M', 0, 42 | 43, ..], _) => {
-            Box::new(GeoTiff::open(file, Some(site), options.bounds)?)
+    let is_tiff = matches!(magic[..], [b'I', b'I', 42 | 43, 0, ..] | [b'M', b'M', 0, 42 | 43, ..]);
+    if let (Some(band @ (0 | 2..)), false) = (options.band, is_tiff) {
+        return Err(Error::new(format!("`band` = {band}, but the file has one band")));
+    }
+    let beside = Sidecar::beside(site, options.band.unwrap_or(1))?;
+    let nodata = [beside.nodata, options.nodata];
+    let file = site.open()?;
+    let (grid, mut masks): (Box<dyn GridFile>, _) = match (magic.as_slice(), extension.as_str()) {
+        _ if is_tiff => {
+            let (file, masks) = GeoTiff::open(file, Some(site), options, &beside)?;
+            (Box::new(file), masks_of(site, masks)?)
         }
-        ([0x89, b'P', b'N', b'G', ..], _) => Box::new(HeightPng::open(file, site, options)?),
-        (_, "hgt") => Box::new(Hgt::open(file, site.path())?),
-        (_, "asc" | "agr") => Box::new(AsciiGrid::open(file, Some(site))?),
-        (_, "xyz") => return Ok(DemFile::Points(Xyz::open(file)?)),
+        ([0x89, b'P', b'N', b'G', ..], _) => {
+            (Box::new(HeightPng::open(file, site, options, &beside)?), Vec::new())
+        }
+        (_, "hgt") => (Box::new(Hgt::open(file, site.path(), nodata)?), Vec::new()),
+        (_, "asc" | "agr") => (Box::new(AsciiGrid::open(file, Some(site), nodata)?), Vec::new()),
+        (_, "xyz") => return Ok(DemFile::Points(Xyz::open(file, options.nodata)?)),
         (_, "tif" | "tiff" | "png") => return Err(not_what_it_says(&extension)),
         _ => return Err(unknown(&extension)),
     };
-    Ok(DemFile::Grid(grid))
+    masks.extend(mask_beside(site, options.band)?);
+    Ok(DemFile::Grid(Box::new(Refined::new(grid, beside, masks)?)))
+}
+
+/// The masks inside a TIFF, each read through its own view of the file.
+fn masks_of(site: &Site, places: Vec<MaskPlace>) -> Result<Vec<Box<dyn GridFile>>> {
+    let open = |place| -> Result<Box<dyn GridFile>> {
+        let mask = GeoTiff::open_mask(site.open()?, place);
+        Ok(Box::new(mask.map_err(|error| error.reworded(|what| format!("its mask: {what}")))?))
+    };
+    places.into_iter().map(open).collect()
+}
+
+/// The mask in a file of its own: `FILE.msk`, a TIFF with a band for all, or one for each band.
+fn mask_beside(site: &Site, band: Option<usize>) -> Result<Option<Box<dyn GridFile>>> {
+    let Some(file) = site.with_ending(".msk")? else {
+        return Ok(None);
+    };
+    let open = |band| Ok::<_, Error>(GeoTiff::open_mask(file.open()?, MaskPlace::Band(band))?);
+    let mask = match band {
+        Some(band @ 2..) => open(band - 1).or_else(|_| open(0)),
+        _ => open(0),
+    };
+    let mask = mask.map_err(|error| {
+        error.in_file(file.path()).help("it masks the terrain file beside it: write it anew, or remove it")
+    })?;
+    Ok(Some(Box::new(mask)))
 }
 
 /// The first bytes of a file.

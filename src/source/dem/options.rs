@@ -11,6 +11,10 @@ pub struct DemOptions {
     /// The outer edges x0, y0, x1, y1 of an image that says itself nothing of its place (PNG or TIFF without geo keys
     /// and without a world file); such an image is else a grid of cell 1 whose south-west post stands at (0, 0).
     pub bounds: Option<[f64; 4]>,
+    /// Which band of a file with several holds the heights, from 1; `None`: the first, where the file is no picture.
+    pub band: Option<usize>,
+    /// A stored value that means no data, beside those that the file declares.
+    pub nodata: Option<f64>,
 }
 
 /// How a PNG encodes heights.

@@ -8,7 +8,9 @@ use super::content::MAX_POSTS;
 use super::failure::{too_many_posts, unreadable};
 use super::frame::{Frame, PostRange};
 use super::grid::{GridFile, Header, RowSink};
+use super::nodata::{Nodata, Precision};
 use super::options::{DemOptions, PngEncoding};
+use super::sidecar::Sidecar;
 use super::site::{Input, Site};
 use super::world_file;
 use crate::error::{Error, Result};
@@ -25,12 +27,13 @@ pub(super) struct HeightPng {
     header: Header,
     encoding: PngEncoding,
     channels: usize,
+    nodata: Nodata,
     file_length: u64,
 }
 
 impl HeightPng {
     /// Reads the header.
-    pub(super) fn open(mut file: Input, site: &Site, options: &DemOptions) -> Result<Self> {
+    pub(super) fn open(mut file: Input, site: &Site, options: &DemOptions, beside: &Sidecar) -> Result<Self> {
         let encoding = options.encoding.ok_or_else(|| {
             Error::new("a PNG does not say how its colours encode heights")
                 .help("say it: encoding = \"terrarium\" or encoding = \"mapbox\"")
@@ -44,7 +47,7 @@ impl HeightPng {
         }
         let (columns, rows) = decoder.dimensions();
         let size = (columns as usize, rows as usize);
-        let (frame, note) = place(site, size, options.bounds)?;
+        let (frame, note) = place(site, size, options.bounds, beside.place)?;
         let header = Header {
             format: "PNG",
             sample: "uint8 x 3".into(),
@@ -53,9 +56,12 @@ impl HeightPng {
             nodata: None,
             frame,
             crs_hint: None,
+            unit: None,
+            scaling: None,
             notes: vec![note.into()],
         };
-        Ok(Self { decoder: Some(decoder), header, encoding, channels, file_length })
+        let nodata = Nodata::new([None, beside.nodata, options.nodata], Precision::Double);
+        Ok(Self { decoder: Some(decoder), header, encoding, channels, nodata, file_length })
     }
 
     fn pixel_bytes(&self) -> usize {
@@ -93,7 +99,7 @@ impl GridFile for HeightPng {
         let mut heights = vec![0.0; columns];
         for (row, line) in pixels.chunks_exact(columns * self.channels).enumerate() {
             for (height, pixel) in heights.iter_mut().zip(line.chunks_exact(self.channels)) {
-                *height = height_of(self.encoding, pixel);
+                *height = self.nodata.height(height_of(self.encoding, pixel));
             }
             sink.take(row, 0, &heights);
         }
@@ -116,7 +122,15 @@ fn height_of(encoding: PngEncoding, pixel: &[u8]) -> f64 {
     }
 }
 
-fn place(site: &Site, size: (usize, usize), bounds: Option<[f64; 4]>) -> Result<(Frame, &'static str)> {
+fn place(
+    site: &Site,
+    size: (usize, usize),
+    bounds: Option<[f64; 4]>,
+    beside: Option<[f64; 6]>,
+) -> Result<(Frame, &'static str)> {
+    if let Some(place) = beside {
+        return Ok((Frame::of_geo_transform(size, place)?, "placed by the .aux.xml beside it"));
+    }
     if let Some(frame) = world_file::frame_beside(site, size)? {
         return Ok((frame, "placed by the world file beside it; it has no CRS"));
     }

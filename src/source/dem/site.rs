@@ -129,6 +129,16 @@ impl Site {
         Ok(Some(Self { path: entry.name.into(), packed: Some(packed) }))
     }
 
+    /// The file whose name is this one's and an ending, like `dem.tif.msk`.
+    pub(super) fn with_ending(&self, ending: &str) -> Result<Option<Self>> {
+        let name = |ending: &str| {
+            let mut name = self.path.clone().into_os_string();
+            name.push(ending);
+            PathBuf::from(name)
+        };
+        self.beside([name(ending), name(&ending.to_ascii_uppercase())])
+    }
+
     /// The file as text of at most `longest` bytes.
     pub(super) fn text(&self, longest: u64) -> Result<String> {
         let mut bytes = Vec::new();

@@ -19,6 +19,8 @@ const LONGEST: usize = 1 << 12;
 /// A file of points.
 pub(super) struct Xyz<R> {
     input: BufReader<R>,
+    /// A height that means no data.
+    nodata: Option<f64>,
 }
 
 /// A point and the line that gives it.
@@ -31,8 +33,8 @@ pub(super) struct Sighting {
 impl<R: Read> Xyz<R> {
     /// Takes a file that stands at its beginning.
     #[expect(clippy::unnecessary_wraps, reason = "opens like the other formats")]
-    pub(super) fn open(input: R) -> Result<Self> {
-        Ok(Self { input: BufReader::with_capacity(1 << 16, input) })
+    pub(super) fn open(input: R, nodata: Option<f64>) -> Result<Self> {
+        Ok(Self { input: BufReader::with_capacity(1 << 16, input), nodata })
     }
 
     /// Reads the points inside the window (its edges included).
@@ -60,10 +62,10 @@ impl<R: Read> Xyz<R> {
         if repeated > 0 {
             notes.push(format!("{repeated} points that repeat others are left out"));
         }
-        Ok(Dem { surface: Surface::Points(points), crs_hint: None, notes })
+        Ok(Dem { surface: Surface::Points(points), crs_hint: None, states_unit: false, notes })
     }
 
-    /// Hands on each point of the file.
+    /// Hands on each point of the file that has a height.
     pub(super) fn each(&mut self, take: &mut dyn FnMut(Sighting) -> Result<()>) -> Result<()> {
         let mut bytes = Vec::new();
         let mut may_be_header = true;
@@ -86,7 +88,9 @@ impl<R: Read> Xyz<R> {
             let header = std::mem::take(&mut may_be_header) && number(first).is_none();
             if !header {
                 let point = point(&fields, line)?;
-                take(Sighting { point, line })?;
+                if Some(point.z) != self.nodata {
+                    take(Sighting { point, line })?;
+                }
             }
         }
         Ok(())

@@ -75,6 +75,9 @@ fn from_file(
     let note = &mut |text: String| notes.push(format!("terrain: {text}"));
     dem.notes.iter().for_each(|text| note(text.clone()));
     let own = own_crs(scene, &dem, asked.is_some(), note).map_err(|error| named.blame(error))?;
+    if let Some(text) = own.as_ref().filter(|_| !dem.states_unit).and_then(unit_of_heights) {
+        note(text);
+    }
     let extent = bounds(&dem.surface);
     let (space, map) = plan_and_map(asked, own, extent, note).map_err(|error| named.blame(error))?;
     let resampled =
@@ -95,6 +98,8 @@ fn options(scene: &SceneFile) -> DemOptions {
             HeightEncoding::Mapbox => PngEncoding::Mapbox,
         }),
         bounds: scene.terrain.bounds,
+        band: scene.terrain.band,
+        nodata: scene.terrain.nodata,
     }
 }
 
@@ -123,6 +128,16 @@ fn own_crs(
         note(text);
     }
     Ok(crs)
+}
+
+/// What to say of heights of no stated unit in a CRS that does not count in metres.
+fn unit_of_heights(crs: &Crs) -> Option<String> {
+    let metres = crs.metres_per_unit().filter(|metres| *metres != 1.0)?;
+    Some(format!(
+        "{} counts in units of {metres} m, and nothing says in which its heights are: they are taken as metres \
+         (`vertical_scale = {metres}` if they are in the CRS's unit)",
+        crs.name()
+    ))
 }
 
 /// The scene's plan, and how the terrain gets there.

@@ -2,12 +2,17 @@
 //!
 //! Source: "TIFF 6.0", section 8; GDAL's documentation of its GeoTIFF driver for the two tags of its own.
 
+use super::super::frame::Frame;
 use super::super::geo_keys::GeoKeys;
 use super::super::grid::Header;
 use super::super::nodata::Nodata;
+use super::super::options::DemOptions;
+use super::super::sidecar::Sidecar;
 use super::super::site::Site;
+use super::bands::{Bands, refuse_picture};
 use super::codec::{Compression, Predictor};
 use super::layout::Layout;
+use super::metadata::Metadata;
 use super::place;
 use super::sample::Sample;
 use super::tags::{Directory, Endian, Source, tag};
@@ -20,8 +25,8 @@ pub(super) struct Head {
     pub(super) layout: Layout,
     pub(super) coding: Coding,
     pub(super) nodata: Nodata,
-    /// Factor and offset from samples to heights.
-    pub(super) scaling: Option<(f64, f64)>,
+    /// The bands that say by 0 where there is no post, from 0.
+    pub(super) alphas: Vec<usize>,
 }
 
 /// How samples are written.
@@ -33,36 +38,77 @@ pub(super) struct Coding {
     pub(super) sample: Sample,
     /// Samples a pixel in a block.
     pub(super) stride: usize,
+    /// Which of them is wanted.
+    pub(super) which: usize,
 }
 
 impl Head {
-    /// Reads the tags; `site` serves to find a world file, `bounds` stands in for a missing place.
+    /// Reads the tags of a raster of heights; `site` serves to find a world file, the options' `bounds` stand in for a missing
+    /// place.
     pub(super) fn read<R: Read + Seek>(
+        directory: &Directory,
         source: &mut Source<R>,
         site: Option<&Site>,
-        bounds: Option<[f64; 4]>,
+        options: &DemOptions,
+        beside: &Sidecar,
     ) -> Result<Self> {
-        let directory = Directory::read(source)?;
-        let size = raster_size(&directory, source)?;
-        let (coding, bands) = coding(&directory, source)?;
-        let layout = layout(&directory, source, size, &coding)?;
-        let keys = geo_keys(&directory, source)?;
-        let (frame, note) = place::frame(&directory, source, &keys, size, (site, bounds))?;
+        let size = raster_size(directory, source)?;
+        let bands = Bands::read(directory, source, options.band)?;
+        let coding = coding(directory, source, &bands)?;
+        if coding.sample == Sample::Bit {
+            return Err(Error::unsupported("samples of a single bit are no heights")
+                .help("name the file of heights that belongs to it"));
+        }
+        refuse_picture(directory, source, coding.sample == Sample::U8, options.band)?;
+        let layout = layout(directory, source, size, &coding, &bands)?;
+        let keys = geo_keys(directory, source)?;
+        let place = (site, options.bounds, beside.place);
+        let (frame, note) = place::frame(directory, source, &keys, size, place)?;
         let declared = directory.text(source, tag::GDAL_NODATA)?;
-        let nodata = nodata(declared.as_deref(), coding.sample)?;
-        let scaling = scaling(&directory, source)?;
-        let notes = [note, note_bands(bands), note_units(&keys), note_scaling(scaling)];
+        let of_file = nodata(declared.as_deref())?;
+        let metadata = Metadata::read(directory, source, bands.heights)?;
+        let notes = [note, bands.note(options.band), metadata.note];
+        let declared = declared.map(|text| text.trim().to_owned());
         let header = Header {
             format: if directory.big { "BigTIFF" } else { "GeoTIFF" },
             sample: coding.sample.name().into(),
             compression: coding.compression.name().into(),
             layout: layout.describe(),
-            nodata: declared.map(|text| text.trim().to_owned()),
+            nodata: declared.or(beside.nodata.map(|v| v.to_string())),
             frame,
             crs_hint: keys.crs_hint(),
+            unit: metadata.unit.or_else(|| keys.vertical_unit()),
+            scaling: metadata.scaling,
             notes: notes.into_iter().flatten().collect(),
         };
-        Ok(Self { header, layout, coding, nodata, scaling })
+        let nodata = Nodata::new([of_file, beside.nodata, options.nodata], coding.sample.precision());
+        Ok(Self { header, layout, coding, nodata, alphas: bands.alphas })
+    }
+
+    /// Reads the tags of a mask: of a band, from 0, whose samples are no heights.
+    pub(super) fn of_mask<R: Read + Seek>(
+        directory: &Directory,
+        source: &mut Source<R>,
+        band: usize,
+    ) -> Result<Self> {
+        let size = raster_size(directory, source)?;
+        let bands = Bands::read(directory, source, Some(band + 1))?;
+        let coding = coding(directory, source, &bands)?;
+        let layout = layout(directory, source, size, &coding, &bands)?;
+        let header = Header {
+            format: "mask",
+            sample: coding.sample.name().into(),
+            compression: coding.compression.name().into(),
+            layout: layout.describe(),
+            nodata: None,
+            frame: Frame::local(size)?,
+            crs_hint: None,
+            unit: None,
+            scaling: None,
+            notes: Vec::new(),
+        };
+        let nodata = Nodata::new([None; 3], coding.sample.precision());
+        Ok(Self { header, layout, coding, nodata, alphas: Vec::new() })
     }
 }
 
@@ -78,31 +124,32 @@ fn raster_size<R: Read + Seek>(directory: &Directory, source: &mut Source<R>) ->
     Ok((read(tag::WIDTH, "width")?, read(tag::HEIGHT, "height")?))
 }
 
-/// How samples are written, and how many bands there are.
-fn coding<R: Read + Seek>(directory: &Directory, source: &mut Source<R>) -> Result<(Coding, u64)> {
+/// How samples are written.
+fn coding<R: Read + Seek>(directory: &Directory, source: &mut Source<R>, bands: &Bands) -> Result<Coding> {
     let mut get = |tag, default| Ok::<_, Error>(directory.whole(source, tag)?.unwrap_or(default));
-    let bands = get(tag::SAMPLES_PER_PIXEL, 1)?;
-    if bands == 0 || bands > 1 << 12 {
-        return Err(Error::new(format!("the TIFF's {bands} bands are absurd"))
-            .help("extract the heights: gdal_translate -b 1 FILE OUT.tif"));
-    }
     if get(tag::FILL_ORDER, 1)? != 1 {
         return Err(Error::unsupported("the TIFF's bytes hold their bits in reverse (FillOrder 2)")
             .help("rewrite the file: gdal_translate FILE OUT.tif"));
     }
-    let sample = Sample::from_tags(get(tag::BITS, 1)?, get(tag::SAMPLE_FORMAT, 1)?)?;
-    let interleaved = get(tag::PLANAR, 1)? != 2;
+    let (code, predictor) = (get(tag::COMPRESSION, 1)?, get(tag::PREDICTOR, 1)?);
+    let mut of_band = |tag| {
+        let values = directory.wholes(source, tag, bands.heights as u64 + 1)?;
+        Ok::<_, Error>(values.get(bands.heights).or(values.first()).copied().unwrap_or(1))
+    };
+    let sample = Sample::from_tags(of_band(tag::BITS)?, of_band(tag::SAMPLE_FORMAT)?)?;
+    let (stride, which) = bands.in_pixel();
     let coding = Coding {
         endian: directory.endian,
-        compression: Compression::from_tag(get(tag::COMPRESSION, 1)?)?,
-        predictor: Predictor::from_tag(get(tag::PREDICTOR, 1)?, sample.is_floating())?,
+        compression: Compression::from_tag(code)?,
+        predictor: Predictor::from_tag(predictor, sample.is_floating())?,
         sample,
-        stride: if interleaved { bands as usize } else { 1 },
+        stride,
+        which,
     };
-    if interleaved && bands > 1 {
-        check_equal_bits(directory, source, bands)?;
+    if stride > 1 {
+        check_equal_bits(directory, source, stride as u64)?;
     }
-    Ok((coding, bands))
+    Ok(coding)
 }
 
 /// Refuses interleaved bands of different sizes.
@@ -121,8 +168,9 @@ fn layout<R: Read + Seek>(
     source: &mut Source<R>,
     size: (usize, usize),
     coding: &Coding,
+    bands: &Bands,
 ) -> Result<Layout> {
-    let layout = Layout::read(directory, source, size, coding.sample.size() * coding.stride)?;
+    let layout = Layout::read(directory, source, size, coding.sample.bits() * coding.stride, bands.plane())?;
     if coding.compression != Compression::None && !layout.has_lengths() {
         return Err(Error::new("the TIFF does not say how long its compressed blocks are")
             .help("rewrite the file: gdal_translate FILE OUT.tif"));
@@ -139,7 +187,8 @@ fn geo_keys<R: Read + Seek>(directory: &Directory, source: &mut Source<R>) -> Re
     Ok(GeoKeys::new(&keys, &numbers, &text))
 }
 
-fn nodata(declared: Option<&str>, sample: Sample) -> Result<Nodata> {
+/// The value that the file declares.
+fn nodata(declared: Option<&str>) -> Result<Option<f64>> {
     let text = declared.map(str::trim).filter(|t| !t.is_empty());
     let value = text.map(|text| {
         text.parse().map_err(|_| {
@@ -147,42 +196,5 @@ fn nodata(declared: Option<&str>, sample: Sample) -> Result<Nodata> {
                 .help("set it anew: gdal_edit.py -a_nodata VALUE FILE")
         })
     });
-    Ok(Nodata::new(value.transpose()?, sample.precision()))
-}
-
-/// Factor and offset of the first band in GDAL's metadata: height = sample * factor + offset.
-fn scaling<R: Read + Seek>(directory: &Directory, source: &mut Source<R>) -> Result<Option<(f64, f64)>> {
-    let Some(xml) = directory.text(source, tag::GDAL_METADATA)? else {
-        return Ok(None);
-    };
-    let factor = metadata_item(&xml, "scale").unwrap_or(1.0);
-    let offset = metadata_item(&xml, "offset").unwrap_or(0.0);
-    Ok(((factor, offset) != (1.0, 0.0)).then_some((factor, offset)))
-}
-
-/// The number in `<Item ... sample="0" role="ROLE">number</Item>`.
-fn metadata_item(xml: &str, role: &str) -> Option<f64> {
-    let role = format!("role=\"{role}\"");
-    xml.split("<Item ").skip(1).find_map(|item| {
-        let (attributes, rest) = item.split_once('>')?;
-        if !attributes.contains(&role) || !attributes.contains("sample=\"0\"") {
-            return None;
-        }
-        let number: f64 = rest.split_once('<')?.0.trim().parse().ok()?;
-        number.is_finite().then_some(number)
-    })
-}
-
-fn note_bands(bands: u64) -> Option<String> {
-    (bands > 1).then(|| format!("the file has {bands} bands: the first is taken as heights"))
-}
-
-fn note_units(keys: &GeoKeys) -> Option<String> {
-    let unit = keys.foreign_vertical_unit()?;
-    Some(format!("the file declares heights in {unit}; they are taken as metres (set vertical_scale)"))
-}
-
-fn note_scaling(scaling: Option<(f64, f64)>) -> Option<String> {
-    let (factor, offset) = scaling?;
-    Some(format!("heights are samples x {factor} + {offset}, as the file declares"))
+    value.transpose()
 }

@@ -9,7 +9,7 @@ use std::ops::Range;
 /// The largest row of a block, in bytes, that is held.
 const LONGEST_ROW: u64 = 1 << 26;
 
-/// The blocks of the first band.
+/// The blocks of a band.
 #[derive(Debug)]
 pub(super) struct Layout {
     /// Columns and rows of the raster.
@@ -17,8 +17,8 @@ pub(super) struct Layout {
     /// Columns and rows of a block; blocks at the edge of tiled rasters reach beyond it.
     pub(super) block: (usize, usize),
     pub(super) tiled: bool,
-    /// Bytes a pixel in a block.
-    pub(super) pixel_bytes: usize,
+    /// Bits a pixel in a block.
+    pixel_bits: usize,
     across: usize,
     offsets: Vec<u64>,
     /// Lengths in the file; empty where an uncompressed file leaves them out.
@@ -52,12 +52,14 @@ impl Block {
 }
 
 impl Layout {
-    /// Reads the layout of a raster; `pixel_bytes` is the size of all interleaved samples of a pixel.
+    /// Reads the layout of a raster: `pixel_bits` is the size of all interleaved samples of a pixel, `plane` which of the
+    /// sets of blocks is wanted where bands lie apart.
     pub(super) fn read<R: Read + Seek>(
         directory: &Directory,
         source: &mut Source<R>,
         size: (usize, usize),
-        pixel_bytes: usize,
+        pixel_bits: usize,
+        plane: usize,
     ) -> Result<Self> {
         let tiled = directory.has(tag::TILE_WIDTH) || directory.has(tag::TILE_OFFSETS);
         let block = if tiled {
@@ -67,9 +69,10 @@ impl Layout {
             let rows = directory.whole(source, tag::ROWS_PER_STRIP)?;
             (size.0 as u64, rows.unwrap_or(u64::MAX).min(size.1 as u64))
         };
-        let block = checked_block(block, pixel_bytes)?;
+        let block = checked_block(block, pixel_bits)?;
         let across = size.0.div_ceil(block.0);
-        let count = across as u64 * size.1.div_ceil(block.1) as u64;
+        let in_plane = across as u64 * size.1.div_ceil(block.1) as u64;
+        let count = in_plane.saturating_mul(plane as u64 + 1);
         let (offsets, lengths) = if tiled {
             (tag::TILE_OFFSETS, tag::TILE_LENGTHS)
         } else {
@@ -86,15 +89,13 @@ impl Layout {
             ))
             .help("the header is damaged: fetch the file again"));
         }
-        Ok(Self {
-            size,
-            block,
-            tiled,
-            pixel_bytes,
-            across,
-            offsets: directory.wholes(source, offsets, count)?,
-            lengths: directory.wholes(source, lengths, count)?,
-        })
+        let mut of_plane = |tag| {
+            let mut values = directory.wholes(source, tag, count)?;
+            values.drain(..values.len().saturating_sub(in_plane as usize));
+            Ok::<_, Error>(values)
+        };
+        let (offsets, lengths) = (of_plane(offsets)?, of_plane(lengths)?);
+        Ok(Self { size, block, tiled, pixel_bits, across, offsets, lengths })
     }
 
     /// Whether the file says how long its blocks are.
@@ -115,7 +116,7 @@ impl Layout {
 
     /// The bytes of a block's row.
     pub(super) fn row_bytes(&self) -> usize {
-        self.block.0 * self.pixel_bytes
+        (self.block.0 * self.pixel_bits).div_ceil(8)
     }
 
     /// The blocks that hold samples of `part`, in file order.
@@ -142,8 +143,8 @@ impl Layout {
     }
 }
 
-fn checked_block((columns, rows): (u64, u64), pixel_bytes: usize) -> Result<(usize, usize)> {
-    let longest = LONGEST_ROW / pixel_bytes as u64;
+fn checked_block((columns, rows): (u64, u64), pixel_bits: usize) -> Result<(usize, usize)> {
+    let longest = 8 * LONGEST_ROW / pixel_bits as u64;
     if columns == 0 || rows == 0 || columns > longest || rows > 1 << 31 {
         return Err(Error::unsupported(format!(
             "blocks of {columns} x {rows} samples are not supported (a row may have {longest})"

@@ -1,12 +1,14 @@
-//! GeoTIFF and BigTIFF, classic layouts: strips or tiles, first band, first image.
+//! GeoTIFF and BigTIFF, classic layouts: strips or tiles, one band of the first image, and the masks that belong to it.
 //!
-//! Reads 8, 16 and 32-bit whole numbers, single and double precision; uncompressed, LZW or deflate, with any predictor;
+//! Reads 8, 16 and 32-bit whole numbers, half, single and double precision; uncompressed, LZW or deflate, with any predictor;
 //! only the blocks that the window needs, one row of one block at a time. It refuses other compressions by name, and, before
 //! memory is set aside, blocks outside the file and blocks that promise more than their bytes can stand for.
 
+mod bands;
 mod codec;
 mod head;
 mod layout;
+mod metadata;
 mod place;
 mod sample;
 mod tags;
@@ -14,13 +16,44 @@ mod tags;
 use super::failure::unreadable;
 use super::frame::PostRange;
 use super::grid::{GridFile, Header, RowSink};
+use super::options::DemOptions;
+use super::sidecar::Sidecar;
 use super::site::Site;
 use crate::error::{Error, Result};
 use codec::Compression;
 use head::{Coding, Head};
 use layout::Block;
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
-use tags::Source;
+use tags::{Directory, Source, tag};
+
+/// Where a mask is: samples of 0 where there is no post.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum MaskPlace {
+    /// A band of the first directory, from 0.
+    Band(usize),
+    /// The first band of a later directory, the first one being 0.
+    Directory(usize),
+}
+
+/// The directory of the mask that belongs to the first raster.
+fn mask_directory<R: Read + Seek>(first: &Directory, source: &mut Source<R>) -> Result<Option<usize>> {
+    /// More than any pyramid of overviews has; and an end to directories in a circle.
+    const MOST: usize = 256;
+    const REDUCED: u64 = 1;
+    const MASK: u64 = 4;
+    let mut next = first.next(source)?;
+    for number in 1..MOST {
+        let Some(directory) = next else {
+            break;
+        };
+        let kind = directory.whole(source, tag::SUBFILE_TYPE)?.unwrap_or(0);
+        if kind & MASK != 0 && kind & REDUCED == 0 {
+            return Ok(Some(number));
+        }
+        next = directory.next(source)?;
+    }
+    Ok(None)
+}
 
 /// An opened GeoTIFF.
 pub(super) struct GeoTiff<R> {
@@ -29,10 +62,42 @@ pub(super) struct GeoTiff<R> {
 }
 
 impl<R: Read + Seek> GeoTiff<R> {
-    /// Reads and judges the header; `site` serves to find a world file, `bounds` stands in for a missing place.
-    pub(super) fn open(input: R, site: Option<&Site>, bounds: Option<[f64; 4]>) -> Result<Self> {
+    /// Reads and judges the header; `site` serves to find a world file. Then come the places of its masks.
+    pub(super) fn open(
+        input: R,
+        site: Option<&Site>,
+        options: &DemOptions,
+        beside: &Sidecar,
+    ) -> Result<(Self, Vec<MaskPlace>)> {
         let mut source = Source::new(BufReader::new(input))?;
-        let head = Head::read(&mut source, site, bounds)?;
+        let directory = Directory::read(&mut source)?;
+        let mut head = Head::read(&directory, &mut source, site, options, beside)?;
+        let mut masks: Vec<_> = head.alphas.iter().map(|band| MaskPlace::Band(*band)).collect();
+        match mask_directory(&directory, &mut source) {
+            Ok(found) => masks.extend(found.map(MaskPlace::Directory)),
+            Err(error) => head.header.notes.push(format!(
+                "the directories after the first are damaged, a mask among them is not followed: {}",
+                error.what()
+            )),
+        }
+        Ok((Self { source, head }, masks))
+    }
+
+    /// Opens a mask of a raster, or a raster that is a mask (its first band).
+    pub(super) fn open_mask(input: R, place: MaskPlace) -> Result<Self> {
+        let mut source = Source::new(BufReader::new(input))?;
+        let mut directory = Directory::read(&mut source)?;
+        let band = match place {
+            MaskPlace::Band(band) => band,
+            MaskPlace::Directory(number) => {
+                for _ in 0..number {
+                    let next = directory.next(&mut source)?;
+                    directory = next.ok_or_else(|| Error::new("the file has changed while it was read"))?;
+                }
+                0
+            }
+        };
+        let head = Head::of_mask(&directory, &mut source, band)?;
         Ok(Self { source, head })
     }
 
@@ -73,7 +138,7 @@ impl<R: Read + Seek> GeoTiff<R> {
     ) -> Result<()> {
         let rows = block.rows_of(part);
         self.check_block(block, rows.end)?;
-        let (coding, nodata, scaling) = (self.head.coding, self.head.nodata, self.head.scaling);
+        let (coding, nodata) = (self.head.coding, self.head.nodata);
         buffers.bytes.resize(self.head.layout.row_bytes(), 0);
         buffers.heights.resize(self.columns_in(block), 0.0);
         let (mut samples, first) = self.open_block(block, rows.start)?;
@@ -81,7 +146,7 @@ impl<R: Read + Seek> GeoTiff<R> {
             samples.read_exact(&mut buffers.bytes).map_err(|e| damaged(e, block, row))?;
             if row >= rows.start {
                 coding.decode(buffers);
-                nodata.apply(&mut buffers.heights, scaling);
+                nodata.apply(&mut buffers.heights);
                 sink.take(block.first.1 + row, block.first.0, &buffers.heights);
             }
         }
@@ -109,8 +174,6 @@ impl<R: Read + Seek> GeoTiff<R> {
     fn fill_block(&self, block: &Block, part: &PostRange, buffers: &mut Buffers, sink: &mut dyn RowSink) {
         buffers.heights.clear();
         buffers.heights.resize(self.columns_in(block), self.head.nodata.left_out());
-        let Head { nodata, scaling, .. } = &self.head;
-        nodata.apply(&mut buffers.heights, *scaling);
         for row in block.rows_of(part) {
             sink.take(block.first.1 + row, block.first.0, &buffers.heights);
         }
@@ -176,10 +239,10 @@ struct Buffers {
 impl Coding {
     /// Decodes a row of a block.
     fn decode(self, buffers: &mut Buffers) {
-        let kind = (self.sample.size(), self.stride);
+        let kind = (self.sample.bits().div_ceil(8), self.stride);
         let Buffers { bytes, scratch, heights } = buffers;
         let endian = self.predictor.undo(bytes, scratch, kind, self.endian);
-        self.sample.decode(bytes, self.stride, endian, heights);
+        self.sample.decode(bytes, (self.stride, self.which), endian, heights);
     }
 }
 

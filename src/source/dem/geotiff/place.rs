@@ -18,13 +18,16 @@ pub(super) fn frame<R: Read + Seek>(
     source: &mut Source<R>,
     keys: &GeoKeys,
     size: (usize, usize),
-    (site, bounds): (Option<&Site>, Option<[f64; 4]>),
+    (site, bounds, beside): (Option<&Site>, Option<[f64; 4]>, Option<[f64; 6]>),
 ) -> Result<(Frame, Option<String>)> {
     if let Some([a, b, x, d, e, y]) = affine(directory, source)? {
         let (column, row) = (DVec2::new(a, d), DVec2::new(b, e));
         let half = if keys.pixel_is_point() { 0.0 } else { 0.5 };
         let first = DVec2::new(x, y) + (column + row) * half;
         return Ok((Frame::new(size, first, (column, row))?, None));
+    }
+    if let Some(place) = beside {
+        return Ok((Frame::of_geo_transform(size, place)?, Some("placed by the .aux.xml beside it".into())));
     }
     let beside = site.map(|s| world_file::frame_beside(s, size)).transpose()?;
     let (frame, note) = match (beside.flatten(), bounds) {

@@ -1,4 +1,4 @@
-//! The first directory of a TIFF: which tags it has, and their values on demand.
+//! A directory of a TIFF: which tags it has, and their values on demand.
 //!
 //! Source: Adobe, "TIFF 6.0", section 2; BigTIFF after libtiff's "The BigTIFF File Format". Classic and BigTIFF, both byte
 //! orders. It refuses directories and values outside the file, and values of a kind that the reader cannot use; nothing is
@@ -11,10 +11,12 @@ use std::io::{Read, Seek, SeekFrom};
 
 /// The tags that the reader knows, by name.
 pub(super) mod tag {
+    pub(in super::super) const SUBFILE_TYPE: u16 = 254;
     pub(in super::super) const WIDTH: u16 = 256;
     pub(in super::super) const HEIGHT: u16 = 257;
     pub(in super::super) const BITS: u16 = 258;
     pub(in super::super) const COMPRESSION: u16 = 259;
+    pub(in super::super) const PHOTOMETRIC: u16 = 262;
     pub(in super::super) const FILL_ORDER: u16 = 266;
     pub(in super::super) const STRIP_OFFSETS: u16 = 273;
     pub(in super::super) const SAMPLES_PER_PIXEL: u16 = 277;
@@ -26,6 +28,7 @@ pub(super) mod tag {
     pub(in super::super) const TILE_HEIGHT: u16 = 323;
     pub(in super::super) const TILE_OFFSETS: u16 = 324;
     pub(in super::super) const TILE_LENGTHS: u16 = 325;
+    pub(in super::super) const EXTRA_SAMPLES: u16 = 338;
     pub(in super::super) const SAMPLE_FORMAT: u16 = 339;
     pub(in super::super) const PIXEL_SCALE: u16 = 33550;
     pub(in super::super) const TIE_POINTS: u16 = 33922;
@@ -94,11 +97,13 @@ struct Entry {
     at: u64,
 }
 
-/// The first directory of a TIFF.
+/// A directory of a TIFF.
 #[derive(Debug)]
 pub(super) struct Directory {
     pub(super) endian: Endian,
     pub(super) big: bool,
+    /// Where the next one begins; 0: nowhere.
+    next: u64,
     entries: BTreeMap<u16, Entry>,
 }
 
@@ -109,6 +114,16 @@ impl Directory {
         let endian = if head.starts_with(b"II") { Endian::Little } else { Endian::Big };
         let big = endian.number(&head[2..4]) == 43;
         let first = if big { endian.number(&source.bytes(8, 8)?) } else { endian.number(&head[4..8]) };
+        Self::at(source, first, (endian, big))
+    }
+
+    /// The directory after this one.
+    pub(super) fn next<R: Read + Seek>(&self, source: &mut Source<R>) -> Result<Option<Self>> {
+        let next = (self.next > 0).then_some(self.next);
+        next.map(|at| Self::at(source, at, (self.endian, self.big))).transpose()
+    }
+
+    fn at<R: Read + Seek>(source: &mut Source<R>, first: u64, (endian, big): (Endian, bool)) -> Result<Self> {
         let (count_size, entry_size) = if big { (8, 20) } else { (2, 12) };
         let count = endian.number(&source.bytes(first, count_size)?);
         if count > u64::from(u16::MAX) {
@@ -120,7 +135,10 @@ impl Directory {
             .zip(table.chunks_exact(entry_size as usize))
             .filter_map(|(i, e)| entry(endian, big, e, start + i * entry_size))
             .collect();
-        Ok(Self { endian, big, entries })
+        // Some writers end the file here, without the place of a next directory.
+        let next = source.bytes(start + count * entry_size, if big { 8 } else { 4 });
+        let next = next.map_or(0, |bytes| endian.number(&bytes));
+        Ok(Self { endian, big, next, entries })
     }
 
     /// Whether a tag is present.

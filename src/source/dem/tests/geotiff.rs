@@ -2,6 +2,7 @@
 
 use super::super::geotiff::GeoTiff;
 use super::super::grid::{GridFile, Sheet};
+use super::super::sidecar::Sidecar;
 use super::super::{DemOptions, describe};
 use super::tiff_writer::{Kind, Tiff, Values};
 use super::{posts, read_bytes, refusal, window, with_file};
@@ -317,7 +318,7 @@ fn a_window_of_a_large_tiled_raster_reads_its_own_tiles_only() {
     ]);
     let read = Rc::new(Cell::new(0));
     let counting = Counting { inner: Cursor::new(large.bytes()), read: Rc::clone(&read) };
-    let mut file = GeoTiff::open(counting, None, None).unwrap();
+    let mut file = GeoTiff::open(counting, None, &DemOptions::default(), &Sidecar::default()).unwrap().0;
     let header = read.get();
     let frame = file.header().frame;
     // Columns 5115..=5125 and rows from the north 4994..=5004: tiles 19 to 20 across and 19 down.

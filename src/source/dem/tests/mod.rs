@@ -5,9 +5,12 @@ mod ascii;
 mod frames;
 mod geotiff;
 mod hgt;
+mod masks;
+mod pictures;
 mod png;
 mod robustness;
 mod tiff_writer;
+mod units;
 mod xyz;
 
 use super::{Dem, DemOptions};

@@ -32,7 +32,7 @@ fn valid_files() -> Vec<(&'static str, Vec<u8>)> {
 }
 
 fn try_all(name: &str, bytes: &[u8], window: Option<[f64; 4]>) {
-    let options = DemOptions { window, encoding: Some(PngEncoding::Mapbox), bounds: None };
+    let options = DemOptions { window, encoding: Some(PngEncoding::Mapbox), ..DemOptions::default() };
     with_file(name, bytes, |path| {
         let outcomes = [read(&path, &options).err(), describe(&path, &options).err()];
         for error in outcomes.into_iter().flatten() {

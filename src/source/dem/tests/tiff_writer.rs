@@ -22,16 +22,22 @@ pub(super) struct Tiff {
     pub(super) tags: Vec<(u16, Values)>,
     /// Blocks that are left out.
     pub(super) left_out: Vec<usize>,
+    /// The samples of the second and later bands; 0 where there are none.
+    pub(super) other_bands: Vec<Vec<f64>>,
+    /// The directories after the first, with their rasters.
+    pub(super) more: Vec<Tiff>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Kind {
+    Bit,
     U8,
     I8,
     U16,
     I16,
     U32,
     I32,
+    F16,
     F32,
     F64,
 }
@@ -67,6 +73,8 @@ impl Tiff {
                 (33922, Values::Doubles(vec![0.0, 0.0, 0.0, 100.0, north, 0.0])),
             ],
             left_out: Vec::new(),
+            other_bands: Vec::new(),
+            more: Vec::new(),
         }
     }
 
@@ -82,8 +90,11 @@ impl Tiff {
             self.short(&mut out, 42);
             self.number(&mut out, 0, 4);
         }
-        let (offsets, lengths) = self.write_blocks(&mut out);
-        self.write_directory(&mut out, offsets, lengths);
+        let mut link = if self.big { 8 } else { 4 };
+        for tiff in std::iter::once(self).chain(&self.more) {
+            let (offsets, lengths) = tiff.write_blocks(&mut out);
+            link = tiff.write_directory(&mut out, link, offsets, lengths);
+        }
         out
     }
 
@@ -120,7 +131,9 @@ impl Tiff {
                 .map(|i| {
                     let (c, band) = (i / stride, plane + i % stride);
                     let inside = c < self.size.0 && row < self.size.1;
-                    if inside && band == 0 { self.samples[row * self.size.0 + c] } else { 0.0 }
+                    let samples =
+                        if band == 0 { Some(&self.samples) } else { self.other_bands.get(band - 1) };
+                    samples.filter(|_| inside).map_or(0.0, |samples| samples[row * self.size.0 + c])
                 })
                 .collect();
             bytes.extend(self.row(&samples, stride));
@@ -129,6 +142,10 @@ impl Tiff {
     }
 
     fn row(&self, samples: &[f64], stride: usize) -> Vec<u8> {
+        if self.kind == Kind::Bit {
+            let byte = |bits: &[f64]| bits.iter().enumerate().fold(0, |n, (i, b)| n | (*b as u8) << (7 - i));
+            return samples.chunks(8).map(byte).collect();
+        }
         let words: Vec<Vec<u8>> = samples.iter().map(|s| self.kind.bytes(*s)).collect();
         let size = words[0].len();
         match self.predictor {
@@ -172,7 +189,7 @@ impl Tiff {
         }
     }
 
-    fn write_directory(&self, out: &mut Vec<u8>, offsets: Vec<u64>, lengths: Vec<u64>) {
+    fn write_directory(&self, out: &mut Vec<u8>, link: usize, offsets: Vec<u64>, lengths: Vec<u64>) -> usize {
         let short = |v: usize| Values::Shorts(vec![v as u16]);
         let mut tags = vec![
             (256, Values::Longs(vec![self.size.0 as u64])),
@@ -199,10 +216,11 @@ impl Tiff {
             tags.push((*tag, values.clone()));
         }
         tags.sort_by_key(|(tag, _)| *tag);
-        self.write_tags(out, &tags);
+        self.write_tags(out, link, &tags)
     }
 
-    fn write_tags(&self, out: &mut Vec<u8>, tags: &[(u16, Values)]) {
+    /// Writes a directory, its place at `link`; returns where the place of the next one stands.
+    fn write_tags(&self, out: &mut Vec<u8>, link: usize, tags: &[(u16, Values)]) -> usize {
         let wide = if self.big { 8 } else { 4 };
         let mut places = Vec::new();
         for (_, values) in tags {
@@ -221,7 +239,7 @@ impl Tiff {
         }
         let mut at = Vec::new();
         self.number(&mut at, out.len() as u64, wide);
-        out[wide..2 * wide].copy_from_slice(&at);
+        out[link..link + wide].copy_from_slice(&at);
         self.number(out, tags.len() as u64, if self.big { 8 } else { 2 });
         for ((tag, _), (kind, count, place)) in tags.iter().zip(places) {
             self.short(out, *tag);
@@ -230,6 +248,7 @@ impl Tiff {
             out.extend(place);
         }
         self.number(out, 0, wide);
+        out.len() - wide
     }
 
     fn encode(&self, values: &Values) -> (u16, usize, Vec<u8>) {
@@ -274,36 +293,44 @@ impl Tiff {
 }
 
 impl Kind {
-    pub(super) const ALL: [Self; 8] =
-        [Self::U8, Self::I8, Self::U16, Self::I16, Self::U32, Self::I32, Self::F32, Self::F64];
+    /// The kinds of heights.
+    pub(super) const ALL: [Self; 9] =
+        [Self::U8, Self::I8, Self::U16, Self::I16, Self::U32, Self::I32, Self::F16, Self::F32, Self::F64];
 
     pub(super) fn is_floating(self) -> bool {
-        matches!(self, Self::F32 | Self::F64)
+        matches!(self, Self::F16 | Self::F32 | Self::F64)
     }
 
     fn bits(self) -> u16 {
-        self.bytes(0.0).len() as u16 * 8
+        if self == Self::Bit { 1 } else { self.bytes(0.0).len() as u16 * 8 }
     }
 
     fn format(self) -> usize {
         match self {
-            Self::U8 | Self::U16 | Self::U32 => 1,
+            Self::Bit | Self::U8 | Self::U16 | Self::U32 => 1,
             Self::I8 | Self::I16 | Self::I32 => 2,
-            Self::F32 | Self::F64 => 3,
+            Self::F16 | Self::F32 | Self::F64 => 3,
         }
     }
 
     /// The little-endian bytes of a sample.
     fn bytes(self, sample: f64) -> Vec<u8> {
         match self {
-            Self::U8 => (sample as u8).to_le_bytes().to_vec(),
+            Self::Bit | Self::U8 => (sample as u8).to_le_bytes().to_vec(),
             Self::I8 => (sample as i8).to_le_bytes().to_vec(),
             Self::U16 => (sample as u16).to_le_bytes().to_vec(),
             Self::I16 => (sample as i16).to_le_bytes().to_vec(),
             Self::U32 => (sample as u32).to_le_bytes().to_vec(),
             Self::I32 => (sample as i32).to_le_bytes().to_vec(),
+            Self::F16 => half(sample).to_le_bytes().to_vec(),
             Self::F32 => (sample as f32).to_le_bytes().to_vec(),
             Self::F64 => sample.to_le_bytes().to_vec(),
         }
     }
+}
+
+/// The bits in half precision of a whole number from 0 to 2048, which has them exactly.
+fn half(sample: f64) -> u16 {
+    let bits = sample.to_bits();
+    if sample == 0.0 { 0 } else { ((bits >> 52) as u16 - 1023 + 15) << 10 | (bits >> 42) as u16 & 1023 }
 }
