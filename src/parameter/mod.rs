@@ -5,17 +5,18 @@
 //! from and to plain values ([`Value`]), which scene files and `result.json` hold. A `words!` enum is said with its words. It refuses
 //! nothing itself: `scene_file` does, by the table.
 
+mod color;
 mod declare;
 mod named;
 mod setting;
 mod shape;
 mod value;
 
+pub(crate) use color::{color, color_names};
 pub use declare::Settings;
 pub(crate) use declare::settings;
 pub use named::Named;
 pub(crate) use named::words;
 pub use setting::Setting;
-pub(crate) use shape::color;
 pub use shape::{Key, Range, Rule, Shape, TableShape, choice, key};
 pub use value::Value;

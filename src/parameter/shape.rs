@@ -7,7 +7,7 @@ use super::{Named, Value};
 pub enum Shape {
     /// Any string but the empty one.
     Text,
-    /// `"#rrggbb"` or `"#rrggbbaa"`.
+    /// A colour as CSS writes it: `"#rrggbb"`, a name, `"rgb(...)"`.
     Color,
     /// `true` or `false`.
     Flag,
@@ -95,6 +95,8 @@ pub enum Range {
     FromOne,
     /// 0..=1.
     Share,
+    /// Greater than 0, up to a number.
+    UpTo(f64),
     /// Between two numbers, both excluded.
     Between(f64, f64),
 }
@@ -109,6 +111,7 @@ impl Range {
                 Range::NotNegative => number >= 0.0,
                 Range::FromOne => number >= 1.0,
                 Range::Share => (0.0..=1.0).contains(&number),
+                Range::UpTo(most) => number > 0.0 && number <= most,
                 Range::Between(low, high) => low < number && number < high,
             }
     }
@@ -121,6 +124,7 @@ impl Range {
             Range::NotNegative => "a finite number, 0 or more".into(),
             Range::FromOne => "a finite number, 1 or more".into(),
             Range::Share => "a number from 0 to 1".into(),
+            Range::UpTo(most) => format!("a number greater than 0, {most} at most"),
             Range::Between(low, high) => format!("a number between {low} and {high}, both excluded"),
         }
     }
@@ -131,7 +135,7 @@ impl Shape {
     pub fn words(&self) -> String {
         match self {
             Shape::Text => "a string that is not empty".into(),
-            Shape::Color => "a colour \"#rrggbb\" or \"#rrggbbaa\"".into(),
+            Shape::Color => "a colour of CSS (\"#rrggbb\", \"#rrggbbaa\", \"#rgb\", a name, rgb(), hsl())".into(),
             Shape::Flag => "true or false".into(),
             Shape::Choice(names) => choice_words(&names()),
             Shape::Integer(low, high) if low == high => format!("{low}"),
@@ -192,29 +196,9 @@ impl TableShape {
     }
 }
 
-/// The four code values of a colour.
-pub fn color(text: &str) -> Option<[u8; 4]> {
-    let digits = text.strip_prefix('#').filter(|digits| digits.bytes().all(|b| b.is_ascii_hexdigit()))?;
-    let code = |at: usize| u8::from_str_radix(digits.get(at..at + 2)?, 16).ok();
-    match digits.len() {
-        6 => Some([code(0)?, code(2)?, code(4)?, 255]),
-        8 => Some([code(0)?, code(2)?, code(4)?, code(6)?]),
-        _ => None,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn colours_have_six_or_eight_digits() {
-        assert_eq!(color("#ff8000"), Some([255, 128, 0, 255]));
-        assert_eq!(color("#FF800040"), Some([255, 128, 0, 64]));
-        for wrong in ["", "#", "#fff", "ff8000", "#ff80zz", "#ff80001", "#üüü", "#+f+f+f"] {
-            assert_eq!(color(wrong), None, "{wrong}");
-        }
-    }
 
     #[test]
     fn no_range_contains_nan_or_infinity() {

@@ -6,7 +6,7 @@ use super::place::{Origin, Place};
 use super::suggest;
 use super::tree::{Entry, Node, Table, Value};
 use crate::error::{Error, Result};
-use crate::parameter::{self, Range, Rule, Shape, TableShape, color};
+use crate::parameter::{self, Range, Rule, Shape, TableShape, color, color_names};
 
 /// Judges the table called `path` (empty: the whole file).
 pub(super) fn table(
@@ -156,6 +156,7 @@ impl Check<'_> {
                 error.help(format!("this program reads schema {SCHEMA}; another needs another version of it"))
             }
             (Shape::Choice(names), Value::Text(text)) => with_nearest(error, text, &names()),
+            (Shape::Color, Value::Text(text)) => with_nearest(error, text, &color_names().collect::<Vec<_>>()),
             (Shape::Or(word, _), Value::Text(text)) => with_nearest(error, text, &[*word]),
             (Shape::Choice(names), Value::Flag(flag)) if names().contains(&flag.to_string().as_str()) => {
                 error.help("put it in quotes")

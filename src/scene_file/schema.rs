@@ -4,6 +4,9 @@ use super::keys::{ROOT, SCHEMA};
 use crate::parameter::{Key, Range, Rule, Shape, TableShape};
 use serde_json::{Map, Value, json};
 
+/// The forms of a colour; which names there are is left to the program.
+const COLOR: &str = "^(#([0-9a-fA-F]{3,4}|[0-9a-fA-F]{6}|[0-9a-fA-F]{8})|[a-zA-Z]+|([rR][gG][bB][aA]?|[hH][sS][lL][aA]?|[hH][wW][bB])\\(.*\\))$";
+
 /// The scene file's JSON Schema (draft 2020-12).
 pub fn schema() -> Value {
     let mut root = table(&ROOT);
@@ -35,7 +38,7 @@ fn described(key: &Key) -> Value {
 fn value(shape: &Shape) -> Value {
     match shape {
         Shape::Text => json!({ "type": "string", "minLength": 1 }),
-        Shape::Color => json!({ "type": "string", "pattern": "^#([0-9a-fA-F]{6}|[0-9a-fA-F]{8})$" }),
+        Shape::Color => json!({ "type": "string", "pattern": COLOR }),
         Shape::Flag => json!({ "type": "boolean" }),
         Shape::Choice(names) => json!({ "enum": names() }),
         Shape::Integer(low, high) => json!({ "type": "integer", "minimum": low, "maximum": high }),
@@ -81,6 +84,7 @@ fn number(range: Range) -> Value {
         Range::Between(low, high) => {
             json!({ "type": "number", "exclusiveMinimum": low, "exclusiveMaximum": high })
         }
+        Range::UpTo(most) => json!({ "type": "number", "exclusiveMinimum": 0, "maximum": most }),
     }
 }
 
@@ -199,7 +203,7 @@ mod tests {
             "[[layer]]\nsource = \"a.shp\"",
             "[[layer]]\nsource = \"a.shp\"\nline = { color = \"#ff0000\" }",
             "[[layer]]\nfeatures = [{ line = [] }]\nline = { color = \"#ff0000\", width_m = 1 }",
-            "[[layer]]\nsource = \"a.shp\"\nfill = { color = \"red\" }",
+            "[[layer]]\nsource = \"a.shp\"\nfill = { color = \"reddish\" }",
             "[[layer]]\nsource = \"a.shp\"\nfill = { color = { by = \"A\", map = { x = 3 } } }",
             "[[layer]]\nsource = \"a.shp\"\nfill = { color = { by = \"A\", stops = [[\"#000000\", 0]] } }",
             "[[layer]]\nsource = \"a.shp\"\nfill = { color = { by = \"A\" } }",

@@ -389,7 +389,7 @@ fn a_wrong_type_says_what_was_expected_and_found() {
             "must be a whole number from 0 to 4294967295 or \"all\"; found -1",
         ),
         ("technique.inverse-projection.corners = true", "or \"true\"; found true\n  help: put it in quotes"),
-        ("image.background = \"white\"", "must be a colour \"#rrggbb\" or \"#rrggbbaa\""),
+        ("image.background = \"whitish\"", "must be a colour of CSS (\"#rrggbb\", \"#rrggbbaa\", \"#rgb\", a name, rgb(), hsl())"),
     ] {
         let error = refusal(lines);
         assert!(error.contains(said), "{lines}\n{error}");
