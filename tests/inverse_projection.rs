@@ -37,7 +37,7 @@ fn scene(size: (usize, usize), camera: Camera, layers: Vec<Layer>, settings: Set
         image: ImageSettings { width: size.0, height: size.1, background: Color([0.0, 0.0, 1.0, 1.0]) },
         camera,
         diagonal: Diagonal::SwNe,
-        ground: Ground::Color(WHITE),
+        ground: Ground::flat(WHITE),
         layers,
         compositing: Compositing::default(),
         device: Device::default(),

@@ -5,8 +5,8 @@
 use drapery::math;
 use drapery::scene::{
     BlendMode, BlendSpace, Camera, Cap, Color, Compositing, Device, Diagonal, Feature, Fill, Ground,
-    ImageSettings, Join, Layer, Line, Outline, OutlineMode, Posts, Projection, Rule, Scene, Shape, Style,
-    Surface, TechniqueSettings, Width,
+    GroundColors, ImageSettings, Imagery, Join, Layer, Light, Line, Outline, OutlineMode, Posts, Projection,
+    Rule, Scene, Shape, Style, Surface, TechniqueSettings, Width,
 };
 use drapery::space::{Plan, World};
 use drapery::stage::Stage;
@@ -41,7 +41,7 @@ fn scene(size: (usize, usize), camera: Camera, layers: Vec<Layer>) -> Scene {
         image: ImageSettings { width: size.0, height: size.1, background: WHITE },
         camera,
         diagonal: Diagonal::SwNe,
-        ground: Ground::Color(WHITE),
+        ground: Ground::flat(WHITE),
         layers,
         compositing: Compositing::default(),
         device: Device::default(),
@@ -286,7 +286,7 @@ fn case_41_red_over_blue_is_composed_in_layer_order() {
     ];
     for top in tops {
         let mut scene = map(4, vec![polygon(&[square], Rule::EvenOdd, blue), top]);
-        scene.ground = Ground::Color(Color([0.0; 4]));
+        scene.ground = Ground::flat(Color([0.0; 4]));
         let truth = truth(&scene, flat(), 1e-9);
         // Premultiplied (.5, 0, .25, .75).
         for (c, value) in [2.0 / 3.0, 0.0, 1.0 / 3.0, 0.75].into_iter().enumerate() {
@@ -359,7 +359,7 @@ fn varied(k: usize) -> (Scene, Surface) {
     let eye = [[-40.0, -70.0, 40.0], [55.0, 20.0, 9.0], [3.0, -2.0, 90.0], [-60.0, 45.0, 30.0]][k % 4];
     let mut scene = scene((36, 24), camera(eye, [0.0, 0.0, 4.0], projection), layers);
     scene.image.background = color(0.7, 0.8, 1.0, 1.0);
-    scene.ground = Ground::Hillshade(color(0.8, 0.9, 0.6, 1.0));
+    scene.ground = Ground { light: Some(Light::default()), ..Ground::flat(color(0.8, 0.9, 0.6, 1.0)) };
     if k == 5 {
         scene.compositing.mode = BlendMode::Additive;
     }
@@ -501,15 +501,15 @@ mod brute_force {
             (p - view.eye()).length()
         };
         let seen = Seen { plan: p.plan(), pixel: view.lens().pixel() * distance };
-        let ground = match &scene.ground {
-            Ground::Hillshade(color) => {
+        let GroundColors::Constant(color) = scene.ground.colors else { unreachable!() };
+        let ground = match &scene.ground.light {
+            Some(light) => {
                 let n = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).normalize();
-                let light = math::max(n.dot(DVec3::new(-0.5, 0.5, 0.5f64.sqrt())), 0.0);
+                let light = math::max(n.dot(light.direction()), 0.0);
                 let [r, g, b, a] = color.0;
                 Color([r * light, g * light, b * light, a])
             }
-            Ground::Color(color) => *color,
-            Ground::Imagery(_) => unreachable!(),
+            None => color,
         };
         let mut paint = over(scene, [0.0; 4], ground);
         for layer in &scene.layers {
@@ -752,7 +752,7 @@ fn opacities_of_zero_and_one_are_certified() {
     let clear = polygon(&[square], Rule::EvenOdd, Color([0.0, 0.0, 0.0, 0.0]));
     assert_area(&assert_sound(&map(8, vec![clear]), flat()), 0.0, 1e-6);
     let mut scene = map(8, vec![polygon(&[square], Rule::EvenOdd, BLACK)]);
-    scene.ground = Ground::Color(Color([0.3, 0.3, 0.3, 0.0]));
+    scene.ground = Ground::flat(Color([0.3, 0.3, 0.3, 0.0]));
     scene.image.background = Color([0.0; 4]);
     let truth = assert_sound(&scene, flat());
     assert!(truth.high.at(0, 0)[3] < 1e-12);

@@ -7,7 +7,9 @@ use super::stop::Outcome;
 use clap::ValueEnum;
 use drapery::crs::PlanSpace;
 use drapery::measure::Watch;
-use drapery::scene_file::{CameraSpec, GroundSpec, LayerSource, SceneFile, Spot, TerrainSource, ViewSpec};
+use drapery::scene_file::{
+    CameraSpec, GroundColorsSpec, LayerSource, SceneFile, Spot, TerrainSource, ViewSpec,
+};
 use drapery::source::dem::{self, DemOptions, DemSummary, PngEncoding};
 use drapery::source::load;
 use drapery::source::vector::{self, VectorSummary};
@@ -230,7 +232,7 @@ fn of_scene(scene: &SceneFile) -> Table {
             }
         },
     );
-    if let GroundSpec::Imagery(file) = &scene.terrain.ground {
+    if let GroundColorsSpec::Imagery(file) = &scene.terrain.ground.colors {
         table.row("imagery", file.written.clone());
     }
     for layer in &scene.layers {

@@ -8,7 +8,7 @@ use crate::buffer::Buffer;
 use crate::error::Result;
 use crate::measure::{Certified, Unwatched, Watch, scene_result};
 use crate::output::{Batch, Npy, RESULT_SCHEMA, RenderResult, write_png};
-use crate::scene::{Ground, Imagery};
+use crate::scene::{GroundColors, Imagery};
 use crate::stage::Stage;
 use crate::technique::clipmap::{self, TILE_TEXELS};
 use crate::technique::{self, Frame, Kind};
@@ -98,7 +98,7 @@ fn stage_scene(stage: &Stage, mesh: &Mesh, batch: &mut Batch) -> Result<()> {
     batch.stage("features.geojson", |to| {
         write_features((&scene.layers, draw_list), scene.origin.truncate(), to)
     })?;
-    if let Ground::Imagery(Imagery { texels, .. }) = &scene.ground {
+    if let GroundColors::Imagery(Imagery { texels, .. }) = &scene.ground.colors {
         let codes = texels.values().iter().map(|color| color.0.map(|v| (v * 255.0 + 0.5) as u8));
         let picture = Buffer::from_values(texels.width(), texels.height(), codes.collect());
         batch.stage("imagery.png", |to| write_png(&picture, to))?;

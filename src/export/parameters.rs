@@ -4,7 +4,7 @@ use crate::error::{Error, Result};
 use crate::output::ByName;
 use crate::parameter::Named;
 use crate::raster::device;
-use crate::scene::{self, Scene};
+use crate::scene::{self, GroundColors, Scene};
 use crate::space::{Lens, PlanBox, ViewFrame};
 use crate::terrain::Mesh;
 
@@ -88,11 +88,15 @@ pub enum GroundParameters {
     Hillshade {
         /// RGBA.
         color: [f64; 4],
+        /// The unit vector to the light: east, north, up.
+        light: [f64; 3],
     },
     /// The nearest texel of `imagery.png` over a rectangle.
     Imagery {
         /// West, south, east, north.
         extent: [f64; 4],
+        /// The unit vector to the light, whose cosine darkens the texels; null: they are as they are.
+        light: Option<[f64; 3]>,
     },
 }
 
@@ -102,10 +106,15 @@ impl Parameters {
         (scene, mesh, view): (&Scene, &Mesh, &ViewFrame),
         (technique, settings, device): (&'static str, ByName, ByName),
     ) -> Self {
-        let ground = match &scene.ground {
-            scene::Ground::Color(color) => GroundParameters::Color { color: color.0 },
-            scene::Ground::Hillshade(color) => GroundParameters::Hillshade { color: color.0 },
-            scene::Ground::Imagery(imagery) => GroundParameters::Imagery { extent: sides(&imagery.extent) },
+        let light = scene.ground.light.map(|light| light.direction().to_array());
+        let ground = match (&scene.ground.colors, light) {
+            (GroundColors::Constant(color), None) => GroundParameters::Color { color: color.0 },
+            (GroundColors::Constant(color), Some(light)) => {
+                GroundParameters::Hillshade { color: color.0, light }
+            }
+            (GroundColors::Imagery(imagery), light) => {
+                GroundParameters::Imagery { extent: sides(&imagery.extent), light }
+            }
         };
         Self {
             schema: 1,

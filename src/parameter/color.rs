@@ -76,9 +76,29 @@ mod tests {
     #[test]
     fn what_is_no_colour_or_would_need_the_c_library_is_none() {
         for wrong in [
-            "", "#", "#f", "#ff", "ff8000", "fade", "beef", "#ff80zz", "#ff80001", "#üüü", "#+f+f+f", "rot", "rgb(1, 2)", "rgb(nan 0 0)",
-            "rgb(inf 0 0)", "lab(50 20 30)", "rgb(from lab(50 20 30) r g b)", "oklch(0.5 0.1 30)", "hsv(0 100% 100%)", "rgb(1e999 0 0)",
-            "(((((((((((((((((", "rgb(ü 0 0)", "color(srgb 1 0 0)",
+            "",
+            "#",
+            "#f",
+            "#ff",
+            "ff8000",
+            "fade",
+            "beef",
+            "#ff80zz",
+            "#ff80001",
+            "#üüü",
+            "#+f+f+f",
+            "rot",
+            "rgb(1, 2)",
+            "rgb(nan 0 0)",
+            "rgb(inf 0 0)",
+            "lab(50 20 30)",
+            "rgb(from lab(50 20 30) r g b)",
+            "oklch(0.5 0.1 30)",
+            "hsv(0 100% 100%)",
+            "rgb(1e999 0 0)",
+            "(((((((((((((((((",
+            "rgb(ü 0 0)",
+            "color(srgb 1 0 0)",
         ] {
             assert_eq!(color(wrong), None, "{wrong}");
         }

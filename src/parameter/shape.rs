@@ -135,7 +135,9 @@ impl Shape {
     pub fn words(&self) -> String {
         match self {
             Shape::Text => "a string that is not empty".into(),
-            Shape::Color => "a colour of CSS (\"#rrggbb\", \"#rrggbbaa\", \"#rgb\", a name, rgb(), hsl())".into(),
+            Shape::Color => {
+                "a colour of CSS (\"#rrggbb\", \"#rrggbbaa\", \"#rgb\", a name, rgb(), hsl())".into()
+            }
             Shape::Flag => "true or false".into(),
             Shape::Choice(names) => choice_words(&names()),
             Shape::Integer(low, high) if low == high => format!("{low}"),

@@ -5,11 +5,13 @@
 
 mod attribute;
 mod camera;
+mod ground;
 mod layer;
 mod settings;
 
 pub use attribute::{Attribute, Column};
 pub use camera::{Camera, Projection};
+pub use ground::{Ground, GroundColors, Imagery, Light};
 pub use layer::{Cap, Feature, Fill, Join, Layer, Line, Outline, OutlineMode, Rule, Shape, Style, Width};
 pub use settings::{
     BlendMode, BlendSpace, Color, Compositing, DepthFormat, Device, ImageSettings, Precision,
@@ -64,7 +66,7 @@ impl Scene {
             },
             camera,
             diagonal: Diagonal::default(),
-            ground: Ground::Color(Color::from_rgba8([0xc8, 0xb8, 0x9a, 0xff])),
+            ground: Ground::flat(Color::from_rgba8([0xc8, 0xb8, 0x9a, 0xff])),
             layers,
             compositing: Compositing::default(),
             device: Device::default(),
@@ -197,24 +199,4 @@ words! {
         /// `SwNe` where column + row is even, else `NwSe`.
         Alternating = "alternating",
     }
-}
-
-/// The terrain's own colour: constant on a triangle or on a texel, so that the right picture stays computable.
-#[derive(Debug, Clone)]
-pub enum Ground {
-    /// One colour.
-    Color(Color),
-    /// Lambert's law times the colour, light from the north-west at 45 degrees, flat on each triangle.
-    Hillshade(Color),
-    /// The nearest texel of an image stretched over the terrain's rectangle.
-    Imagery(Imagery),
-}
-
-/// An image over the plan.
-#[derive(Debug, Clone)]
-pub struct Imagery {
-    /// The texels, from the north-west.
-    pub texels: crate::buffer::Buffer<Color>,
-    /// The rectangle they cover, scene-local.
-    pub extent: crate::space::PlanBox,
 }

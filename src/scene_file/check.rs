@@ -156,7 +156,9 @@ impl Check<'_> {
                 error.help(format!("this program reads schema {SCHEMA}; another needs another version of it"))
             }
             (Shape::Choice(names), Value::Text(text)) => with_nearest(error, text, &names()),
-            (Shape::Color, Value::Text(text)) => with_nearest(error, text, &color_names().collect::<Vec<_>>()),
+            (Shape::Color, Value::Text(text)) => {
+                with_nearest(error, text, &color_names().collect::<Vec<_>>())
+            }
             (Shape::Or(word, _), Value::Text(text)) => with_nearest(error, text, &[*word]),
             (Shape::Choice(names), Value::Flag(flag)) if names().contains(&flag.to_string().as_str()) => {
                 error.help("put it in quotes")

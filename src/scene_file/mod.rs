@@ -47,8 +47,9 @@ pub use keys::SCHEMA;
 pub use overrides::Override;
 pub use schema::schema;
 pub use spec::{
-    CameraSpec, DataFile, GroundSpec, HeightEncoding, InlineFeature, LayerSource, LayerSpec, SceneFile, Spot,
-    TerrainGenerator, TerrainKind, TerrainSource, TerrainSpec, VectorGenerator, VectorKind, ViewSpec,
+    CameraSpec, DataFile, GroundColorsSpec, GroundSpec, HeightEncoding, InlineFeature, LayerSource,
+    LayerSpec, SceneFile, Spot, TerrainGenerator, TerrainKind, TerrainSource, TerrainSpec, VectorGenerator,
+    VectorKind, ViewSpec,
 };
 pub(crate) use suggest::{nearest, nearest_or_all};
 pub use text::SceneText;

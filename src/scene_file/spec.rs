@@ -4,7 +4,8 @@ use super::by_column::{Condition, Order, OrderKey, StyleSpec};
 use crate::error::Position;
 use crate::parameter::words;
 use crate::scene::{
-    Attribute, Color, Compositing, Device, Diagonal, ImageSettings, Projection, Shape, TechniqueSettings,
+    Attribute, Color, Compositing, Device, Diagonal, ImageSettings, Light, Projection, Shape,
+    TechniqueSettings,
 };
 use glam::{DVec2, DVec3};
 use std::path::PathBuf;
@@ -130,11 +131,18 @@ words! {
 
 /// The terrain's own colour.
 #[derive(Debug, Clone, PartialEq)]
-pub enum GroundSpec {
+pub struct GroundSpec {
+    /// The colours in full light.
+    pub colors: GroundColorsSpec,
+    /// The light of a hillshade; `None`: there is none.
+    pub light: Option<Light>,
+}
+
+/// The terrain's colours in full light.
+#[derive(Debug, Clone, PartialEq)]
+pub enum GroundColorsSpec {
     /// One colour.
-    Color(Color),
-    /// Lambert's law times the colour.
-    Hillshade(Color),
+    Constant(Color),
     /// An image stretched over the terrain's rectangle.
     Imagery(DataFile),
 }

@@ -40,6 +40,7 @@ diagonal = "alternating"
 vertical_scale = 1.5
 color = "#c8b89a"
 shade = "hillshade"
+light = { azimuth_deg = 200, elevation_deg = 30.5 }
 [[layer]]
 name = "lakes"
 source = "data/lakes.gpkg"
@@ -109,7 +110,7 @@ filter_bits = 8
     r#"
 schema = 1
 camera = { eye_geo = [15, -22, 3000], target_geo = [15.1, -22, 900], projection = "orthographic", height_m = 9e3 }
-terrain = { source = "dem.tif", imagery = "ortho.png" }
+terrain = { source = "dem.tif", imagery = "ortho.png", shade = "hillshade" }
 "#,
     r#"
 schema = 1
@@ -389,7 +390,10 @@ fn a_wrong_type_says_what_was_expected_and_found() {
             "must be a whole number from 0 to 4294967295 or \"all\"; found -1",
         ),
         ("technique.inverse-projection.corners = true", "or \"true\"; found true\n  help: put it in quotes"),
-        ("image.background = \"whitish\"", "must be a colour of CSS (\"#rrggbb\", \"#rrggbbaa\", \"#rgb\", a name, rgb(), hsl())"),
+        (
+            "image.background = \"whitish\"",
+            "must be a colour of CSS (\"#rrggbb\", \"#rrggbbaa\", \"#rgb\", a name, rgb(), hsl())",
+        ),
     ] {
         let error = refusal(lines);
         assert!(error.contains(said), "{lines}\n{error}");

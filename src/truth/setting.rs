@@ -7,7 +7,7 @@ use crate::certainty::PaintRange;
 use crate::footprint::{Footprints, HalfPlane, PixelSize};
 use crate::interval::Ball;
 use crate::resolve::{Compositor, GroundPaint, Paint};
-use crate::scene::{self, BlendMode, Color, Imagery, Scene};
+use crate::scene::{BlendMode, Color, GroundColors, Imagery, Scene};
 use crate::space::Plan;
 use crate::terrain::Mesh;
 use std::ops::RangeInclusive;
@@ -26,13 +26,9 @@ pub(super) struct Setting<'a> {
     pub(super) sky: Paint,
     /// Around the colours of all styles at full alpha, which any number of items tends to; `None`: there is no item.
     crowd: Option<PaintRange>,
-    ground: GroundColors<'a>,
-}
-
-/// The terrain's own colour.
-enum GroundColors<'a> {
-    OfTriangles(GroundPaint<'a>),
-    OfTexels { imagery: &'a Imagery, all: PaintRange },
+    ground: GroundPaint<'a>,
+    /// Where the ground's colours are texels: these, and a range around the paints of all in any light.
+    texels: Option<(&'a Imagery, PaintRange)>,
 }
 
 impl<'a> Setting<'a> {
@@ -43,13 +39,18 @@ impl<'a> Setting<'a> {
         budget: Budget,
     ) -> Self {
         let compositor = Compositor::new(scene.compositing);
-        let ground = match &scene.ground {
-            scene::Ground::Imagery(imagery) => {
+        let ground = GroundPaint::new(&scene.ground, mesh, compositor);
+        let texels = match &scene.ground.colors {
+            GroundColors::Constant(_) => None,
+            GroundColors::Imagery(imagery) => {
                 let texels = imagery.texels.values().iter().map(|c| PaintRange::exact(compositor.paint(*c)));
-                let all = texels.reduce(|a, b| a.hull(&b)).unwrap_or(PaintRange::ANY);
-                GroundColors::OfTexels { imagery, all }
+                let mut all = texels.reduce(|a, b| a.hull(&b)).unwrap_or(PaintRange::ANY);
+                if ground.is_lit() {
+                    // A shadow is as black as can be, and takes nothing of the alpha.
+                    all.low = [0.0, 0.0, 0.0, all.low[3]];
+                }
+                Some((imagery, all))
             }
-            _ => GroundColors::OfTriangles(GroundPaint::new(&scene.ground, mesh, compositor)),
         };
         let styles = || footprints.list().styles().iter();
         let paints = styles().map(|style| compositor.paint(style.paint)).collect();
@@ -57,7 +58,7 @@ impl<'a> Setting<'a> {
         let crowd = crowd.reduce(|a, b| a.hull(&b));
         let sky = compositor.paint(scene.image.background);
         let mode = scene.compositing.mode;
-        Self { budget, footprints, pixel_size, compositor, mode, paints, sky, crowd, ground }
+        Self { budget, footprints, pixel_size, compositor, mode, paints, sky, crowd, ground, texels }
     }
 
     /// The paint of an item.
@@ -85,22 +86,19 @@ impl<'a> Setting<'a> {
         piece: &[[f64; 2]],
         slop: &mut f64,
     ) -> (PaintRange, Option<Line>) {
-        match &self.ground {
-            GroundColors::OfTriangles(paint) => {
-                (PaintRange::exact(paint.at(ground.facet.id, Plan::default())), None)
-            }
-            GroundColors::OfTexels { imagery, all } => {
-                let (columns, rows, cut) = texels_of(imagery, ground, piece, slop);
-                let count = (columns.end() - columns.start() + 1) * (rows.end() - rows.start() + 1);
-                if count > MOST_TEXELS {
-                    return (*all, cut);
-                }
-                let texels = rows.flat_map(|y| columns.clone().map(move |x| (x, y)));
-                let paints = texels.map(|(x, y)| self.compositor.paint(*imagery.texels.at(x, y)));
-                let range = paints.map(PaintRange::exact).reduce(|a, b| a.hull(&b));
-                (range.unwrap_or(*all), cut)
-            }
+        let triangle = ground.facet.id;
+        let Some((imagery, all)) = &self.texels else {
+            return (PaintRange::exact(self.ground.at(triangle, Plan::default())), None);
+        };
+        let (columns, rows, cut) = texels_of(imagery, ground, piece, slop);
+        let count = (columns.end() - columns.start() + 1) * (rows.end() - rows.start() + 1);
+        if count > MOST_TEXELS {
+            return (*all, cut);
         }
+        let texels = rows.flat_map(|y| columns.clone().map(move |x| (x, y)));
+        let paints = texels.map(|(x, y)| self.ground.lit(triangle, *imagery.texels.at(x, y)));
+        let range = paints.map(PaintRange::exact).reduce(|a, b| a.hull(&b));
+        (range.unwrap_or(*all), cut)
     }
 }
 

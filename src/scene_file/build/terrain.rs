@@ -2,10 +2,12 @@
 
 use super::{data_file, rectangle};
 use crate::error::Result;
-use crate::scene::Color;
+use crate::scene::{Color, Light};
 use crate::scene_file::names::{ShadeName, TerrainName};
 use crate::scene_file::section::{Section, Taken};
-use crate::scene_file::spec::{GroundSpec, TerrainGenerator, TerrainKind, TerrainSource, TerrainSpec};
+use crate::scene_file::spec::{
+    GroundColorsSpec, GroundSpec, TerrainGenerator, TerrainKind, TerrainSource, TerrainSpec,
+};
 use glam::DVec3;
 
 /// The most posts that a generated terrain may have.
@@ -41,13 +43,32 @@ fn source(section: &mut Section<'_>) -> Result<TerrainSource> {
 }
 
 fn ground(section: &mut Section<'_>) -> Result<GroundSpec> {
-    if let Some(taken) = section.text_at("imagery")? {
-        return Ok(GroundSpec::Imagery(data_file(section.origin(), taken)));
-    }
     let color = section.color("color")?.unwrap_or(Color::from_rgba8([0xc8, 0xb8, 0x9a, 0xff]));
-    Ok(match section.name("shade")?.unwrap_or(ShadeName::Flat) {
-        ShadeName::Flat => GroundSpec::Color(color),
-        ShadeName::Hillshade => GroundSpec::Hillshade(color),
+    let colors = match section.text_at("imagery")? {
+        Some(taken) => GroundColorsSpec::Imagery(data_file(section.origin(), taken)),
+        None => GroundColorsSpec::Constant(color),
+    };
+    let light = match section.name("shade")?.unwrap_or(ShadeName::Flat) {
+        ShadeName::Hillshade => {
+            let node = section.take_or_empty("light");
+            Some(Section::read(section.origin(), node, light)?)
+        }
+        ShadeName::Flat => match section.first_of(&["light"]) {
+            Some((_, place)) => {
+                let what = "`terrain.light` goes with shade = \"hillshade\" only";
+                return Err(section.error_at(place, what));
+            }
+            None => None,
+        },
+    };
+    Ok(GroundSpec { colors, light })
+}
+
+fn light(section: &mut Section<'_>) -> Result<Light> {
+    let default = Light::default();
+    Ok(Light {
+        azimuth_deg: section.number("azimuth_deg")?.unwrap_or(default.azimuth_deg),
+        elevation_deg: section.number("elevation_deg")?.unwrap_or(default.elevation_deg),
     })
 }
 

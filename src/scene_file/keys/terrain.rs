@@ -47,15 +47,28 @@ pub(super) static TERRAIN: TableShape = TableShape {
         key(
             "shade",
             choice::<ShadeName>(),
-            "\"hillshade\": the colour lit from the north-west. Default: \"flat\".",
+            "\"hillshade\": the colour, or the imagery, lit from the north-west or as `light` says. Default: \"flat\".",
         ),
+        key("light", Shape::Table(&LIGHT), "shade = \"hillshade\": where its light comes from."),
         key("imagery", Shape::Text, "An image over the terrain's rectangle instead of a colour."),
     ],
-    rules: &[
-        Keys::One(&["source", "generate"]),
-        Keys::AtMostOne(&["imagery", "color"]),
-        Keys::AtMostOne(&["imagery", "shade"]),
+    rules: &[Keys::One(&["source", "generate"]), Keys::AtMostOne(&["imagery", "color"])],
+};
+
+static LIGHT: TableShape = TableShape {
+    keys: &[
+        key(
+            "azimuth_deg",
+            Shape::Number(Range::Finite),
+            "From where: degrees from north over east. Default: 315, the north-west.",
+        ),
+        key(
+            "elevation_deg",
+            Shape::Number(Range::UpTo(90.0)),
+            "How high above the horizon, in degrees. Default: 45.",
+        ),
     ],
+    rules: &[],
 };
 
 static GENERATE_TERRAIN: TableShape = TableShape {

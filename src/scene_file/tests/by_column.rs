@@ -46,7 +46,10 @@ fn settings_conditions_and_order_by_column_are_checked() {
             "fill = { color = { by = \"A\", map = { wood = \"gren\" } } }",
             "5:45: `layer.0.fill.color.map.wood` must be a colour of CSS (\"#rrggbb\", \"#rrggbbaa\", \"#rgb\", a name, rgb(), hsl()); found the string \"gren\"\n  help: did you mean \"green\"?",
         ),
-        ("fill = { color = 3 }", "must be a colour of CSS (\"#rrggbb\", \"#rrggbbaa\", \"#rgb\", a name, rgb(), hsl()); found 3"),
+        (
+            "fill = { color = 3 }",
+            "must be a colour of CSS (\"#rrggbb\", \"#rrggbbaa\", \"#rgb\", a name, rgb(), hsl()); found 3",
+        ),
         (
             "fill = { color = { by = \"A\", stops = [] } }",
             "`layer.0.fill.color.stops` must be a list of pairs [number, a colour",

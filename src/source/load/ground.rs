@@ -4,8 +4,8 @@ use super::blame::Named;
 use super::terrain::Terrain;
 use crate::buffer::Buffer;
 use crate::error::{Error, Result};
-use crate::scene::{Color, Ground, Imagery};
-use crate::scene_file::{GroundSpec, SceneFile};
+use crate::scene::{Color, Ground, GroundColors, Imagery};
+use crate::scene_file::{GroundColorsSpec, SceneFile};
 use crate::source::dem::site::Site;
 use crate::source::dem::world_file;
 use crate::space::{Plan, PlanBox};
@@ -18,15 +18,17 @@ const MOST_TEXELS: usize = 1 << 25;
 
 /// The ground that a scene asks for.
 pub(super) fn ground(scene: &SceneFile, terrain: &Terrain, progress: &dyn Fn(&str)) -> Result<Ground> {
-    let file = match &scene.terrain.ground {
-        GroundSpec::Color(color) => return Ok(Ground::Color(*color)),
-        GroundSpec::Hillshade(color) => return Ok(Ground::Hillshade(*color)),
-        GroundSpec::Imagery(file) => file,
+    let spec = &scene.terrain.ground;
+    let colors = |colors| Ground { colors, light: spec.light };
+    let file = match &spec.colors {
+        GroundColorsSpec::Constant(color) => return Ok(colors(GroundColors::Constant(*color))),
+        GroundColorsSpec::Imagery(file) => file,
     };
     let named = Named::new(scene, file);
     named.require()?;
     progress(&format!("reading {}", file.written));
-    imagery(named.path(), terrain).map(Ground::Imagery).map_err(|error| named.blame(error))
+    let imagery = imagery(named.path(), terrain).map_err(|error| named.blame(error))?;
+    Ok(colors(GroundColors::Imagery(imagery)))
 }
 
 fn imagery(path: &Path, terrain: &Terrain) -> Result<Imagery> {

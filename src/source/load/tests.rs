@@ -435,9 +435,14 @@ fn imagery_covers_the_terrain_or_what_its_world_file_says() {
     let folder = Folder::new()
         .with("d.asc", grid((5, 5), (1000.0, 2000.0), 10.0, hills))
         .with("o.png", png.into_inner());
-    let load = || match folder.load("terrain = { source = \"d.asc\", imagery = \"o.png\" }").unwrap().0.ground
+    let load = || match folder
+        .load("terrain = { source = \"d.asc\", imagery = \"o.png\" }")
+        .unwrap()
+        .0
+        .ground
+        .colors
     {
-        crate::scene::Ground::Imagery(imagery) => imagery,
+        crate::scene::GroundColors::Imagery(imagery) => imagery,
         other => panic!("{other:?}"),
     };
     let imagery = load();
