@@ -2,13 +2,14 @@
 //! itself on other machines' worth of threads. (Exact rational arithmetic: `src/truth/tile/tests.rs`.)
 #![cfg(feature = "render")]
 
+use drapery::buffer::Buffer;
 use drapery::math;
 use drapery::scene::{
     BlendMode, BlendSpace, Camera, Cap, Color, Compositing, Device, Diagonal, Feature, Fill, Ground,
     GroundColors, ImageSettings, Imagery, Join, Layer, Light, Line, Outline, OutlineMode, Posts, Projection,
     Rule, Scene, Shape, Style, Surface, TechniqueSettings, Width,
 };
-use drapery::space::{Plan, World};
+use drapery::space::{Plan, PlanBox, World};
 use drapery::stage::Stage;
 use drapery::technique::{self, FrameOptions, Kind};
 use drapery::terrain::Mesh;
@@ -360,11 +361,28 @@ fn varied(k: usize) -> (Scene, Surface) {
     let mut scene = scene((36, 24), camera(eye, [0.0, 0.0, 4.0], projection), layers);
     scene.image.background = color(0.7, 0.8, 1.0, 1.0);
     scene.ground = Ground { light: Some(Light::default()), ..Ground::flat(color(0.8, 0.9, 0.6, 1.0)) };
-    if k == 5 {
+    if k == 5 || k == 11 {
         scene.compositing.mode = BlendMode::Additive;
     }
-    if k == 4 {
+    if k == 4 || k == 9 {
         scene.compositing.space = BlendSpace::Linear;
+    }
+    if k == 8 || k == 9 {
+        // Texels that no cell of the terrain agrees with, in a low light.
+        let texel = |t: usize| color(0.2 + 0.1 * (t % 7) as f64, 0.9 - 0.1 * (t % 5) as f64, 0.5, 1.0);
+        let texels = Buffer::from_values(11, 7, (0..77).map(texel).collect());
+        let extent = PlanBox { min: Plan::new(-40.0, -45.0), max: Plan::new(46.0, 41.0) };
+        let light = Light { azimuth_deg: 200.0, elevation_deg: 25.0 };
+        scene.ground =
+            Ground { colors: GroundColors::Imagery(Imagery { texels, extent }), light: Some(light) };
+    }
+    if k >= 9 {
+        // The lake's outline lies over its fill, and the roads cross.
+        let road = scene.layers.remove(1);
+        scene.layers[0].styles[0].line = road.styles[0].line;
+        scene.layers[0].features.extend(road.features);
+        scene.layers[0].opacity = 0.4;
+        scene.layers[1].opacity = 0.75;
     }
     let height = move |x: f64, y: f64| {
         let hill = 9.0 * math::sin(x * 0.11 + k as f64) * math::cos(y * 0.13);
@@ -501,7 +519,14 @@ mod brute_force {
             (p - view.eye()).length()
         };
         let seen = Seen { plan: p.plan(), pixel: view.lens().pixel() * distance };
-        let GroundColors::Constant(color) = scene.ground.colors else { unreachable!() };
+        let color = match &scene.ground.colors {
+            GroundColors::Constant(color) => *color,
+            GroundColors::Imagery(Imagery { texels, extent }) => {
+                let share = (seen.plan - extent.min) / (extent.max - extent.min);
+                let texel = |share: f64, count: usize| ((share * count as f64) as usize).min(count - 1);
+                *texels.at(texel(share.x, texels.width()), texel(1.0 - share.y, texels.height()))
+            }
+        };
         let ground = match &scene.ground.light {
             Some(light) => {
                 let n = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).normalize();
@@ -513,6 +538,7 @@ mod brute_force {
         };
         let mut paint = over(scene, [0.0; 4], ground);
         for layer in &scene.layers {
+            let below = paint;
             for feature in &layer.features {
                 let style = layer.style_of(feature);
                 match &feature.shape {
@@ -541,6 +567,9 @@ mod brute_force {
                         }
                     }
                 }
+            }
+            for c in 0..4 {
+                paint[c] = (1.0 - layer.opacity) * below[c] + layer.opacity * paint[c];
             }
         }
         paint
@@ -574,7 +603,7 @@ mod brute_force {
     #[test]
     fn samples_agree_with_the_intervals_as_far_as_chance_allows() {
         const N: usize = 16;
-        for k in 0..8 {
+        for k in 0..12 {
             let (scene, surface) = varied(k);
             let mesh = Mesh::new(surface.clone(), scene.diagonal).unwrap();
             let truth = truth(&scene, surface, 1.0 / 510.0);
@@ -710,7 +739,7 @@ fn a_crowd_of_many_colours_is_bounded_by_all_of_them() {
         }
     };
     let features = (0..400).map(across).collect();
-    let crowd = Layer { name: "crowd".into(), styles: (0..8).map(style).collect(), features };
+    let crowd = Layer { name: "crowd".into(), styles: (0..8).map(style).collect(), features, opacity: 1.0 };
     let stage = Stage::new(map(1, vec![crowd]), flat()).unwrap();
     let by = |depth| certify(&stage, &stage.view().unwrap(), &Budget::new(1e-4, depth).unwrap(), &|_| {});
     let (coarse, fine) = (by(0), by(16));

@@ -1,7 +1,7 @@
 //! Paints that are known between bounds, and what they are over, under and on average.
 
 use super::known::Known;
-use crate::resolve::{Compositor, Paint};
+use crate::resolve::{Compositor, Mix, Paint};
 use crate::scene::BlendMode;
 
 /// Premultiplied paint in the working space, between two bounds a channel.
@@ -72,6 +72,13 @@ impl PaintRange {
     /// The widest channel.
     pub fn width(&self) -> f64 {
         (0..4).fold(0.0, |widest, c| crate::math::max(self.high[c] - self.low[c], widest))
+    }
+}
+
+impl Mix for PaintRange {
+    fn mixed(self, other: Self, share: f64) -> Self {
+        let mix = |a: [f64; 4], b: [f64; 4]| Paint(a).mixed(Paint(b), share).0;
+        Self { low: mix(self.low, other.low), high: mix(self.high, other.high) }
     }
 }
 

@@ -32,7 +32,8 @@ struct Block {
 /// The list of some layers, whose features it takes.
 pub(super) fn of_layers(layers: &mut [Layer]) -> Result<DrawList> {
     let mut table = StyleTable::default();
-    let parts: Vec<Vec<StyleParts>> = layers.iter().map(|layer| table.parts_of(layer)).collect();
+    let parts: Vec<Vec<StyleParts>> =
+        layers.iter().enumerate().map(|(k, layer)| table.parts_of(k, layer)).collect();
     let features = layers.iter().flat_map(|layer| &layer.features);
     let mut all = DrawList::default();
     all.vertices.reserve_exact(features.map(|feature| vertices_of(&feature.shape)).sum());

@@ -1,6 +1,6 @@
 //! How items look: the styles of layers, taken apart.
 
-use crate::scene::{Cap, Color, Join, Layer, Line, OutlineMode, Rule, Style, Width};
+use crate::scene::{Cap, Color, Group, Join, Layer, Line, OutlineMode, Rule, Style, Width};
 use std::collections::BTreeMap;
 
 /// What an item is of its feature.
@@ -36,11 +36,13 @@ pub struct ItemStyle {
     pub cut: Option<Side>,
     /// How its stroke is drawn; a fill has none.
     pub stroke: Option<Line>,
+    /// What it is composed with before it is drawn over what lies below; by itself where there is no group.
+    pub group: Option<Group>,
 }
 
 impl ItemStyle {
     /// Numbers that two styles share only if they are equal.
-    fn key(&self) -> [u64; 9] {
+    fn key(&self) -> [u64; 10] {
         let [r, g, b, a] = self.paint.0.map(f64::to_bits);
         let line = self.stroke.map_or([0; 3], |line| {
             let (unit, width) = match line.width {
@@ -60,7 +62,9 @@ impl ItemStyle {
             [width.to_bits(), limit.to_bits(), unit + 4 * join + 16 * cap]
         });
         let words = [self.role as u64, self.rule as u64, self.cut.map_or(0, |side| 1 + side as u64)];
-        [r, g, b, a, line[0], line[1], line[2], words[0], words[1] + 4 * words[2]]
+        // A layer has one opacity.
+        let group = self.group.map_or(0, |group| 1 + u64::from(group.layer));
+        [r, g, b, a, line[0], line[1], line[2], words[0], words[1] + 4 * words[2], group]
     }
 }
 
@@ -78,20 +82,22 @@ pub(super) struct StyleParts {
 #[derive(Debug, Default)]
 pub(super) struct StyleTable {
     pub(super) styles: Vec<ItemStyle>,
-    numbers: BTreeMap<[u64; 9], u32>,
+    numbers: BTreeMap<[u64; 10], u32>,
 }
 
 impl StyleTable {
-    /// Takes the styles of a layer apart.
-    pub(super) fn parts_of(&mut self, layer: &Layer) -> Vec<StyleParts> {
-        layer.styles.iter().map(|style| self.parts(style)).collect()
+    /// Takes the styles of a scene's layer apart.
+    pub(super) fn parts_of(&mut self, number: usize, layer: &Layer) -> Vec<StyleParts> {
+        let group = Group { layer: number as u32, opacity: layer.opacity };
+        let group = (layer.opacity < 1.0).then_some(group);
+        layer.styles.iter().map(|style| self.parts(style, group)).collect()
     }
 
-    fn parts(&mut self, style: &Style) -> StyleParts {
+    fn parts(&mut self, style: &Style, group: Option<Group>) -> StyleParts {
         let rule = style.fill.map_or(Rule::EvenOdd, |fill| fill.rule);
         let stroked = |role: Role, line: Line, cut: Option<Side>| {
             let rule = if cut.is_some() { rule } else { Rule::EvenOdd };
-            ItemStyle { role, paint: line.color, rule, cut, stroke: Some(line) }
+            ItemStyle { role, paint: line.color, rule, cut, stroke: Some(line), group }
         };
         let fill = style.fill.map(|fill| ItemStyle {
             role: Role::Fill,
@@ -99,6 +105,7 @@ impl StyleTable {
             rule,
             cut: None,
             stroke: None,
+            group,
         });
         let outline = style.outline.map(|outline| {
             let cut = match outline.mode {

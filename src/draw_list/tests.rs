@@ -33,7 +33,7 @@ fn plan(points: &[(f64, f64)]) -> Vec<Plan> {
 fn list(styles: Vec<Style>, features: Vec<(u32, Shape)>) -> DrawList {
     let features = features.into_iter().enumerate();
     let features = features.map(|(index, (style, shape))| Feature { index, style, shape }).collect();
-    DrawList::new(&mut [Layer { name: "layer".into(), styles, features }]).unwrap()
+    DrawList::new(&mut [Layer { name: "layer".into(), styles, features, opacity: 1.0 }]).unwrap()
 }
 
 fn polygon(style: Style, rings: &[&[(f64, f64)]]) -> DrawList {

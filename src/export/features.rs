@@ -38,6 +38,9 @@ fn properties((layers, list): (&[Layer], &DrawList), items: &[Item]) -> Map<Stri
         all.insert("layer".into(), layers[item.layer as usize].name.clone().into());
         all.insert("number".into(), item.number.into());
         let style = &list.styles()[item.style as usize];
+        if let Some(group) = style.group {
+            all.insert("layer-opacity".into(), group.opacity.into());
+        }
         match &style.stroke {
             Some(line) => put_stroke(style, line, &mut all),
             None => put_fill(style, &mut all),

@@ -4,8 +4,10 @@
 //! 8-bit code values. Refuses: nothing; out-of-range values are clamped when they are encoded.
 
 mod ground;
+mod stack;
 
 pub use ground::GroundPaint;
+pub use stack::{Mix, Stack};
 
 use crate::math;
 use crate::scene::{BlendMode, BlendSpace, Color, Compositing};

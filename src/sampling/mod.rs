@@ -13,7 +13,7 @@ use crate::canvas::{Backdrop, GBuffer, LastGround, mean};
 use crate::footprint::{Footprints, PixelSize};
 use crate::parallel;
 use crate::raster::Lattice;
-use crate::resolve::Paint;
+use crate::resolve::{Paint, Stack};
 use crate::scene::Device;
 use crate::space::ViewFrame;
 use crate::stage::Stage;
@@ -120,10 +120,14 @@ impl<'a> Sampler<'a> {
             || seen.sight().hit(column, row).map_or(0.0, |hit| (hit.world - self.view.eye()).length());
         let holding =
             nearby.items().iter().filter(|item| nearby.holds(self.footprints, item, (plan, &from_eye)));
-        holding.fold(self.backdrop.paint_at(last, id, || plan), |below, item| {
-            let style = self.footprints.list().items()[item.number as usize].style;
-            self.backdrop.compositor.over(below, self.paints[style as usize])
-        })
+        let list = self.footprints.list();
+        let mut stack = Stack::on(self.backdrop.paint_at(last, id, || plan));
+        for item in holding {
+            let style = list.items()[item.number as usize].style as usize;
+            let over = |below| self.backdrop.compositor.over(below, self.paints[style]);
+            stack.draw(list.styles()[style].group, over);
+        }
+        stack.finished()
     }
 }
 

@@ -13,12 +13,23 @@ pub struct Layer {
     pub styles: Vec<Style>,
     /// Its features in draw order.
     pub features: Vec<Feature>,
+    /// How much of the layer as a whole is drawn, 0..=1: where its features lie on one another, they do not add up.
+    pub opacity: f64,
+}
+
+/// Items that are composed with one another before they are drawn over what lies below: those of a layer with an opacity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Group {
+    /// The layer's number in the scene.
+    pub layer: u32,
+    /// How much of it is drawn, from 0 and less than 1.
+    pub opacity: f64,
 }
 
 impl Layer {
     /// A layer whose features all look alike.
     pub fn uniform(name: impl Into<String>, style: Style, features: Vec<Feature>) -> Self {
-        Self { name: name.into(), styles: vec![style], features }
+        Self { name: name.into(), styles: vec![style], features, opacity: 1.0 }
     }
 
     /// Whether a line or an outline is so many pixels wide: its footprint then depends on the view.

@@ -12,7 +12,9 @@ mod settings;
 pub use attribute::{Attribute, Column};
 pub use camera::{Camera, Projection};
 pub use ground::{Ground, GroundColors, Imagery, Light};
-pub use layer::{Cap, Feature, Fill, Join, Layer, Line, Outline, OutlineMode, Rule, Shape, Style, Width};
+pub use layer::{
+    Cap, Feature, Fill, Group, Join, Layer, Line, Outline, OutlineMode, Rule, Shape, Style, Width,
+};
 pub use settings::{
     BlendMode, BlendSpace, Color, Compositing, DepthFormat, Device, ImageSettings, Precision,
     TechniqueSettings,

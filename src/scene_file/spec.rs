@@ -209,6 +209,8 @@ pub struct LayerSpec {
     pub offset: DVec2,
     /// How its features look.
     pub style: StyleSpec,
+    /// How much of the layer as a whole is drawn, 0..=1.
+    pub opacity: f64,
     /// Which of its features are drawn: those that fulfil all of these.
     pub conditions: Vec<Condition>,
     /// In which order.

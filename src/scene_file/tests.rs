@@ -47,6 +47,7 @@ source = "data/lakes.gpkg"
 layer = "water"
 crs = "EPSG:4326"
 offset = [5, 6]
+opacity = 0.8
 fill = { color = "#3388ff", opacity = 0.5, rule = "nonzero" }
 outline = { color = "#003366", opacity = 1, width_m = 4.0, mode = "inset", join = "miter", miter_limit = 2 }
 [[layer]]
@@ -323,7 +324,7 @@ fn paths_start_at_the_scene_files_folder() {
     };
     assert_eq!(file.path, Path::new("dir/data/lakes.gpkg"));
     assert_eq!((file.written.as_str(), layer.as_deref()), ("data/lakes.gpkg", Some("water")));
-    assert_eq!(file.position.map(|at| (at.line, at.column)), Some((30, 10)));
+    assert_eq!(file.position.map(|at| (at.line, at.column)), Some((31, 10)));
 }
 
 #[test]

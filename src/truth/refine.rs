@@ -12,7 +12,7 @@ use super::visible::{Fragment, SPECK, Sight};
 use super::{ItemCoverage, PixelCoverage};
 use crate::certainty::{Known, PaintMean, PaintRange};
 use crate::footprint::{BorderPart, Primitive};
-use crate::resolve::Paint;
+use crate::resolve::{Paint, Stack};
 use crate::space::PlanBox;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -413,7 +413,12 @@ pub(super) type Claim = (Polygon, u32, Vec<(u32, Option<bool>)>);
 
 /// The paint of a piece's items over a base.
 fn composed(setting: &Setting, base: PaintRange, states: &[State]) -> PaintRange {
-    states.iter().fold(base, |below, state| {
-        below.under_known(state.known(), setting.paint_of(state.item), setting.mode)
-    })
+    let mut stack = Stack::on(base);
+    for state in states {
+        let paint = setting.paint_of(state.item);
+        stack.draw(setting.group_of(state.item), |below| {
+            below.under_known(state.known(), paint, setting.mode)
+        });
+    }
+    stack.finished()
 }

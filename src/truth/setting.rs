@@ -7,7 +7,7 @@ use crate::certainty::PaintRange;
 use crate::footprint::{Footprints, HalfPlane, PixelSize};
 use crate::interval::Ball;
 use crate::resolve::{Compositor, GroundPaint, Paint};
-use crate::scene::{BlendMode, Color, GroundColors, Imagery, Scene};
+use crate::scene::{BlendMode, Color, GroundColors, Group, Imagery, Scene};
 use crate::space::Plan;
 use crate::terrain::Mesh;
 use std::ops::RangeInclusive;
@@ -67,9 +67,15 @@ impl<'a> Setting<'a> {
         self.paints[self.footprints.list().items()[item as usize].style as usize]
     }
 
+    /// What an item is composed with first.
+    #[inline]
+    pub(super) fn group_of(&self, item: u32) -> Option<Group> {
+        self.footprints.list().style_of(item).group
+    }
+
     /// Whether nothing below an item matters where it is.
     pub(super) fn hides(&self, item: u32) -> bool {
-        let is_opaque = self.paint_of(item).0[3] == 1.0;
+        let is_opaque = self.paint_of(item).0[3] == 1.0 && self.group_of(item).is_none();
         is_opaque && self.mode == BlendMode::Over && !self.budget.coverage
     }
 

@@ -44,6 +44,7 @@ fn layer(section: &mut Section<'_>, index: usize) -> Result<LayerSpec> {
         crs: section.text("crs")?,
         offset: section.numbers("offset")?.map_or(DVec2::ZERO, DVec2::from_array),
         style: style(section)?,
+        opacity: section.number("opacity")?.unwrap_or(1.0),
         conditions: conditions(section)?,
         order: order(section)?,
     })

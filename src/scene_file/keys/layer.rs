@@ -27,6 +27,11 @@ pub(super) static LAYER: TableShape = TableShape {
         key("outline", Shape::Table(&OUTLINE), "The border of polygons, over the fill."),
         key("line", Shape::Table(&LINE), "Lines."),
         key(
+            "opacity",
+            SHARE,
+            "How much of the layer as a whole is drawn: its features are composed with one another first. Default: 1.",
+        ),
+        key(
             "where",
             Shape::Map(&CONDITION),
             "Only the features that fulfil all of these conditions: a column, and the value or one of the values that it must have, or bounds.",

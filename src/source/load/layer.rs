@@ -56,7 +56,7 @@ fn layer(
     let styles = styled(&mut features, spec, &columns)?;
     let moved = parallel::map_owned(features, |feature| moved(feature, &map, shift));
     let features = moved.into_iter().collect::<Result<_>>().map_err(|error| columns.blame(error))?;
-    let mut layer = Layer { name: spec.name.clone(), styles, features };
+    let mut layer = Layer { name: spec.name.clone(), styles, features, opacity: spec.opacity };
     leave_out_what_is_off(terrain, &mut layer, notes);
     layer.features = ordered(layer.features, spec, &columns);
     Ok(layer)

@@ -271,11 +271,14 @@ impl TilePainter<'_> {
         for area in areas {
             self.piece(ItemPiece::Area(area), bench, &mut counts);
         }
+        bench.raster.enter(None);
         counts
     }
 
     fn piece(&self, piece: ItemPiece, bench: &mut Workbench, counts: &mut TileCounts) {
         let geometry = self.maker.geometry;
+        let (ItemPiece::Area(AreaRings { item, .. }) | ItemPiece::Stroke(item, _)) = piece;
+        bench.raster.enter(geometry.group_of(item));
         match piece {
             ItemPiece::Area(area) => {
                 let Drawn::Fill(fill) = geometry.drawn(area.item) else { return };

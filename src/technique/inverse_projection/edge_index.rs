@@ -12,7 +12,7 @@ use crate::index::CellLists;
 use crate::math;
 use crate::parallel;
 use crate::predicate::orient2d;
-use crate::scene::Rule;
+use crate::scene::{Group, Rule};
 use crate::space::{Plan, PlanBox};
 use std::ops::Range;
 
@@ -105,6 +105,12 @@ impl<'l> EdgeIndex<'l> {
         let style = self.list.items()[area.item() as usize].style;
         let is_painted = area.is_stroke() || self.list.styles()[style as usize].role == Role::Fill;
         is_painted.then_some(style)
+    }
+
+    /// What the areas of a style are composed with first.
+    #[inline]
+    pub fn group_of(&self, style: u32) -> Option<Group> {
+        self.list.styles()[style as usize].group
     }
 
     /// The polygon that an area is cut to, and whether the points in it (or those outside) count.

@@ -7,7 +7,7 @@ use super::quadrilateral::Quadrilateral;
 use super::step::{EdgeOf, PixelClass, Refusal, Step};
 use crate::canvas::{Backdrop, GBuffer, LastGround, Record};
 use crate::raster::Lattice;
-use crate::resolve::Paint;
+use crate::resolve::{Paint, Stack};
 use crate::space::{Plan, PlanBox, ViewFrame};
 use crate::stage::Stage;
 use crate::technique::inverse_projection::{Corners, Settings, Silhouette};
@@ -374,7 +374,7 @@ impl<'a> PixelPainter<'a> {
 
     /// The colour of the ground and every involved area that `is_in` says contains the sample, in draw order.
     fn compose(&self, ground: Paint, involved: &[Involved], is_in: impl Fn(usize) -> bool) -> Paint {
-        let mut paint = ground;
+        let mut stack = Stack::on(ground);
         for (at, Involved { area, .. }) in involved.iter().enumerate() {
             let Some(style) = self.judge.index.painted_by(*area) else { continue };
             let cut = self.judge.index.cut_of(*area);
@@ -382,10 +382,13 @@ impl<'a> PixelPainter<'a> {
                 involved.binary_search_by_key(&area, |i| i.area).is_ok_and(&is_in) == wanted
             };
             if is_in(at) && cut.is_none_or(is_kept) {
-                paint = self.backdrop.compositor.over(paint, self.paints[style as usize]);
+                let paint = self.paints[style as usize];
+                stack.draw(self.judge.index.group_of(style), |below| {
+                    self.backdrop.compositor.over(below, paint)
+                });
             }
         }
-        paint
+        stack.finished()
     }
 
     #[inline]

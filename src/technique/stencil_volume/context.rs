@@ -7,7 +7,7 @@ use super::view::VolumeViews;
 use crate::canvas::{Backdrop, FrameOptions, LastGround};
 use crate::raster::Lattice;
 use crate::resolve::Paint;
-use crate::scene::Rule;
+use crate::scene::{Group, Rule};
 use crate::space::{Plan, ViewFrame};
 use crate::stage::Stage;
 use crate::technique::stencil_volume::{FarPlane, Overflow, Settings, VolumeCaps};
@@ -136,6 +136,11 @@ impl<'a> FrameContext<'a> {
         let first = self.extrusion.passes[pass as usize].objects[0];
         let style = self.stage.draw_list.items()[first as usize].style;
         (self.paints[style as usize], self.extrusion.rule_of(first))
+    }
+
+    /// What the objects of a pass are composed with first.
+    pub fn group_of(&self, pass: u32) -> Option<Group> {
+        self.stage.draw_list.style_of(self.extrusion.passes[pass as usize].objects[0]).group
     }
 
     /// The rule of the polygon that a pass is cut to, and whether what lies inside is kept.

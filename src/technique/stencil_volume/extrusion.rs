@@ -189,7 +189,9 @@ impl<'l> Extrusion<'l> {
                 && self.rule_of(object) == Rule::NonZero
                 && self.cut_of(object).is_none()
         };
-        let key = |object: u32| self.list.style_of(object).paint.0.map(f64::to_bits);
+        // A layer that is composed as a whole shares with no other.
+        let layer = |object: u32| self.list.style_of(object).group.map(|group| group.layer);
+        let key = |object: u32| (layer(object), self.list.style_of(object).paint.0.map(f64::to_bits));
         let mut open = std::collections::BTreeMap::new();
         let mut passes: Vec<Pass> = Vec::new();
         for object in 0..self.objects.len() as u32 {

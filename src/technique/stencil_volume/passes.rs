@@ -27,6 +27,7 @@ impl<R: Record<Step>> Tile<'_, R> {
         for pass in entries.chunk_by(|a, b| a.pass == b.pass) {
             let stroke = pass.partition_point(|e| e.is_cutter);
             let (cutters, volumes) = pass.split_at(stroke);
+            self.enter(self.context.group_of(pass[0].pass));
             let cut = self.context.cut_of(pass[0].pass);
             if let Some((rule, _)) = cut {
                 self.stencil.inside = vec![[false; SIZE]; self.blocks.len()];
@@ -39,6 +40,7 @@ impl<R: Record<Step>> Tile<'_, R> {
             self.stencil.width = self.context.stencil_width();
             self.counts.masks += 1;
         }
+        self.enter(None);
     }
 
     /// The first sub-step of an outline that is cut: what the polygon's mask says is kept in a bit.

@@ -8,7 +8,8 @@ use super::stencil::{Stencil, Traces};
 use super::view::Entry;
 use crate::canvas::LastGround;
 use crate::raster::TileView;
-use crate::resolve::Paint;
+use crate::resolve::{Mix, Paint};
+use crate::scene::Group;
 use crate::technique::stencil_volume::VolumeCaps;
 
 /// What was done in a tile.
@@ -53,6 +54,8 @@ pub struct Tile<'a, R = ()> {
     pub stencil: Stencil,
     /// What each sample has been painted with, by block; empty: nothing.
     painted: Vec<Vec<Option<Paint>>>,
+    /// The group that is being drawn, and what lies below it at the samples that it has painted, by block.
+    group: Option<(Group, Vec<Vec<Option<Paint>>>)>,
     /// Planes to look at.
     pub traces: Option<Traces>,
     /// What was done.
@@ -77,6 +80,7 @@ impl<'a, R> Tile<'a, R> {
             place,
             stencil: Stencil::new(count, context.stencil_width()),
             painted: vec![Vec::new(); count],
+            group: None,
             traces: context.wants_traces.then(|| Traces::new(count)),
             counts: Counts::default(),
             faces: Vec::new(),
@@ -93,10 +97,28 @@ impl<'a, R> Tile<'a, R> {
             Some(Some(below)) => *below,
             _ => self.ground_at((block, at)),
         };
-        if self.painted[block].is_empty() {
-            self.painted[block] = vec![None; SIZE];
+        if let Some((_, kept)) = &mut self.group {
+            put(&mut kept[block], at, |known| known.unwrap_or(below));
         }
-        self.painted[block][at] = Some(self.context.backdrop.compositor.over(below, paint));
+        let above = self.context.backdrop.compositor.over(below, paint);
+        put(&mut self.painted[block], at, |_| above);
+    }
+
+    /// Begins to draw a group, or none: what was drawn of another is mixed with what lies below it.
+    pub fn enter(&mut self, group: Option<Group>) {
+        if self.group.as_ref().map(|(open, _)| *open) == group {
+            return;
+        }
+        if let Some((done, kept)) = self.group.take() {
+            for (painted, kept) in self.painted.iter_mut().zip(&kept) {
+                for (painted, below) in painted.iter_mut().zip(kept) {
+                    if let (Some(painted), Some(below)) = (painted, below) {
+                        *painted = below.mixed(*painted, done.opacity);
+                    }
+                }
+            }
+        }
+        self.group = group.map(|group| (group, vec![Vec::new(); self.blocks.len()]));
     }
 
     /// The paint of a sample, where features have been drawn on it.
@@ -123,6 +145,14 @@ impl<'a, R> Tile<'a, R> {
         let is_open_above = self.context.settings.caps == VolumeCaps::Bottom;
         Setup { view: &self.view, place: self.place, is_open_above }
     }
+}
+
+/// Puts a paint at a sample of a block, whose samples have none as long as it is empty.
+fn put(block: &mut Vec<Option<Paint>>, at: usize, paint: impl FnOnce(Option<Paint>) -> Paint) {
+    if block.is_empty() {
+        *block = vec![None; SIZE];
+    }
+    block[at] = Some(paint(block[at]));
 }
 
 /// Column and row in the tile of a block's sample.

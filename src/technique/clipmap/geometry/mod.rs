@@ -19,7 +19,7 @@ use crate::error::{Error, Result};
 use crate::index::BoxTree;
 use crate::math;
 use crate::parallel;
-use crate::scene::Compositing;
+use crate::scene::{Compositing, Group};
 use crate::space::{Plan, PlanBox};
 use crate::technique::clipmap::{Joints, Settings, Solution};
 use areas::Areas;
@@ -123,6 +123,11 @@ impl<'l> Geometry<'l> {
     /// A chunk.
     pub(super) fn chunk(&self, chunk: u32) -> Chunk<'_> {
         self.strokes.chunk(chunk)
+    }
+
+    /// What an item is composed with first.
+    pub(super) fn group_of(&self, item: u32) -> Option<Group> {
+        self.list.style_of(item).group
     }
 
     /// How an item is drawn.

@@ -60,6 +60,19 @@ impl Canvas {
         self.texels.fill([0.0; 4]);
     }
 
+    /// Mixes all texels with what they were: `share` of what they are now.
+    pub(super) fn mix(&mut self, before: &[[f32; 4]], share: f32) {
+        for (texel, before) in self.texels.iter_mut().zip(before) {
+            let mixed = std::array::from_fn(|k| before[k] * (1.0 - share) + texel[k] * share);
+            *texel = rounded(mixed, self.format);
+        }
+    }
+
+    /// All texels, with those that fill the rows.
+    pub(super) fn texels(&self) -> &[[f32; 4]] {
+        &self.texels
+    }
+
     /// Blends ink into a row, as much of it as is covered.
     pub(super) fn blend(&mut self, row: usize, coverage: &RowCoverage, ink: &Ink) {
         let texels = &mut self.texels[row * self.stride + coverage.first..];
@@ -190,9 +203,15 @@ fn blended(below: [f32; 4], ink: &Ink, share: f32, format: TexelFormat) -> [f32;
             std::array::from_fn(|k| crate::math::min_f32(below[k] + ink.color[k] * share, 1.0))
         }
     };
+    rounded(above, format)
+}
+
+/// A texel as its format holds it.
+#[inline(always)]
+fn rounded(texel: [f32; 4], format: TexelFormat) -> [f32; 4] {
     match format {
-        TexelFormat::F32 => above,
+        TexelFormat::F32 => texel,
         // A cast rounds towards zero.
-        TexelFormat::Unorm8 => above.map(|v| f32::from((v * 255.0 + 0.5) as u8) / 255.0),
+        TexelFormat::Unorm8 => texel.map(|v| f32::from((v * 255.0 + 0.5) as u8) / 255.0),
     }
 }

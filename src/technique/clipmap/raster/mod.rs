@@ -26,7 +26,7 @@ pub use canvas::Ink;
 pub use pieces::Folded;
 
 use super::tessellation::Pair;
-use crate::scene::Rule;
+use crate::scene::{Group, Rule};
 use crate::space::Texel;
 use crate::technique::clipmap::{LineFilter, LinePrimitives, Overlaps, PolygonRaster, TexelFormat};
 use canvas::Canvas;
@@ -89,6 +89,8 @@ pub struct Cut<'a> {
 pub struct TileRaster {
     settings: RasterSettings,
     canvas: Canvas,
+    /// The group that is being drawn, and the texels before it.
+    group: Option<(Group, Vec<[f32; 4]>)>,
     /// Fills and the polygons of lines.
     polygons: Polygons,
     /// The polygon that a stroke is cut to.
@@ -132,6 +134,7 @@ impl TileRaster {
         Self {
             settings,
             canvas: Canvas::new(place.size, settings.texel),
+            group: None,
             polygons: Polygons::new(place, settings.polygons, false),
             cut: Polygons::new(place, settings.polygons, true),
             rectangles: Accumulator::new(place.origin, place.size, false),
@@ -154,10 +157,22 @@ impl TileRaster {
         (0..self.place.size.1).flat_map(|row| self.row(row)).copied().collect()
     }
 
+    /// Begins to draw a group, or none: what was drawn of another is mixed with what lies below it.
+    pub fn enter(&mut self, group: Option<Group>) {
+        if self.group.as_ref().map(|(open, _)| *open) == group {
+            return;
+        }
+        if let Some((done, before)) = self.group.take() {
+            self.canvas.mix(&before, done.opacity as f32);
+        }
+        self.group = group.map(|group| (group, self.canvas.texels().to_vec()));
+    }
+
     /// Starts another tile of the same size.
     pub fn start(&mut self, origin: (i64, i64)) {
         self.place.origin = origin;
         self.canvas.clear();
+        self.group = None;
         self.polygons.move_to(origin);
         self.cut.move_to(origin);
         self.rectangles.move_to(origin);
