@@ -118,6 +118,12 @@ fn read_collected(path: &Path, layer: Option<&str>, wanted: Wanted) -> Result<(V
     Ok((format, found))
 }
 
+/// Whether a file is one of vectors: by its name, or where that tells nothing by what it begins with.
+pub fn is_vector(path: &Path) -> bool {
+    promised_by_name(path).is_some()
+        || beginning_of(path).is_ok_and(|start| told_by_content(&start).is_some())
+}
+
 /// The format by what the file begins with; a name that promises another is refused.
 fn format_of(path: &Path) -> Result<VectorFormat> {
     let start = beginning_of(path)?;

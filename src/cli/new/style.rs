@@ -1,0 +1,155 @@
+//! The style of a layer in a starter scene: colours by what it shows, widths by what the camera shows.
+
+use super::files::Layer;
+use super::framing::{Framing, two_digits};
+use super::theme::{Look, Theme, shaded, written};
+use crate::cli::written::{key, quoted_text};
+use drapery::math::{max, min};
+use drapery::scene::{Feature, Shape};
+use drapery::space::{Plan, PlanBox};
+
+/// Borders are so many pixels wide.
+const OUTLINE: f64 = 1.4;
+/// Lines and borders cover at most this share of the picture, as long as they are seen at all.
+const CROWD: f64 = 0.10;
+/// The share of a polygon's extent that its border takes at most.
+const BORDER: f64 = 0.08;
+/// The least width in pixels.
+const LEAST: f64 = 0.3;
+/// Classes of roads, from the most important: words of OpenStreetMap, which others use too. The number is the rank.
+const CLASSES: [(&str, usize); 16] = [
+    ("motorway", 0),
+    ("highway", 0),
+    ("trunk", 0),
+    ("primary", 1),
+    ("major", 1),
+    ("secondary", 2),
+    ("tertiary", 3),
+    ("minor", 3),
+    ("unclassified", 4),
+    ("residential", 4),
+    ("living_street", 4),
+    ("service", 5),
+    ("track", 5),
+    ("path", 6),
+    ("footway", 6),
+    ("cycleway", 6),
+];
+/// Widths of the ranks, as shares of the widest.
+const RANKS: [f64; 7] = [1.0, 0.85, 0.7, 0.55, 0.45, 0.35, 0.25];
+
+/// How large the parts of a layer are, where the camera looks.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Measures {
+    /// Metres of lines.
+    lines: f64,
+    /// Metres of polygons' borders.
+    borders: f64,
+    /// The middle one of the polygons' extents.
+    extent: f64,
+}
+
+impl Measures {
+    pub(super) fn of(features: &[Feature], plan: &PlanBox) -> Self {
+        let mut measures = Self::default();
+        let mut extents = Vec::new();
+        for feature in features {
+            let (Shape::Polygon(parts) | Shape::Line(parts)) = &feature.shape;
+            let bounds = PlanBox::around(parts.iter().flatten().copied());
+            if !bounds.meets(plan) {
+                continue;
+            }
+            let length: f64 = parts.iter().map(|part| length_within(part, plan)).sum();
+            if matches!(feature.shape, Shape::Line(_)) {
+                measures.lines += length;
+            } else {
+                let size = bounds.max - bounds.min;
+                measures.borders += length;
+                extents.push(max(size.x, size.y));
+            }
+        }
+        extents.sort_by(f64::total_cmp);
+        Self { extent: extents.get(extents.len() / 2).copied().unwrap_or(0.0), ..measures }
+    }
+}
+
+/// The length of the segments that begin in a box.
+fn length_within(part: &[Plan], plan: &PlanBox) -> f64 {
+    let begins_inside = |pair: &&[Plan]| plan.meets(&PlanBox { min: pair[0], max: pair[0] });
+    part.windows(2).filter(begins_inside).map(|pair| (pair[1] - pair[0]).length()).sum()
+}
+
+/// Widths in metres.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Widths {
+    pub(super) line: f64,
+    pub(super) outline: f64,
+}
+
+impl Widths {
+    /// Widths that are seen well and hide nothing.
+    pub(super) fn of(look: &Look, measures: &Measures, framing: &Framing) -> Self {
+        let pixel = framing.pixel;
+        let size = framing.plan.max - framing.plan.min;
+        let crowded = |pixels: f64, length: f64| {
+            let room = if length > 0.0 { CROWD * size.x * size.y / length } else { f64::INFINITY };
+            min(pixels * pixel, room)
+        };
+        let floor = LEAST * pixel;
+        let border = if measures.extent > 0.0 { BORDER * measures.extent } else { f64::INFINITY };
+        Self {
+            line: two_digits(max(crowded(look.width, measures.lines), floor)),
+            outline: two_digits(max(min(crowded(OUTLINE, measures.borders), border), floor)),
+        }
+    }
+}
+
+/// The lines of a layer's table that say how it looks.
+pub(super) fn lines(layer: &Layer<'_>, look: &Look, widths: Widths) -> String {
+    let mut text = String::new();
+    let (fill, stroke) = (written(look.fill), written(look.stroke));
+    if layer.summary.polygons > 0 {
+        text += &format!("fill = {{ color = \"{fill}\", opacity = {} }}\n", look.opacity);
+        text += &format!(
+            "outline = {{ color = \"{stroke}\", width_m = {}, mode = \"inset\" }}   # or width_px = 1.5\n",
+            widths.outline
+        );
+    }
+    if layer.summary.lines > 0 {
+        let (color, width) = by_class(layer, look, widths.line)
+            .unwrap_or_else(|| (quoted_text(&stroke), widths.line.to_string()));
+        text += &format!(
+            "line = {{ color = {color}, width_m = {width}, join = \"round\", cap = \"round\" }}   # or width_px = 3.0\n"
+        );
+    }
+    text
+}
+
+/// Colour and width of roads by their class, where a column tells that: one hue, the important ones darker and wider.
+fn by_class(layer: &Layer<'_>, look: &Look, width: f64) -> Option<(String, String)> {
+    if Theme::of(&layer.name) != Some(Theme::Road) {
+        return None;
+    }
+    let (column, classes) = layer.summary.columns.iter().find_map(|column| {
+        let texts: Vec<&str> =
+            column.distinct.as_ref()?.iter().filter_map(|(value, _)| value.text()).collect();
+        let classes: Vec<(&str, usize)> =
+            texts.iter().filter_map(|text| Some((*text, rank(text)?))).collect();
+        (classes.len() >= 2).then(|| (quoted_text(&column.name), classes))
+    })?;
+    let color = |rank: usize| written(if rank <= 1 { shaded(look.stroke, 1) } else { look.stroke });
+    let wide = |rank: usize| two_digits(width * RANKS[rank]);
+    let map = |value: &dyn Fn(usize) -> String| {
+        let entries: Vec<String> =
+            classes.iter().map(|(text, rank)| format!("{} = {}", key(text), value(*rank))).collect();
+        format!("{{ by = {column}, map = {{ {} }}, default = {} }}", entries.join(", "), value(4))
+    };
+    Some((map(&|rank| quoted_text(&color(rank))), map(&|rank| wide(rank).to_string())))
+}
+
+/// How important a class of roads is.
+fn rank(class: &str) -> Option<usize> {
+    let class = class.to_lowercase();
+    let class = class.strip_suffix("_link").unwrap_or(&class);
+    CLASSES.iter().find(|(word, _)| *word == class).map(|(_, rank)| *rank)
+}

@@ -1,0 +1,200 @@
+//! The text of a starter scene.
+
+use super::files::{Files, Layer, NOT_DRAWN, Terrain, name_of};
+use super::framing::{Framing, WIDTH};
+use super::place::Place;
+use super::style::{self, Measures, Widths};
+use super::theme::{Looks, Theme};
+use crate::cli::columns::offers;
+use crate::cli::info::encoding_name;
+use crate::cli::written::{harmless, quoted_text};
+use drapery::Result;
+use drapery::crs::Crs;
+use drapery::scene::Scene;
+use drapery::source::dem::DemSummary;
+use drapery::space::{Plan, PlanBox};
+use glam::DVec3;
+
+/// A scene to be written.
+pub(super) struct Starter<'a> {
+    pub(super) files: &'a Files<'a>,
+    /// Where paths start.
+    pub(super) place: &'a Place,
+    /// What loading said of it; without it, the text is one to load.
+    pub(super) told: Option<Told<'a>>,
+}
+
+/// What is known of a scene that has been loaded once.
+#[derive(Clone, Copy)]
+pub(super) struct Told<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) framing: &'a Framing,
+}
+
+const NO_LAYER: &str = r##"
+# [[layer]]
+# name = "roads"
+# source = "roads.shp"                 # .geojson .json .shp .fgb .gpkg
+# line = { color = "#ff7f00", width_px = 3.0, join = "round", cap = "round" }
+"##;
+
+impl Starter<'_> {
+    /// The whole scene file.
+    pub(super) fn text(&self) -> Result<String> {
+        let mut text = self.head()?;
+        let mut looks = Looks::default();
+        let mut drawn = 0;
+        for layer in &self.files.layers {
+            if layer.is_drawn() {
+                text += &self.layer(layer, drawn, &mut looks)?;
+                drawn += 1;
+            } else {
+                let source = self.place.quoted(layer.path)?;
+                text += &format!("\n# {}, {source}: {NOT_DRAWN}\n", harmless(&layer.name));
+            }
+        }
+        if drawn == 0 {
+            text += NO_LAYER;
+        }
+        Ok(text)
+    }
+
+    /// All but the layers.
+    fn head(&self) -> Result<String> {
+        let terrain = &self.files.terrain;
+        Ok(format!(
+            r##"# A scene for drapery. `drapery schema` describes every key; paths are relative to this file.
+schema = 1
+name = {name}
+{plan}
+[image]
+width = {WIDTH}
+height = {height}
+background = "#dce9f2"
+
+{camera}
+[terrain]
+source = {source}
+{crs}{encoding}# window = [x0, y0, x1, y1]            # read only this part, in the file's own coordinates
+{scale}color = "#efe6d2"
+shade = "hillshade"
+{notes}"##,
+            name = quoted_text(&name_of(terrain.path)),
+            plan = self.plan(),
+            height = self.told.map_or(800, |told| told.framing.height),
+            camera = self.camera(),
+            source = self.place.quoted(terrain.path)?,
+            crs = self.crs()?,
+            encoding = encoding(terrain),
+            scale = self.scale(),
+            notes = self.notes("terrain: "),
+        ))
+    }
+
+    /// What the plan is.
+    fn plan(&self) -> String {
+        let words = self.told.map(|told| format!("# The plan: {}.\n", harmless(&told.scene.plan_space)));
+        words.unwrap_or_default()
+    }
+
+    fn camera(&self) -> String {
+        let at = |at: DVec3, decimals: usize| {
+            format!("[{:.decimals$}, {:.decimals$}, {:.decimals$}]", at.x, at.y, at.z)
+        };
+        let Some(Told { framing, .. }) = self.told else { return String::new() };
+        let (eye, target) = (at(framing.eye, framing.decimals()), at(framing.target, framing.decimals()));
+        let near = framing.near_m.map_or_else(String::new, |near| format!("near_m = {near}\n"));
+        format!(
+            "# From the south. Without eye and target the program frames the layers.\n[camera]\n\
+             eye = {eye}   # plan x, plan y, height in metres; or eye_geo = [longitude, latitude, height]\n\
+             target = {target}\n\
+             fov_y_deg = {:.2}\n{near}",
+            framing.fov_y_deg
+        )
+    }
+
+    fn scale(&self) -> String {
+        let by = self.told.map_or(1.0, |told| told.framing.exaggeration);
+        let why = "the land is flat: heights are drawn so many times as high; 1.0 is as they are";
+        match by == 1.0 {
+            true => "vertical_scale = 1.0\n".into(),
+            false => format!("{:<38} # {why}\n", format!("vertical_scale = {by:.1}")),
+        }
+    }
+
+    /// The terrain's CRS, where its file does not state one and a layer on it does.
+    fn crs(&self) -> Result<String> {
+        let terrain = &self.files.terrain;
+        if terrain.plan().is_some() {
+            return Ok(String::new());
+        }
+        let ground = bounds(&terrain.summary);
+        let guess = self.files.layers.iter().find_map(|layer| {
+            let crs = layer.summary.crs.as_ref()?;
+            let code = crs.epsg()?;
+            let lies_on_it = layer.summary.bounds.meets(&ground) && can_hold(crs, &ground);
+            lies_on_it.then_some((layer.path, code))
+        });
+        Ok(match guess {
+            Some((path, code)) => format!(
+                "crs = \"EPSG:{code}\"                    # the file does not say it: taken from {}, which lies on it\n",
+                self.place.quoted(path)?
+            ),
+            None => {
+                "# crs = \"EPSG:...\"                    # the file does not say it: say it if you know\n"
+                    .into()
+            }
+        })
+    }
+
+    /// The table of a layer, the `number`-th of those that are drawn.
+    fn layer(&self, layer: &Layer<'_>, number: usize, looks: &mut Looks) -> Result<String> {
+        let look = looks.of(Theme::of(&layer.name));
+        let widths = self.told.map(|Told { scene, framing }| {
+            let features = scene.layers.get(number).map_or(&[][..], |layer| &layer.features);
+            Widths::of(&look, &Measures::of(features, &framing.plan), framing)
+        });
+        let widths = widths.unwrap_or(Widths { line: 1.0, outline: 1.0 });
+        let source = self.place.quoted(layer.path)?;
+        let mut text = format!("\n[[layer]]\nname = {}\nsource = {source}\n", quoted_text(&layer.name));
+        if let Some(layer) = &layer.summary.layer {
+            text += &format!("layer = {}\n", quoted_text(layer));
+        }
+        text += &style::lines(layer, &look, widths);
+        text += &offers(&layer.summary);
+        text += &self.notes(&format!("layer `{}`: ", layer.name));
+        Ok(text)
+    }
+
+    /// What loading said of a part of the scene, as comments.
+    fn notes(&self, about: &str) -> String {
+        let notes = self.told.map_or(&[][..], |told| &told.scene.notes);
+        let notes = notes.iter().filter_map(|note| note.strip_prefix(about));
+        notes.map(|note| format!("# Note: {}\n", harmless(note))).collect()
+    }
+}
+
+/// Whether a rectangle can be in a CRS: one in degrees ends at the poles. (A GeoJSON of metres still counts as degrees.)
+fn can_hold(crs: &Crs, bounds: &PlanBox) -> bool {
+    let on_globe = |p: Plan| p.x.abs() <= 360.0 && p.y.abs() <= 90.0;
+    !crs.is_geographic() || (on_globe(bounds.min) && on_globe(bounds.max))
+}
+
+fn bounds(summary: &DemSummary) -> PlanBox {
+    let [x0, y0, x1, y1] = summary.bounds;
+    PlanBox { min: Plan::new(x0, y0), max: Plan::new(x1, y1) }
+}
+
+/// What a PNG does not say itself.
+fn encoding(terrain: &Terrain<'_>) -> String {
+    let Some(encoding) = terrain.encoding else {
+        return String::new();
+    };
+    let [low, high] = terrain.summary.heights.unwrap_or_default();
+    format!(
+        "encoding = \"{}\"{:<18}# its heights are then {low:.1} to {high:.1}; the other encoding gives none on Earth\n\
+         # bounds = [x0, y0, x1, y1]            # the rectangle that the PNG covers, in the terrain's crs\n",
+        encoding_name(encoding),
+        ""
+    )
+}
