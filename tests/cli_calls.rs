@@ -159,7 +159,9 @@ fn called_in(folder: &tempfile::TempDir, arguments: &[&str]) -> Output {
 #[test]
 fn a_starter_scene_names_the_files_as_given_and_loads() {
     let folder = valley();
-    let text = done(called_in(&folder, &["new", "dem.asc", "road.geojson"]));
+    let output = called_in(&folder, &["new", "dem.asc", "road.geojson"]);
+    assert_eq!(output.status.code(), Some(0));
+    let text = String::from_utf8(output.stdout).unwrap();
     assert!(text.contains("source = \"dem.asc\"") && text.starts_with("# A scene for drapery."), "{text}");
     let path = folder.path().join("scene.toml");
     std::fs::write(&path, &text).unwrap();
@@ -167,6 +169,18 @@ fn a_starter_scene_names_the_files_as_given_and_loads() {
     let (scene, _) = drapery::source::load::load(&scene, &|_| ()).unwrap();
     assert_eq!((scene.layers.len(), scene.layers[0].features.len()), (1, 1));
     assert!(done(called_in(&folder, &["info", "scene.toml"])).contains("layer       road (road.geojson)"));
+}
+
+#[test]
+fn a_starter_scene_goes_where_it_is_told_with_its_notes_on_stderr() {
+    let folder = valley();
+    let output = called_in(&folder, &["new", "road.geojson", "dem.asc", "-o", "scene.toml"]);
+    let said = String::from_utf8(output.stderr.clone()).unwrap();
+    assert!(output.status.success() && output.stdout.is_empty(), "{said}");
+    assert!(said.contains("scene.toml: a scene; next: drapery render scene.toml"), "{said}");
+    drapery::open(folder.path().join("scene.toml")).unwrap();
+    let said = refused(called_in(&folder, &["new", "dem.asc", "-o", "dem.asc"]), 2);
+    assert!(said.contains("would be written over a file that it is to show"), "{said}");
 }
 
 #[test]

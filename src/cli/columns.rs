@@ -72,7 +72,9 @@ pub(super) fn offers(summary: &VectorSummary) -> String {
     let maps = classes.iter().map(|(column, values)| map(column, values));
     let mut lines: Vec<String> = maps.chain(ramps).collect();
     let filter = classes.first().map(|(column, values)| {
-        let most: Vec<String> = values.iter().take(2).map(|value| quoted_text(value)).collect();
+        let written = |value: &Attribute| value.text().map_or_else(|| value.to_string(), quoted_text);
+        let shown = if column.kind == ColumnKind::Boolean { 1 } else { 2 };
+        let most: Vec<String> = values.iter().take(shown).map(|value| written(value)).collect();
         format!("where = {{ {} = [{}] }}", key(&column.name), most.join(", "))
     });
     lines.extend(filter.or_else(|| summary.columns.iter().find_map(bounds)));
@@ -86,16 +88,19 @@ pub(super) fn offers(summary: &VectorSummary) -> String {
     )
 }
 
-/// The different texts of a column of classes, the most frequent first.
-fn classes(column: &ColumnSummary) -> Option<(&ColumnSummary, Vec<&str>)> {
-    let distinct = column.distinct.as_ref().filter(|all| all.len() > 1 && column.kind == ColumnKind::Text)?;
-    let texts: Vec<&str> = by_count(distinct).into_iter().filter_map(|(value, _)| value.text()).collect();
-    texts.iter().all(|text| text.chars().count() <= LONGEST_CLASS).then_some((column, texts))
+/// The different values of a column of classes, texts or flags, the most frequent first.
+fn classes(column: &ColumnSummary) -> Option<(&ColumnSummary, Vec<&Attribute>)> {
+    let is_class = matches!(column.kind, ColumnKind::Text | ColumnKind::Boolean);
+    let distinct = column.distinct.as_ref().filter(|all| all.len() > 1 && is_class)?;
+    let values: Vec<&Attribute> = by_count(distinct).into_iter().map(|(value, _)| value).collect();
+    let is_short = |text: &str| text.chars().count() <= LONGEST_CLASS;
+    values.iter().all(|value| value.text().is_none_or(is_short)).then_some((column, values))
 }
 
-fn map(column: &ColumnSummary, values: &[&str]) -> String {
+fn map(column: &ColumnSummary, values: &[&Attribute]) -> String {
     let colors = CLASS_COLORS.iter().cycle();
-    let entries = values.iter().zip(colors).map(|(value, color)| format!("{} = \"{color}\"", key(value)));
+    let name = |value: &Attribute| value.text().map_or_else(|| value.to_string(), key);
+    let entries = values.iter().zip(colors).map(|(value, color)| format!("{} = \"{color}\"", name(value)));
     let (by, entries) = (quoted_text(&column.name), listed(entries));
     format!("color = {{ by = {by}, map = {{ {entries} }}, default = \"#808080\" }}")
 }
@@ -153,6 +158,19 @@ mod tests {
             ]
         );
         assert_eq!(shown(&Attribute::Text("é".repeat(31))), format!("\"{}\"...", "é".repeat(30)));
+    }
+
+    #[test]
+    fn flags_are_offered_as_classes() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.json");
+        let flags = LINES.replace("\"fid\":1,", "\"open\":true,").replace("\"fid\":2,", "\"open\":false,");
+        std::fs::write(&path, flags).unwrap();
+        let offered = offers(&describe(&path).unwrap().remove(0));
+        assert!(
+            offered.contains("# color = { by = \"open\", map = { false = \"#1f78b4\", true = \"#33a02c\" }"),
+            "{offered}"
+        );
     }
 
     #[test]

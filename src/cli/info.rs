@@ -48,7 +48,7 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
     bar.start(&format!("reading {}", path.display()));
     let tables = match extension(path).as_str() {
         "toml" => vec![of_scene(&SceneFile::read(path, &[])?)],
-        "shp" | "geojson" | "json" | "fgb" | "gpkg" => of_vectors(path)?,
+        _ if vector::is_vector(path) => of_vectors(path)?,
         _ => vec![of_terrain(path, arguments.encoding)?],
     };
     drop(bar);

@@ -171,7 +171,11 @@ fn uncovered<T>(by: &ByColumn<T>, value: &Attribute, key: &str) -> Error {
     }
     let known: Vec<&str> = entries.iter().map(|(key, _)| key.as_str()).collect();
     let given = value.text().map_or_else(|| value.to_string(), Into::into);
-    let help = nearest_or_all(&given, &known, "entries");
+    // The data is right there; what the scene calls it is not.
+    let help = match value {
+        Attribute::Boolean(_) => "entries of flags are called `true` and `false`".into(),
+        _ => nearest_or_all(&given, &known, "entries"),
+    };
     Error::new(format!(
         "the column `{column}` holds {value}, for which the map of `{key}` has no entry, and there is no `default`"
     ))

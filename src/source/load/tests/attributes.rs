@@ -108,6 +108,19 @@ fn stops_are_linear_between_and_constant_beyond() {
 }
 
 #[test]
+fn a_flag_that_a_map_does_not_cover_is_not_taken_for_a_slip() {
+    let folder = folder(&[(LONG, r#""open":true"#)]);
+    let lines = "line = { color = { by = \"open\", map = { True = \"#000000\" } }, width_m = 1 }";
+    let error = folder.refused(&layer(lines)).to_string();
+    assert!(
+        error.contains("holds true") && error.contains("entries of flags are called `true` and `false`"),
+        "{error}"
+    );
+    let lines = "line = { color = { by = \"open\", map = { true = \"#000000\" } }, width_m = 1 }";
+    assert_eq!(numbers(&drawn(&folder, lines)), [0]);
+}
+
+#[test]
 fn what_a_scale_does_not_cover_is_refused_by_file_feature_column_and_value() {
     let folder =
         folder(&[(LONG, r#""T":"primary","n":1"#), (LONG, r#""T":"secondry""#), (LONG, r#""n":"1""#)]);
