@@ -282,7 +282,7 @@ pub(super) struct Looks {
 }
 
 impl Looks {
-    /// The look of the next layer.
+    /// The look of the next layer. Areas of a kind that is there already show what they lie on.
     pub(super) fn of(&mut self, theme: Option<Theme>) -> Look {
         let before = self.used.iter().filter(|used| **used == theme).count();
         self.used.push(theme);
@@ -293,7 +293,8 @@ impl Looks {
             return Look { fill, opacity: 0.4, stroke: shaded(fill, 1), width: 2.5 };
         };
         let look = theme.look();
-        Look { fill: shaded(look.fill, before), stroke: shaded(look.stroke, before), ..look }
+        let opacity = if before == 0 { look.opacity } else { 0.5 * look.opacity };
+        Look { fill: shaded(look.fill, before), stroke: shaded(look.stroke, before), opacity, ..look }
     }
 }
 
@@ -302,8 +303,8 @@ pub(super) fn shaded(color: [u8; 3], n: usize) -> [u8; 3] {
     let (to, share): (u8, usize) = match n % 4 {
         0 => (0, 0),
         1 => (0, 30),
-        2 => (255, 40),
-        _ => (0, 55),
+        2 => (0, 55),
+        _ => (255, 40),
     };
     color.map(|v| ((usize::from(v) * (100 - share) + usize::from(to) * share) / 100) as u8)
 }
