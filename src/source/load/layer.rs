@@ -13,6 +13,7 @@ use crate::math::max;
 use crate::parallel;
 use crate::scene::{Feature, Join, Layer, Line, Shape, Style, Width};
 use crate::scene_file::{DataFile, InlineFeature, LayerSource, LayerSpec, SceneFile, VectorGenerator};
+use crate::source::vector::is_drawable;
 use crate::source::{generate, vector};
 use crate::space::{Plan, PlanBox};
 use glam::DVec2;
@@ -145,11 +146,6 @@ fn stated_crs(scene: &SceneFile, spec: &LayerSpec) -> Result<Option<Crs>> {
 fn parts(shape: &Shape) -> impl Iterator<Item = &Vec<Plan>> {
     let (Shape::Polygon(parts) | Shape::Line(parts)) = shape;
     parts.iter()
-}
-
-/// Whether a part has enough points to cover anything: 3 of a ring, 2 of a line.
-fn is_drawable(shape: &Shape, part: &[Plan]) -> bool {
-    part.len() >= if matches!(shape, Shape::Polygon(_)) { 3 } else { 2 }
 }
 
 /// How the layer's coordinates become plan coordinates, with a note where that is worth one.

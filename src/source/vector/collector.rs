@@ -20,6 +20,9 @@ pub(super) struct Collector {
     pub(super) stored_vertices: usize,
     points: usize,
     empty: usize,
+    deleted: usize,
+    /// Parts of lines that are a single vertex.
+    dots: usize,
     /// Rings that enclose nothing.
     thin_rings: usize,
 }
@@ -49,6 +52,11 @@ impl Collector {
         self.empty += 1;
     }
 
+    /// Counts a feature that the file marks as deleted.
+    pub(super) fn leave_out_deleted(&mut self) {
+        self.deleted += 1;
+    }
+
     /// Adds a (multi-)polygon of the current feature; closing vertices are taken off.
     pub(super) fn add_polygon(&mut self, mut rings: Vec<Vec<Plan>>) -> Result<()> {
         self.admit(&mut rings)?;
@@ -65,7 +73,12 @@ impl Collector {
     /// Adds a (multi-)line of the current feature.
     pub(super) fn add_line(&mut self, mut parts: Vec<Vec<Plan>>) -> Result<()> {
         self.admit(&mut parts)?;
-        self.push(parts, Shape::Line);
+        let (all, had_vertices) = (parts.len(), !parts.is_empty());
+        parts.retain(|part| part.len() > 1);
+        self.dots += all - parts.len();
+        if !(parts.is_empty() && had_vertices) {
+            self.push(parts, Shape::Line);
+        }
         Ok(())
     }
 
@@ -92,6 +105,8 @@ impl Collector {
     pub(super) fn finish(&mut self) {
         self.note_count(self.points, "point", "left out: points are not drawn");
         self.note_count(self.empty, "geometry", "without coordinates left out");
+        self.note_count(self.deleted, "feature", "left out, marked as deleted in the .dbf");
+        self.note_count(self.dots, "line", "of a single vertex left out");
         let thin = match self.thin_rings {
             1 => "of fewer than 3 vertices: nothing lies in it",
             _ => "of fewer than 3 vertices: nothing lies in them",
@@ -145,4 +160,9 @@ pub(super) fn parts_of(shape: &Shape) -> &[Vec<Plan>] {
     match shape {
         Shape::Polygon(parts) | Shape::Line(parts) => parts,
     }
+}
+
+/// Whether a part has enough points to cover anything: 3 of a ring, 2 of a line.
+pub(in crate::source) fn is_drawable(shape: &Shape, part: &[Plan]) -> bool {
+    part.len() >= if matches!(shape, Shape::Polygon(_)) { 3 } else { 2 }
 }

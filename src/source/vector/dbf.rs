@@ -5,51 +5,49 @@
 //! significant byte first) I and + (whole numbers of 4 bytes), B and O (doubles), T and @ (day and milliseconds); memos are not:
 //! their text is in another file.
 //!
-//! A row that is marked as deleted keeps its place and has no values. Texts are in the code page that the .cpg names, else in
+//! A row that is marked as deleted keeps its place: its record is left out. Texts are in the code page that the .cpg names, else in
 //! that of the header's language driver; without either they are UTF-8 where all texts of the table are, else Windows-1252.
 
-use super::bytes::{Cursor, Endian, beside};
+use super::bytes::{Cursor, Endian};
 use super::code_page::CodePage;
 use super::collector::Collector;
 use crate::error::{Error, Result};
 use crate::scene::Attribute;
-use std::path::Path;
 
 const HEADER_BYTES: usize = 32;
 const FIELD_BYTES: usize = 32;
 /// Of a language driver in the header.
 const DRIVER_AT: usize = 29;
 
-/// Reads the columns that are wanted of the .dbf beside a shapefile whose records have been read.
-pub(super) fn read(path: &Path, found: &mut Collector) -> Result<()> {
-    let Some(bytes) = beside(path, "dbf", "DBF") else {
-        return Err(Error::new("there is no .dbf beside the file, so its features have no columns")
-            .help("put the .dbf beside it, or ask for no column"));
+/// Reads the columns that are wanted of the table of a shapefile whose records have been read.
+pub(super) fn read(rows: Result<Option<Rows<'_>>>, cpg: Option<&[u8]>, found: &mut Collector) -> Result<()> {
+    let is_read = found.attributes.are_read();
+    let rows = match rows? {
+        Some(rows) => rows,
+        None if !is_read => return Ok(()),
+        None => {
+            return Err(Error::new("there is no .dbf beside the file, so its features have no columns")
+                .help("put the .dbf beside it, or ask for no column"));
+        }
     };
-    read_table(&bytes, path, found).map_err(|e| e.in_file(&path.with_extension("dbf")))
+    if rows.count != found.seen {
+        return Err(damaged(&format!(
+            "it has {} rows and the .shp {} features, so that which belong together is not known",
+            rows.count, found.seen
+        )));
+    }
+    if is_read { read_values(&rows, cpg, found) } else { Ok(()) }
 }
 
 fn damaged(why: &str) -> Error {
     Error::new(format!("the table of attributes is damaged: {why}")).help("write it again from its source")
 }
 
-fn read_table(bytes: &[u8], path: &Path, found: &mut Collector) -> Result<()> {
-    let table = table(bytes)?;
-    if table.rows != found.seen {
-        return Err(damaged(&format!(
-            "it has {} rows and the .shp {} features, so that which belong together is not known",
-            table.rows, found.seen
-        )));
-    }
-    let page = code_page(path, &table, found);
+fn read_values(rows: &Rows<'_>, cpg: Option<&[u8]>, found: &mut Collector) -> Result<()> {
+    let table = rows.table()?;
+    let page = code_page(cpg, &table, found);
     let slots = slots(&table, page, found);
-    let deleted = table.rows().filter(|row| row.first() == Some(&b'*')).count();
-    if deleted > 0 {
-        found
-            .notes
-            .push(format!("{deleted} of {} rows of the .dbf are marked as deleted: no values", table.rows));
-    }
-    for (index, row) in table.rows().enumerate().filter(|(_, row)| row.first() != Some(&b'*')) {
+    for (index, row) in rows.iter().enumerate().filter(|(index, _)| !rows.is_deleted(*index)) {
         for (field, slot) in table.fields.iter().zip(&slots) {
             if let Some(slot) = *slot {
                 read_value(field, page, row, (slot, index), found).map_err(|e| e.in_feature(index))?;
@@ -91,24 +89,79 @@ fn read_value(
     Ok(())
 }
 
-/// A table whose rows are in the file.
-struct Table<'a> {
-    fields: Vec<Field<'a>>,
-    rows: usize,
+/// The rows of a table, all of which are in the file.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Rows<'a> {
+    /// How many there are.
+    pub(super) count: usize,
+    header: &'a [u8],
     row_bytes: usize,
     data: &'a [u8],
+}
+
+impl<'a> Rows<'a> {
+    /// Those of a table's bytes. All versions of dBASE agree on where these are.
+    pub(super) fn of(bytes: &'a [u8]) -> Result<Self> {
+        let header = bytes.get(..HEADER_BYTES).and_then(|header| {
+            let mut at_rows = Cursor::new(header.get(4..)?);
+            let rows = at_rows.u32(Endian::Little)? as usize;
+            Some((rows, at_rows.u16(Endian::Little)?, at_rows.u16(Endian::Little)?))
+        });
+        let (count, header_bytes, row_bytes) = header.ok_or_else(|| damaged("it ends within its header"))?;
+        let split = bytes
+            .split_at_checked(usize::from(header_bytes))
+            .filter(|(header, _)| header.len() >= HEADER_BYTES);
+        let (header, data) = split.ok_or_else(|| damaged("its header is longer than it"))?;
+        let row_bytes = usize::from(row_bytes);
+        if row_bytes == 0 {
+            return Err(damaged("its rows have no bytes"));
+        }
+        let whole = count.checked_mul(row_bytes).and_then(|length| data.get(..length));
+        let data = whole
+            .ok_or_else(|| damaged("it ends within this row's values").in_feature(data.len() / row_bytes))?;
+        Ok(Self { count, header, row_bytes, data })
+    }
+
+    fn iter(&self) -> impl Iterator<Item = &'a [u8]> + use<'a> {
+        self.data.chunks_exact(self.row_bytes)
+    }
+
+    /// Whether a row is marked as deleted.
+    pub(super) fn is_deleted(&self, row: usize) -> bool {
+        self.data.get(row * self.row_bytes) == Some(&b'*')
+    }
+
+    /// The table with its fields.
+    fn table(&self) -> Result<Table<'a>> {
+        if self.header[0] & 7 == 4 {
+            return Err(Error::unsupported("the .dbf is a table of dBASE 7, whose fields are not read")
+                .help("save it as dBASE IV or III, which are what a shapefile has; without columns the shapes are drawn"));
+        }
+        let fields = fields(&self.header[HEADER_BYTES..]);
+        if fields.last().is_some_and(|last| last.start + last.length > self.row_bytes) {
+            return Err(damaged(&format!(
+                "its rows of {} bytes are too short for its fields",
+                self.row_bytes
+            )));
+        }
+        Ok(Table { fields, rows: *self, driver: self.header[DRIVER_AT] })
+    }
+}
+
+/// A table whose fields are known.
+struct Table<'a> {
+    fields: Vec<Field<'a>>,
+    rows: Rows<'a>,
     driver: u8,
 }
 
 impl<'a> Table<'a> {
-    fn rows(&self) -> impl Iterator<Item = &'a [u8]> + use<'a> {
-        self.data.chunks_exact(self.row_bytes)
-    }
-
     /// The bytes of all texts.
     fn texts(&self) -> impl Iterator<Item = &'a [u8]> + '_ {
         let texts = || self.fields.iter().filter(|field| field.kind == b'C');
-        self.rows().flat_map(move |row| texts().filter_map(move |f| row.get(f.start..f.start + f.length)))
+        self.rows
+            .iter()
+            .flat_map(move |row| texts().filter_map(move |f| row.get(f.start..f.start + f.length)))
     }
 }
 
@@ -120,30 +173,6 @@ struct Field<'a> {
     start: usize,
     length: usize,
     decimals: u8,
-}
-
-fn table(bytes: &[u8]) -> Result<Table<'_>> {
-    let header = bytes.get(..HEADER_BYTES).and_then(|header| {
-        let mut at_rows = Cursor::new(header.get(4..)?);
-        let rows = at_rows.u32(Endian::Little)? as usize;
-        Some((rows, at_rows.u16(Endian::Little)? as usize, at_rows.u16(Endian::Little)? as usize))
-    });
-    let (rows, header_bytes, row_bytes) = header.ok_or_else(|| damaged("it ends within its header"))?;
-    if bytes[0] & 7 == 4 {
-        return Err(Error::new("a table of dBASE 7 is not read").help("write it as dBASE IV (or III)"));
-    }
-    let fields = bytes
-        .get(HEADER_BYTES..header_bytes)
-        .ok_or_else(|| damaged("its header is longer than it"))
-        .map(fields)?;
-    if row_bytes == 0 || fields.last().is_some_and(|last| last.start + last.length > row_bytes) {
-        return Err(damaged(&format!("its rows of {row_bytes} bytes are too short for its fields")));
-    }
-    let data = &bytes[header_bytes..];
-    let whole = rows.checked_mul(row_bytes).and_then(|length| data.get(..length));
-    let data = whole
-        .ok_or_else(|| damaged("it ends within this row's values").in_feature(data.len() / row_bytes))?;
-    Ok(Table { fields, rows, row_bytes, data, driver: bytes[DRIVER_AT] })
 }
 
 /// The fields that a header describes, up to its end mark.
@@ -167,8 +196,9 @@ fn c_string(bytes: &[u8]) -> &[u8] {
 }
 
 /// See the module.
-fn code_page(path: &Path, table: &Table<'_>, found: &mut Collector) -> CodePage {
-    let cpg = beside(path, "cpg", "CPG").map(|bytes| String::from_utf8_lossy(&bytes).trim().to_owned());
+fn code_page(cpg: Option<&[u8]>, table: &Table<'_>, found: &mut Collector) -> CodePage {
+    let text = |bytes| String::from_utf8_lossy(bytes).trim_start_matches('\u{feff}').trim().to_owned();
+    let cpg = cpg.map(text);
     let named = cpg.as_deref().map(CodePage::named);
     if let (Some(None), Some(name)) = (named, &cpg) {
         let name: String = name.chars().take(40).collect();

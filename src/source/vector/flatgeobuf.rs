@@ -6,6 +6,7 @@
 use super::attributes::Wanted;
 use super::bytes::{Cursor, Endian};
 use super::collector::Collector;
+use super::curve::{append_piece, refusal_of_curves};
 use crate::crs::Crs;
 use crate::error::{Error, Result};
 use crate::scene::Attribute;
@@ -96,6 +97,8 @@ fn skip_index(cursor: &mut Cursor<'_>, header: &Header<'_>) -> Result<()> {
 
 fn read_features(mut cursor: Cursor<'_>, header: &Header<'_>, found: &mut Collector) -> Result<()> {
     let of_all = fields(header.columns().iter().flatten(), found);
+    let stated = header.geometry_type();
+    let mut others = 0;
     while cursor.left() > 0 {
         let index = found.current();
         let bytes =
@@ -104,16 +107,24 @@ fn read_features(mut cursor: Cursor<'_>, header: &Header<'_>, found: &mut Collec
             .map_err(|e| damaged(&e.to_string()).caused_by(e).in_feature(index))?;
         match feature.geometry() {
             Some(geometry) => {
-                add(&geometry, header.geometry_type(), found, 0).map_err(|e| e.in_feature(index))?
+                others +=
+                    usize::from(stated != GeometryType::Unknown && kind_of(&geometry, stated) != stated);
+                add(&geometry, stated, found, 0).map_err(|e| e.in_feature(index))?;
             }
             None => found.leave_out_empty(),
         }
         read_properties(&feature, &of_all, found).map_err(|e| e.in_feature(index))?;
         found.next_feature();
     }
-    let (stated, seen) = (header.features_count(), found.seen as u64);
-    if stated != 0 && stated != seen {
-        return Err(damaged(&format!("its header states {stated} features but it holds {seen}")));
+    let (count, seen) = (header.features_count(), found.seen as u64);
+    if count != 0 && count != seen {
+        return Err(damaged(&format!("its header states {count} features but it holds {seen}")));
+    }
+    if others > 0 {
+        found.notes.push(format!(
+            "{others} of {seen} features are of another type than the header says ({}): read as what they are",
+            stated.variant_name().unwrap_or("unknown")
+        ));
     }
     Ok(())
 }
@@ -200,42 +211,78 @@ fn unsigned(number: u64) -> Attribute {
     i64::try_from(number).map_or(Attribute::Number(number as f64), Attribute::Integer)
 }
 
+/// The type of a feature's geometry: its own, where it says one, else the header's.
+fn kind_of(geometry: &Geometry<'_>, stated: GeometryType) -> GeometryType {
+    let own = geometry.type_();
+    if own == GeometryType::Unknown { stated } else { own }
+}
+
 fn add(geometry: &Geometry<'_>, stated: GeometryType, found: &mut Collector, depth: usize) -> Result<()> {
     if depth > DEEPEST {
         return Err(damaged("its collections are nested too deep"));
     }
-    let kind = if stated == GeometryType::Unknown { geometry.type_() } else { stated };
-    match kind {
+    match kind_of(geometry, stated) {
         GeometryType::Point | GeometryType::MultiPoint => {
             found.leave_out_points(geometry.xy().map_or(0, |xy| xy.len() / 2));
         }
         GeometryType::LineString | GeometryType::MultiLineString => found.add_line(paths(geometry)?)?,
-        GeometryType::Polygon => found.add_polygon(paths(geometry)?)?,
-        GeometryType::MultiPolygon => found.add_polygon(rings_of_parts(geometry)?)?,
+        GeometryType::Polygon | GeometryType::Triangle => found.add_polygon(paths(geometry)?)?,
+        GeometryType::MultiPolygon | GeometryType::MultiSurface => {
+            found.add_polygon(rings_of_parts(geometry)?)?
+        }
+        GeometryType::MultiCurve => found.add_line(straight_parts(geometry)?)?,
+        GeometryType::CompoundCurve => found.add_line(vec![straight(geometry)?])?,
+        GeometryType::CurvePolygon => found.add_polygon(straight_parts(geometry)?)?,
         GeometryType::GeometryCollection => {
             for part in geometry.parts().iter().flatten() {
                 add(&part, GeometryType::Unknown, found, depth + 1)?;
             }
         }
-        other => {
-            let name = other.variant_name().unwrap_or("unknown");
-            return Err(Error::unsupported(format!("geometries of type {name} are not supported"))
-                .help("convert curves and surfaces to lines and polygons"));
-        }
+        other => return Err(no_plain_type(other)),
     }
     Ok(())
 }
 
+fn no_plain_type(kind: GeometryType) -> Error {
+    refusal_of_curves(&format!("geometries of type {}", kind.variant_name().unwrap_or("unknown")))
+}
+
+/// The straight pieces of a curve, one after the other: a line, or a compound curve of such.
+fn straight(geometry: &Geometry<'_>) -> Result<Vec<Plan>> {
+    match kind_of(geometry, GeometryType::LineString) {
+        GeometryType::LineString => Ok(paths(geometry)?.concat()),
+        GeometryType::CompoundCurve => {
+            let mut line = Vec::new();
+            for piece in geometry.parts().iter().flatten() {
+                let kind = kind_of(&piece, GeometryType::LineString);
+                if kind != GeometryType::LineString {
+                    return Err(no_plain_type(kind));
+                }
+                append_piece(&mut line, paths(&piece)?.concat());
+            }
+            Ok(line)
+        }
+        other => Err(no_plain_type(other)),
+    }
+}
+
+/// The parts of a geometry, each a curve that is straight.
+fn straight_parts(geometry: &Geometry<'_>) -> Result<Vec<Vec<Plan>>> {
+    geometry.parts().iter().flatten().map(|part| straight(&part)).collect()
+}
+
 /// A multi-polygon keeps its polygons as parts; writers may also put a single one flat.
 fn rings_of_parts(geometry: &Geometry<'_>) -> Result<Vec<Vec<Plan>>> {
+    let Some(parts) = geometry.parts().filter(|parts| !parts.is_empty()) else {
+        return paths(geometry);
+    };
     let mut rings = Vec::new();
-    match geometry.parts() {
-        Some(parts) => {
-            for part in parts {
-                rings.append(&mut paths(&part)?);
-            }
-        }
-        None => rings = paths(geometry)?,
+    for part in parts {
+        rings.append(&mut match kind_of(&part, GeometryType::Polygon) {
+            GeometryType::Polygon => paths(&part)?,
+            GeometryType::CurvePolygon => straight_parts(&part)?,
+            other => return Err(no_plain_type(other)),
+        });
     }
     Ok(rings)
 }
@@ -243,7 +290,10 @@ fn rings_of_parts(geometry: &Geometry<'_>) -> Result<Vec<Vec<Plan>>> {
 /// The coordinates, cut at the ends (counted in vertices) where there are any.
 fn paths(geometry: &Geometry<'_>) -> Result<Vec<Vec<Plan>>> {
     let Some(xy) = geometry.xy() else {
-        return Ok(Vec::new());
+        return match geometry.parts().is_some_and(|parts| !parts.is_empty()) {
+            true => Err(damaged("it has parts, which its type has not")),
+            false => Ok(Vec::new()),
+        };
     };
     let count = xy.len() / 2;
     let mut ends: Vec<usize> = geometry.ends().iter().flatten().map(|end| end as usize).collect();

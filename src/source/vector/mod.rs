@@ -17,6 +17,7 @@ mod bytes;
 mod code_page;
 mod collector;
 mod column_summary;
+mod curve;
 mod dbf;
 mod flatgeobuf;
 mod geojson;
@@ -29,6 +30,7 @@ mod without_geopackage;
 #[cfg(feature = "gpkg")]
 mod wkb;
 
+pub(super) use collector::is_drawable;
 pub use column_summary::{ColumnKind, ColumnSummary};
 pub use summary::{VectorSummary, describe};
 
@@ -37,6 +39,7 @@ use crate::error::{Error, Result};
 use crate::scene::{Column, Feature};
 use attributes::Wanted;
 use collector::Collector;
+use shapefile::Parts;
 use std::fmt;
 use std::fs::File;
 use std::io::Read;
@@ -110,8 +113,8 @@ fn read_collected(path: &Path, layer: Option<&str>, wanted: Wanted) -> Result<(V
             .help("leave the layer out; it is for GeoPackages"));
     }
     let found = match format {
-        VectorFormat::GeoJson => geojson::read(path, wanted)?,
-        VectorFormat::Shapefile => shapefile::read(path, wanted)?,
+        VectorFormat::GeoJson => geojson::read(contents_of(path)?, Collector::new(wanted))?,
+        VectorFormat::Shapefile => shapefile::read(&Parts::of(path)?, path, Collector::new(wanted))?,
         VectorFormat::FlatGeobuf => flatgeobuf::read(path, wanted)?,
         VectorFormat::GeoPackage => geopackage::read(path, layer, wanted)?,
     };
@@ -171,7 +174,9 @@ fn contents_of(path: &Path) -> Result<Vec<u8>> {
 fn promised_by_name(path: &Path) -> Option<VectorFormat> {
     let extension = path.extension()?.to_str()?.to_ascii_lowercase();
     Some(match extension.as_str() {
-        "geojson" | "json" => VectorFormat::GeoJson,
+        "geojson" | "json" | "geojsonl" | "geojsons" | "geojsonseq" | "ndjson" | "jsonl" => {
+            VectorFormat::GeoJson
+        }
         "shp" => VectorFormat::Shapefile,
         "fgb" => VectorFormat::FlatGeobuf,
         "gpkg" => VectorFormat::GeoPackage,
@@ -188,7 +193,7 @@ fn told_by_content(start: &[u8]) -> Option<VectorFormat> {
     } else if start.starts_with(&9994_u32.to_be_bytes()) {
         Some(VectorFormat::Shapefile)
     } else {
-        let first = text.iter().find(|b| !b.is_ascii_whitespace());
+        let first = text.iter().find(|b| !b.is_ascii_whitespace() && **b != geojson::RECORD_SEPARATOR);
         (first == Some(&b'{')).then_some(VectorFormat::GeoJson)
     }
 }

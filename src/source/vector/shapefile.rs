@@ -1,147 +1,93 @@
 //! Esri shapefiles: *ESRI Shapefile Technical Description*, July 1998.
 //!
 //! Read here and not by the `shapefile` crate, which allocates by the counts that a damaged record claims. Every
-//! count is held against the bytes of its record, every record against the file. Records are read one after the other,
-//! so the .shx index is not needed; where there is one that points elsewhere, a note says from which feature on, since
-//! programs that follow it see other features or none. The .dbf is read where a column is wanted.
+//! count is held against the bytes of its record, every record against the file. Where records lie is told by `records`. The
+//! .dbf is read where a column is wanted; records whose row it marks as deleted are left out.
 
-use super::attributes::{Attributes, Wanted};
+mod records;
+
+use super::attributes::Attributes;
 use super::bytes::{Cursor, Endian, beside};
 use super::collector::Collector;
-use super::dbf;
+use super::dbf::{self, Rows};
 use crate::crs::Crs;
 use crate::error::{Error, Result};
 use crate::space::Plan;
+use records::Records;
 use std::path::Path;
 
-const HEADER_BYTES: usize = 100;
+/// The contents of the files that are a shapefile.
+#[derive(Debug, Default)]
+pub(super) struct Parts {
+    pub(super) shp: Vec<u8>,
+    pub(super) shx: Option<Vec<u8>>,
+    pub(super) dbf: Option<Vec<u8>>,
+    pub(super) prj: Option<Vec<u8>>,
+    pub(super) cpg: Option<Vec<u8>>,
+}
 
-/// Reads a shapefile, the .prj beside it, and of the .dbf what is wanted.
-pub(super) fn read(path: &Path, wanted: Wanted) -> Result<Collector> {
-    let bytes = super::contents_of(path)?;
-    let mut found = Collector::new(wanted);
-    read_prj(path, &mut found);
-    let records = records_of(&bytes, &mut found)?;
-    let mut cursor = Cursor::new(records);
-    let mut places = Vec::new();
-    while cursor.left() > 0 {
-        let index = found.current();
-        let start = HEADER_BYTES + records.len() - cursor.left();
-        let record = next_record(&mut cursor).map_err(|e| e.in_feature(index))?;
-        places.push((start, record.left()));
-        read_record(record, &mut found).map_err(|e| e.in_feature(index))?;
+impl Parts {
+    /// Those beside a .shp.
+    pub(super) fn of(path: &Path) -> Result<Self> {
+        Ok(Self {
+            shp: super::contents_of(path)?,
+            shx: beside(path, "shx", "SHX"),
+            dbf: beside(path, "dbf", "DBF"),
+            prj: beside(path, "prj", "PRJ"),
+            cpg: beside(path, "cpg", "CPG"),
+        })
+    }
+}
+
+/// Reads a shapefile, and of its .dbf what is wanted. `path` names the .shp in errors.
+pub(super) fn read(parts: &Parts, path: &Path, mut found: Collector) -> Result<Collector> {
+    read_prj(parts.prj.as_deref(), &mut found);
+    let table = parts.dbf.as_deref().map(Rows::of).transpose();
+    let rows = table.as_ref().ok().and_then(Option::as_ref);
+    let mut records = Records::of(&parts.shp, parts.shx.as_deref(), rows.map(|rows| rows.count))?;
+    found.notes.append(&mut records.notes);
+    let belongs = rows.filter(|rows| rows.count == records.count());
+    for (index, content) in records.contents(&parts.shp).enumerate() {
+        match belongs.is_some_and(|rows| rows.is_deleted(index)) {
+            true => found.leave_out_deleted(),
+            false => read_record(Cursor::new(content), &mut found).map_err(|e| e.in_feature(index))?,
+        }
         found.next_feature();
     }
-    note_index_that_points_elsewhere(path, &places, &mut found);
-    if found.attributes.are_read() {
-        read_attributes(path, &mut found)?;
-    }
+    read_table(table, parts.cpg.as_deref(), &mut found)
+        .map_err(|e| e.in_file(&path.with_extension("dbf")))?;
     found.finish();
     Ok(found)
 }
 
-/// A summary says what is wrong with the .dbf and goes on: the shapes can be drawn without it.
-fn read_attributes(path: &Path, found: &mut Collector) -> Result<()> {
-    let is_summary = found.attributes.are_summed_up();
-    let Err(e) = dbf::read(path, found) else { return Ok(()) };
-    if !is_summary {
-        return Err(e);
-    }
+/// Reads the columns that are wanted. Without the .dbf the shapes can be drawn all the same: where no column is asked for by
+/// name, a note says what is wrong with it.
+fn read_table(table: Result<Option<Rows<'_>>>, cpg: Option<&[u8]>, found: &mut Collector) -> Result<()> {
+    let Err(e) = dbf::read(table, cpg, found) else { return Ok(()) };
+    let lost = match (found.attributes.are_read(), found.attributes.are_summed_up()) {
+        (true, false) => return Err(e),
+        (true, true) => "no attributes",
+        (false, _) => "which records are deleted is not known",
+    };
     found.attributes = Attributes::default();
-    let said = e.to_string();
-    found.notes.push(format!("no attributes: {}", said.lines().next().unwrap_or_default()));
+    found.notes.push(format!("{lost}: {}", e.what()));
     Ok(())
 }
 
-/// Compare the .shx, where there is one, with where the records begin and how long they are.
-fn note_index_that_points_elsewhere(path: &Path, places: &[(usize, usize)], found: &mut Collector) {
-    let index = beside(path, "shx", "SHX");
-    let Some(entries) = index.as_deref().and_then(|bytes| bytes.get(HEADER_BYTES..)) else {
-        return;
-    };
-    let place = |entry: &[u8]| {
-        let mut cursor = Cursor::new(entry);
-        let mut bytes = || cursor.u32(Endian::Big).and_then(|words| (words as usize).checked_mul(2));
-        Some((bytes()?, bytes()?))
-    };
-    let listed: Vec<_> = entries.chunks_exact(8).map(place).collect();
-    let differ = |(place, listed): (&(usize, usize), &Option<_>)| Some(*place) != *listed;
-    let first_wrong = places.iter().zip(&listed).position(differ);
-    let shorter = if places.len() < listed.len() { places.len() } else { listed.len() };
-    if first_wrong.is_some() || places.len() != listed.len() {
-        found.notes.push(format!(
-            "the .shx index is damaged: it lists {} features, points elsewhere from feature {} on, and is not used; the \
-             .shp itself holds {} whole ones",
-            listed.len(),
-            first_wrong.unwrap_or(shorter),
-            places.len()
-        ));
-    }
-}
-
 /// A .prj that is missing or not understood is a note: the scene can name the CRS.
-fn read_prj(path: &Path, found: &mut Collector) {
-    let Some(bytes) = beside(path, "prj", "PRJ") else {
+fn read_prj(prj: Option<&[u8]>, found: &mut Collector) {
+    let Some(bytes) = prj else {
         return found.notes.push("there is no .prj beside the file, so its CRS is not known".to_owned());
     };
-    match Crs::parse(&String::from_utf8_lossy(&bytes)) {
+    match Crs::parse(String::from_utf8_lossy(bytes).trim_start_matches('\u{feff}')) {
         Ok(crs) => found.crs = Some(crs),
         Err(e) => found.notes.push(format!("the CRS in the .prj is not understood: {}", e.what())),
     }
 }
 
-/// The bytes after the header, as far as the header says that the file reaches.
-fn records_of<'a>(bytes: &'a [u8], found: &mut Collector) -> Result<&'a [u8]> {
-    let header = bytes.get(..HEADER_BYTES).and_then(|header| {
-        let mut at_length = Cursor::new(header.get(24..)?);
-        let words = at_length.u32(Endian::Big)? as usize;
-        let version = at_length.u32(Endian::Little)?;
-        Some((words.checked_mul(2)?, version))
-    });
-    let (length, version) = header.ok_or_else(|| damaged("the file ends within its header"))?;
-    if version != 1000 || length < HEADER_BYTES {
-        return Err(damaged("the header is not one of a shapefile"));
-    }
-    if length < bytes.len() {
-        let extra = bytes.len() - length;
-        found.notes.push(format!("{extra} bytes after the end that the header states are not read"));
-    }
-    // A file shorter than its header says is read to its end, where the record that is cut off has a number.
-    if length > bytes.len() && bytes.len() == HEADER_BYTES {
-        return Err(damaged("the file ends after its header"));
-    }
-    let end = if length < bytes.len() { length } else { bytes.len() };
-    let records = &bytes[HEADER_BYTES..end];
-    if length > bytes.len() {
-        ends_within_a_record(records, length - bytes.len())?;
-    }
-    Ok(records)
-}
-
-/// A file that is cut exactly between two records would else look whole.
-fn ends_within_a_record(records: &[u8], missing: usize) -> Result<()> {
-    let mut cursor = Cursor::new(records);
-    let mut index = 0;
-    while cursor.left() > 0 && next_record(&mut cursor).is_ok() {
-        index += 1;
-    }
-    Err(damaged(&format!("the file ends here, {missing} bytes before the end that its header states"))
-        .in_feature(index))
-}
-
 fn damaged(why: &str) -> Error {
     Error::new(format!("the shapefile is damaged: {why}"))
         .help("write it again from its source, or repair it with a GIS")
-}
-
-/// The content of the next record: its header is a number, from 1, and a length in 16-bit words.
-fn next_record<'a>(cursor: &mut Cursor<'a>) -> Result<Cursor<'a>> {
-    let mut content = || {
-        let _number = cursor.u32(Endian::Big)?;
-        let bytes = (cursor.u32(Endian::Big)? as usize).checked_mul(2)?;
-        cursor.take(bytes)
-    };
-    content().map(Cursor::new).ok_or_else(|| damaged("its record reaches past the end of the file"))
 }
 
 fn read_record(mut record: Cursor<'_>, found: &mut Collector) -> Result<()> {

@@ -1,12 +1,12 @@
 //! What a vector file holds, for people.
 
 use super::attributes::Wanted;
-use super::collector::{Collector, parts_of};
+use super::collector::{Collector, is_drawable, parts_of};
 use super::column_summary::ColumnSummary;
 use super::{VectorFormat, geopackage, read_collected};
 use crate::crs::Crs;
 use crate::error::Result;
-use crate::scene::Shape;
+use crate::scene::{Feature, Shape};
 use crate::space::PlanBox;
 use std::path::Path;
 
@@ -22,9 +22,9 @@ pub struct VectorSummary {
     pub layers: Vec<String>,
     /// Features in the file, with those that are not drawn.
     pub features: usize,
-    /// (Multi-)polygons.
+    /// (Multi-)polygons that can be drawn: those with a ring of 3 vertices or more.
     pub polygons: usize,
-    /// (Multi-)lines.
+    /// (Multi-)lines that can be drawn: those with a part of 2 vertices or more.
     pub lines: usize,
     /// Rings of polygons and parts of lines.
     pub parts: usize,
@@ -67,7 +67,10 @@ fn summary(
     layers: &[String],
     found: Collector,
 ) -> VectorSummary {
-    let polygons = found.features.iter().filter(|f| matches!(f.shape, Shape::Polygon(_))).count();
+    let is_drawn = |f: &&Feature| parts_of(&f.shape).iter().any(|part| is_drawable(&f.shape, part));
+    let drawn = found.features.iter().filter(is_drawn).count();
+    let polygons =
+        found.features.iter().filter(is_drawn).filter(|f| matches!(f.shape, Shape::Polygon(_))).count();
     let parts = || found.features.iter().flat_map(|f| parts_of(&f.shape));
     VectorSummary {
         format,
@@ -75,7 +78,7 @@ fn summary(
         layers: layers.to_vec(),
         features: found.seen,
         polygons,
-        lines: found.features.len() - polygons,
+        lines: drawn - polygons,
         parts: parts().count(),
         vertices: found.stored_vertices,
         bounds: PlanBox::around(parts().flatten().copied()),

@@ -1,4 +1,8 @@
 mod attributes;
+#[cfg(feature = "gpkg")]
+mod curves;
+mod geojson;
+mod shapefile;
 
 use super::*;
 use crate::scene::Shape;
@@ -103,15 +107,22 @@ fn gpkg(layers: &[&str], blob: &[u8]) -> Vec<u8> {
 }
 
 fn fgb() -> Vec<u8> {
-    use ::flatgeobuf::{FgbCrs, FgbWriter, FgbWriterOptions, GeometryType};
+    fgb_of(::flatgeobuf::GeometryType::Polygon, |writer| {
+        for shift in [0.0, 10.0, 20.0] {
+            let rings = SQUARE.map(|(x, y)| format!("[{},{}]", x + shift, y)).join(",");
+            let json = format!(r#"{{"type":"Polygon","coordinates":[[{rings}]]}}"#);
+            add_json(writer, &json);
+        }
+    })
+}
+
+/// A FlatGeobuf whose header says this type.
+fn fgb_of(stated: ::flatgeobuf::GeometryType, add: impl FnOnce(&mut ::flatgeobuf::FgbWriter<'_>)) -> Vec<u8> {
+    use ::flatgeobuf::{FgbCrs, FgbWriter, FgbWriterOptions};
     let options =
         FgbWriterOptions { crs: FgbCrs { code: 32733, ..Default::default() }, ..Default::default() };
-    let mut writer = FgbWriter::create_with_options("made", GeometryType::Polygon, options).unwrap();
-    for shift in [0.0, 10.0, 20.0] {
-        let rings = SQUARE.map(|(x, y)| format!("[{},{}]", x + shift, y)).join(",");
-        let json = format!(r#"{{"type":"Polygon","coordinates":[[{rings}]]}}"#);
-        add_json(&mut writer, &json);
-    }
+    let mut writer = FgbWriter::create_with_options("made", stated, options).unwrap();
+    add(&mut writer);
     let mut out = Vec::new();
     writer.write(&mut out).unwrap();
     out
@@ -296,6 +307,61 @@ fn flatgeobuf_is_read_with_its_crs() {
     assert_eq!(read.features.len(), 3);
     assert_eq!(polygon_of(&read, 0)[0].len(), 4);
     assert_eq!(read.crs.unwrap().epsg(), Some(32733));
+}
+
+#[test]
+fn features_of_a_flatgeobuf_of_another_type_than_its_header_says_are_read_as_what_they_are() {
+    use ::flatgeobuf::GeometryType;
+    let wkb = |kind: u32, count: u32, content: &[u8]| {
+        geozero::wkb::Wkb([&[1][..], &kind.to_le_bytes(), &count.to_le_bytes(), content].concat())
+    };
+    let ring: Vec<u8> =
+        SQUARE.iter().flat_map(|(x, y)| [x.to_le_bytes(), y.to_le_bytes()].concat()).collect();
+    let polygon = [&5_u32.to_le_bytes()[..], &ring].concat();
+    let mixed = fgb_of(GeometryType::Unknown, |writer| {
+        writer.add_feature_geom(wkb(6, 1, &wkb(3, 1, &polygon).0), |_| {}).unwrap();
+        writer.add_feature_geom(wkb(3, 1, &polygon), |_| {}).unwrap();
+        writer.add_feature_geom(wkb(2, 5, &ring), |_| {}).unwrap();
+    });
+    let header = |bytes: &[u8]| 12 + u32::from_le_bytes(bytes[8..12].try_into().unwrap()) as usize;
+    for (stated, kind, content) in [
+        (GeometryType::Polygon, 3, polygon.clone()),
+        (GeometryType::MultiPolygon, 6, wkb(3, 1, &polygon).0),
+        (GeometryType::LineString, 2, ring.clone()),
+    ] {
+        let of_one_type = fgb_of(stated, |writer| {
+            let count = if kind == 2 { 5 } else { 1 };
+            (0..3).for_each(|_| writer.add_feature_geom(wkb(kind, count, &content), |_| {}).unwrap());
+        });
+        // The writer refuses to mix types under one: its header, and the features of another file.
+        let bytes = [&of_one_type[..header(&of_one_type)], &mixed[header(&mixed)..]].concat();
+        let read = read_bytes("a.fgb", &bytes).unwrap();
+        let areas =
+            read.features.iter().filter(|f| matches!(&f.shape, Shape::Polygon(rings) if rings[0].len() == 4));
+        assert_eq!((read.features.len(), areas.count()), (3, 2), "{stated:?}");
+        assert!(
+            read.notes.iter().any(|n| n.contains("another type than the header says")),
+            "{:?}",
+            read.notes
+        );
+    }
+}
+
+#[test]
+fn a_line_of_one_vertex_is_left_out_and_a_file_of_such_holds_nothing_that_is_drawn() {
+    let dot = r#"{"type":"MultiLineString","coordinates":[[[0,0]],[[5,5]]]}"#;
+    let (_folder, path) = file("a.geojson", dot.as_bytes());
+    let one = describe(&path).unwrap().remove(0);
+    assert_eq!(
+        (one.lines, one.polygons, one.notes),
+        (0, 0, vec!["2 lines of a single vertex left out".into()])
+    );
+    let ring = r#"{"type":"Polygon","coordinates":[[[0,0],[5,5],[0,0]]]}"#;
+    let (_folder, path) = file("a.geojson", ring.as_bytes());
+    assert_eq!(describe(&path).unwrap()[0].polygons, 0, "a ring that bounds nothing");
+    let both = dot.replace("[[5,5]]", "[[5,5],[6,6]]");
+    let read = read_bytes("a.geojson", both.as_bytes()).unwrap();
+    assert!(matches!(&read.features[0].shape, Shape::Line(parts) if parts.len() == 1));
 }
 
 #[test]

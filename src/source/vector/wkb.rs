@@ -4,6 +4,7 @@
 
 use super::bytes::{Cursor, Endian};
 use super::collector::Collector;
+use super::curve::{append_piece, refusal_of_curves};
 use crate::error::{Error, Result};
 use crate::space::Plan;
 
@@ -65,17 +66,21 @@ fn geometry(cursor: &mut Cursor<'_>, found: &mut Collector, depth: usize) -> Res
         3 => found.add_polygon(paths(cursor, &head)?)?,
         4 => {
             let count = cursor.count(head.endian, 21).ok_or_else(cut_short)?;
-            let _points = members(cursor, count, 1, |cursor, head| vertices(cursor, head, 1))?;
+            let _points = members(cursor, count, POINTS, |cursor, head| vertices(cursor, head, 1))?;
             found.leave_out_points(count);
         }
-        5 => {
+        5 | 11 => {
             let count = cursor.count(head.endian, 9).ok_or_else(cut_short)?;
-            found.add_line(members(cursor, count, 2, path)?)?;
+            let kinds = if head.kind == 5 { LINES } else { CURVES };
+            found.add_line(members(cursor, count, kinds, curve)?)?;
         }
-        6 => {
+        6 | 12 => {
             let count = cursor.count(head.endian, 9).ok_or_else(cut_short)?;
-            found.add_polygon(members(cursor, count, 3, paths)?.into_iter().flatten().collect())?;
+            let kinds = if head.kind == 6 { POLYGONS } else { SURFACES };
+            found.add_polygon(members(cursor, count, kinds, surface)?.into_iter().flatten().collect())?;
         }
+        9 => found.add_line(vec![curve(cursor, &head)?])?,
+        10 | 17 => found.add_polygon(surface(cursor, &head)?)?,
         7 => {
             let count = cursor.count(head.endian, 5).ok_or_else(cut_short)?;
             if count == 0 {
@@ -85,28 +90,70 @@ fn geometry(cursor: &mut Cursor<'_>, found: &mut Collector, depth: usize) -> Res
                 geometry(cursor, found, depth + 1)?;
             }
         }
-        kind => {
-            return Err(Error::unsupported(format!(
-                "geometries of WKB type {kind} (curves, surfaces) are not supported"
-            ))
-            .help("convert curves to lines and polygons"));
-        }
+        kind => return Err(no_plain_type(kind)),
     }
     Ok(())
+}
+
+/// A type by its name, refused.
+fn no_plain_type(kind: u32) -> Error {
+    let name = match kind {
+        8 => "CircularString",
+        13 => "Curve",
+        14 => "Surface",
+        15 => "PolyhedralSurface",
+        16 => "TIN",
+        _ => "unknown",
+    };
+    refusal_of_curves(&format!("geometries of WKB type {kind} ({name})"))
+}
+
+/// The types that members of multi-geometries may have.
+const POINTS: &[u32] = &[1];
+const LINES: &[u32] = &[2];
+const POLYGONS: &[u32] = &[3];
+/// Those that may be straight.
+const CURVES: &[u32] = &[2, 9];
+const SURFACES: &[u32] = &[3, 10];
+/// Those that never are.
+const ARCS: &[u32] = &[8, 13, 14, 15, 16];
+
+/// A line, or a compound curve of lines alone.
+fn curve(cursor: &mut Cursor<'_>, head: &Head) -> Result<Vec<Plan>> {
+    if head.kind == 2 {
+        return path(cursor, head);
+    }
+    let count = cursor.count(head.endian, 9).ok_or_else(cut_short)?;
+    let mut line = Vec::new();
+    for piece in members(cursor, count, LINES, path)? {
+        append_piece(&mut line, piece);
+    }
+    Ok(line)
+}
+
+/// A polygon or a triangle, or a curve polygon whose rings are straight.
+fn surface(cursor: &mut Cursor<'_>, head: &Head) -> Result<Vec<Vec<Plan>>> {
+    if head.kind != 10 {
+        return paths(cursor, head);
+    }
+    let count = cursor.count(head.endian, 9).ok_or_else(cut_short)?;
+    members(cursor, count, CURVES, curve)
 }
 
 /// The parts of a multi-geometry, each with a head of its own.
 fn members<T>(
     cursor: &mut Cursor<'_>,
     count: usize,
-    kind: u32,
+    kinds: &[u32],
     read: impl Fn(&mut Cursor<'_>, &Head) -> Result<T>,
 ) -> Result<Vec<T>> {
     let mut all = Vec::new();
     for _ in 0..count {
         let head = head(cursor)?;
-        if head.kind != kind {
-            return Err(damaged("a part of it is of another type"));
+        match kinds.contains(&head.kind) {
+            true => {}
+            false if ARCS.contains(&head.kind) => return Err(no_plain_type(head.kind)),
+            false => return Err(damaged("a part of it is of another type")),
         }
         all.push(read(cursor, &head)?);
     }

@@ -77,14 +77,14 @@ fn a_single_feature_has_its_properties_too() {
         file("a.json", format!(r#"{{"properties":{{"a":1}},"type":"Feature",{line}}}"#).as_bytes());
     assert_eq!(column(&path, "a"), [Attribute::Integer(1)]);
     let (_folder, path) = file("a.json", format!(r#"{{"type":"Feature","properties":7,{line}}}"#).as_bytes());
-    assert!(column_refused(&path, "a").contains("feature 0"));
+    assert!(column_refused(&path, "a").contains("a.json:1:"));
 }
 
 /// A field of a dBASE table: name, type, length, decimals.
-type Field<'a> = (&'a str, u8, u8, u8);
+pub(super) type Field<'a> = (&'a str, u8, u8, u8);
 
 /// A dBASE table; rows are without the mark of deleted ones.
-fn dbf(driver: u8, fields: &[Field<'_>], rows: &[&[u8]]) -> Vec<u8> {
+pub(super) fn dbf(driver: u8, fields: &[Field<'_>], rows: &[&[u8]]) -> Vec<u8> {
     let width = 1 + fields.iter().map(|f| usize::from(f.2)).sum::<usize>();
     let mut out = vec![0; 32];
     out[0] = 3;
@@ -191,10 +191,7 @@ fn a_deleted_row_of_a_dbf_keeps_its_place_and_has_no_values() {
     let (_folder, path) = shapefile(3, &table, None);
     assert_eq!(column(&path, "A"), [Attribute::Integer(1), Attribute::Null, Attribute::Integer(3)]);
     let notes = read_columns(&path, None, &names(&["A"])).unwrap().notes;
-    assert!(
-        notes.iter().any(|n| n == "1 of 3 rows of the .dbf are marked as deleted: no values"),
-        "{notes:?}"
-    );
+    assert!(notes.iter().any(|n| n == "1 feature left out, marked as deleted in the .dbf"), "{notes:?}");
 }
 
 #[test]
