@@ -97,3 +97,13 @@ fn a_wrong_call_or_folder_exits_with_2_and_says_why() {
     let (status, _, refused) = golden(folder.path(), &["check"]);
     assert!(status == 2 && refused.contains("golden/manifest.toml"), "{refused}");
 }
+
+#[test]
+fn without_a_folder_of_goldens_it_says_where_there_is_one() {
+    let folder = tempfile::tempdir().unwrap();
+    for action in ["check", "list"] {
+        let (status, _, said) = golden(folder.path(), &[action]);
+        assert_eq!(status, 2, "{said}");
+        assert!(said.contains("drapery's repository") && said.contains("--dir"), "{said}");
+    }
+}

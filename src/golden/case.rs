@@ -135,7 +135,15 @@ fn files(folder: &Path) -> Result<Vec<String>> {
 }
 
 fn names_in(folder: &Path) -> Result<Vec<String>> {
-    let refuse = |error| Error::io("this golden folder cannot be read", error).in_file(folder);
+    let refuse = |error: std::io::Error| {
+        let help = match error.kind() {
+            std::io::ErrorKind::NotFound => {
+                "goldens are in the folder `golden` of drapery's repository: call this in its root, or name the folder: --dir PATH"
+            }
+            _ => "check the folder's permissions",
+        };
+        Error::io("this golden folder cannot be read", error).in_file(folder).help(help)
+    };
     let mut names = Vec::new();
     for entry in fs::read_dir(folder).map_err(refuse)? {
         let name = entry.map_err(refuse)?.file_name();

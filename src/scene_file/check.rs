@@ -52,9 +52,10 @@ impl Check<'_> {
                 table(self.origin, found, &node.place, inner, path)
             }
             (Shape::Tables(inner), Value::Array(items)) => self.tables(items, inner, path),
-            (Shape::Map(inner), Value::Table(Table(entries))) => entries
-                .iter()
-                .try_for_each(|entry| self.value(&entry.node, inner, &format!("{path}.{}", entry.key))),
+            (Shape::Map(inner), Value::Table(Table(entries))) => entries.iter().try_for_each(|entry| {
+                self.no_bare_number(entry, path)?;
+                self.value(&entry.node, inner, &format!("{path}.{}", entry.key))
+            }),
             (Shape::Stops(inner), Value::Array(items)) if !items.is_empty() => self.stops(items, inner, path),
             (Shape::OrTable(plain, _), _) => self.value(node, plain, path),
             (Shape::Scalars, Value::Array(items)) if !items.is_empty() => {
@@ -78,6 +79,26 @@ impl Check<'_> {
 
     fn each(&self, items: &[Node], shape: &Shape, path: &str) -> Result<()> {
         items.iter().enumerate().try_for_each(|(at, item)| self.value(item, shape, &format!("{path}.{at}")))
+    }
+
+    /// Refuses `2.5 = ...`, which is a table `2` with a key `5` in TOML.
+    fn no_bare_number(&self, entry: &Entry, path: &str) -> Result<()> {
+        let is_number = |key: &str| {
+            let digits = key.strip_prefix(['-', '+']).unwrap_or(key);
+            !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_digit())
+        };
+        let inner = match &entry.node.value {
+            Value::Table(Table(inner)) if is_number(&entry.key) => inner.first(),
+            _ => None,
+        };
+        inner.filter(|inner| is_number(&inner.key)).map_or(Ok(()), |inner| {
+            let number = format!("{}.{}", entry.key, inner.key);
+            let what = format!(
+                "`{path}`: {number} without quotes is a key `{}` in a table `{}`",
+                inner.key, entry.key
+            );
+            Err(self.origin.error(&entry.key_place, what).help(format!("put it in quotes: \"{number}\"")))
+        })
     }
 
     fn stops(&self, items: &[Node], shape: &Shape, path: &str) -> Result<()> {

@@ -34,6 +34,9 @@ impl Image {
             exr::decode(bytes)
         } else if bytes.starts_with(npy::MAGIC) {
             npy::decode(bytes)
+        } else if bytes.starts_with(b"PK\x03\x04") {
+            Err(Error::unsupported("this is an archive of several files, as .npz of several arrays is one")
+                .help("save the one array as .npy (numpy.save), or unpack the archive and name the picture"))
         } else {
             Err(Error::unsupported("this is no picture that can be compared")
                 .help("PNG, EXR and .npy files can be"))
@@ -78,6 +81,7 @@ mod tests {
     fn what_is_no_picture_is_refused_and_a_missing_one_is_called_missing() {
         let error = Image::decode(b"GIF89a").unwrap_err();
         assert!(error.what().contains("no picture that can be compared"), "{error}");
+        assert!(Image::decode(b"PK\x03\x04").unwrap_err().what().contains(".npz"));
         let error = Image::read(Path::new("no/such.png")).unwrap_err();
         assert_eq!(error.to_string(), "no/such.png: this picture is missing");
     }

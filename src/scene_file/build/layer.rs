@@ -52,7 +52,8 @@ fn layer(section: &mut Section<'_>, index: usize) -> Result<LayerSpec> {
 
 /// The name of a layer that states none.
 pub(in crate::scene_file) fn default_name(source: Option<&str>, layer: Option<&str>, index: usize) -> String {
-    let otherwise = || format!("layer-{index}");
+    // As errors and overrides name it.
+    let otherwise = || index.to_string();
     match (source, layer) {
         (Some(_), Some(layer)) => layer.into(),
         (Some(source), None) => stem(Some(Path::new(source)), &otherwise()),

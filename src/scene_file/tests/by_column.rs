@@ -87,6 +87,10 @@ fn settings_conditions_and_order_by_column_are_checked() {
             "fill = { color = \"#000000\" }\norder = { by = \"A\", descending = \"yes\" }",
             "`layer.0.order.descending` must be true or false; found the string \"yes\"",
         ),
+        (
+            "fill = { color = { by = \"A\", map = { 2.5 = \"#000000\" } } }",
+            "5:38: `layer.0.fill.color.map`: 2.5 without quotes is a key `5` in a table `2`\n  help: put it in quotes: \"2.5\"",
+        ),
     ] {
         let error = layer(lines);
         assert!(error.contains(said), "{lines}\n{error}");

@@ -176,6 +176,12 @@ fn the_terrain(entries: &[Entry]) -> Result<Entry> {
             }
         }
     }
+    if !entries.is_empty() && entries.iter().all(|entry| ends(&entry, &["npy"])) {
+        return Err(Error::unsupported(
+            "this is .npz, NumPy's archive of arrays, which have no place on Earth",
+        )
+        .help("write the array as a GeoTIFF or as an Esri ASCII grid (.asc)"));
+    }
     Err(Error::new(format!("the zip archive holds no terrain file among its {} files", entries.len()))
         .help("known are .tif .hgt .asc .png .xyz"))
 }

@@ -7,6 +7,9 @@ use std::io::BufRead;
 /// The longest word a terrain text file may hold; no number needs as much.
 const LONGEST: usize = 256;
 
+/// What some editors put before a text in UTF-8.
+pub(super) const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+
 /// The words of a text, separated by white space.
 pub(super) struct Words<R> {
     input: R,
@@ -31,6 +34,9 @@ impl<R: BufRead> Words<R> {
 
     /// The next word, `None` at the end.
     pub(super) fn next(&mut self) -> Result<Option<Word<'_>>> {
+        if (self.line, self.column) == (1, 1) {
+            self.skip_mark()?;
+        }
         self.skip_space()?;
         let (line, column) = (self.line, self.column);
         self.word.clear();
@@ -42,6 +48,17 @@ impl<R: BufRead> Words<R> {
     /// Where the text ends, once [`Self::next`] has returned `None`.
     pub(super) fn end(&self) -> Position {
         Position { line: self.line, column: self.column, length: 1 }
+    }
+
+    /// Passes over a byte order mark; text of 16 bits a character is refused.
+    fn skip_mark(&mut self) -> Result<()> {
+        let start = self.input.fill_buf().map_err(unreadable)?;
+        if start.starts_with(&[0xff, 0xfe]) || start.starts_with(&[0xfe, 0xff]) {
+            return Err(Error::unsupported("this is text in UTF-16").help("save it as UTF-8 (or ASCII)"));
+        }
+        let mark = if start.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK.len() } else { 0 };
+        self.input.consume(mark);
+        Ok(())
     }
 
     fn skip_space(&mut self) -> Result<()> {
@@ -150,6 +167,14 @@ mod tests {
         assert_eq!(words.next().unwrap().unwrap().number(), Some(12_345_678.0));
         assert_eq!(words.next().unwrap().unwrap().number(), Some(9.0));
         assert!(words.next().unwrap().is_none());
+    }
+
+    #[test]
+    fn a_byte_order_mark_is_no_part_of_the_first_word() {
+        let mut words = Words::new(&b"\xef\xbb\xbfncols 3"[..]);
+        let word = words.next().unwrap().unwrap();
+        assert_eq!((word.text(), word.position().column), ("ncols".into(), 1));
+        assert!(Words::new(&b"\xff\xfen\0"[..]).next().unwrap_err().what().contains("UTF-16"));
     }
 
     #[test]

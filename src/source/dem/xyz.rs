@@ -7,7 +7,7 @@
 use super::content::{Dem, MAX_POINTS};
 use super::failure::unreadable;
 use super::frame::show_box;
-use super::text::{characters, number, number_help};
+use super::text::{BYTE_ORDER_MARK, characters, number, number_help};
 use crate::error::{Error, Position, Result};
 use crate::scene::Surface;
 use crate::space::World;
@@ -81,7 +81,8 @@ impl<R: Read> Xyz<R> {
             if read > LONGEST {
                 return Err(endless(line));
             }
-            let fields = Fields(&bytes);
+            // As part of the first number it would make a header of the first point.
+            let fields = Fields(bytes.strip_prefix(BYTE_ORDER_MARK).filter(|_| line == 1).unwrap_or(&bytes));
             let Some((first, _)) = fields.iter().next() else {
                 continue;
             };

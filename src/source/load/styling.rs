@@ -116,7 +116,7 @@ impl Settings<'_> {
         let value = self.columns.value(&by.column, index);
         let found = match (&by.scale, value) {
             (_, Attribute::Null) => None,
-            (Scale::Map(entries), value) => entry(entries, value),
+            (Scale::Map(entries), value) => entry(entries, value, key)?,
             (Scale::Stops(stops), value) => {
                 let number = value.number().ok_or_else(|| no_number(&by.column, value, &key()))?;
                 Some(along(stops, number, mix))
@@ -126,8 +126,8 @@ impl Settings<'_> {
     }
 }
 
-/// What stands for a value.
-fn entry<T: Copy>(entries: &[(String, T)], value: &Attribute) -> Option<T> {
+/// What stands for a value. A number may have one spelling among the keys: of two it would not be known which is meant.
+fn entry<T: Copy>(entries: &[(String, T)], value: &Attribute, map: impl Fn() -> String) -> Result<Option<T>> {
     let is_key = |key: &str| match value {
         Attribute::Null => false,
         Attribute::Boolean(flag) => key == if *flag { "true" } else { "false" },
@@ -137,7 +137,15 @@ fn entry<T: Copy>(entries: &[(String, T)], value: &Attribute) -> Option<T> {
             whole.or_else(|_| key.parse().map(Attribute::Number)).is_ok_and(|key| key == *value)
         }
     };
-    entries.iter().find(|(key, _)| is_key(key)).map(|(_, setting)| *setting)
+    let mut found = entries.iter().filter(|(key, _)| is_key(key));
+    match (found.next(), found.next()) {
+        (Some((one, _)), Some((other, _))) => Err(Error::new(format!(
+            "`{one}` and `{other}` in the map of `{}` are one number, {value}",
+            map()
+        ))
+        .help("keep one of them")),
+        (found, _) => Ok(found.map(|(_, setting)| *setting)),
+    }
 }
 
 /// Linear between the stops around a number, and as at the last one beyond them.

@@ -11,6 +11,7 @@ use crate::scene::{Posts, Surface};
 use crate::scene_file::{DataFile, HeightEncoding, SceneFile, TerrainSource};
 use crate::source::dem::{self, Dem, DemOptions, PngEncoding};
 use crate::source::generate;
+use crate::source::vector::is_vector;
 use crate::space::{Plan, PlanBox, World};
 use glam::DVec2;
 
@@ -69,6 +70,10 @@ fn from_file(
 ) -> Result<Placed> {
     let named = Named::new(scene, file);
     named.require()?;
+    if is_vector(named.path()) {
+        let error = Error::new("this file is one of vectors, and a terrain is of heights");
+        return Err(named.blame(error.help("name it as the `source` of a [[layer]]")));
+    }
     let asked = asked_plan(scene, notes)?;
     progress(&format!("reading {}", file.written));
     let dem = dem::read(named.path(), &options(scene)).map_err(|error| named.blame(error))?;

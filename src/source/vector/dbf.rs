@@ -30,23 +30,24 @@ pub(super) fn read(rows: Result<Option<Rows<'_>>>, cpg: Option<&[u8]>, found: &m
                 .help("put the .dbf beside it, or ask for no column"));
         }
     };
+    let table = is_read.then(|| rows.table()).transpose()?;
     if rows.count != found.seen {
         return Err(damaged(&format!(
             "it has {} rows and the .shp {} features, so that which belong together is not known",
             rows.count, found.seen
         )));
     }
-    if is_read { read_values(&rows, cpg, found) } else { Ok(()) }
+    table.map_or(Ok(()), |table| read_values(&table, cpg, found))
 }
 
 fn damaged(why: &str) -> Error {
     Error::new(format!("the table of attributes is damaged: {why}")).help("write it again from its source")
 }
 
-fn read_values(rows: &Rows<'_>, cpg: Option<&[u8]>, found: &mut Collector) -> Result<()> {
-    let table = rows.table()?;
-    let page = code_page(cpg, &table, found);
-    let slots = slots(&table, page, found);
+fn read_values(table: &Table<'_>, cpg: Option<&[u8]>, found: &mut Collector) -> Result<()> {
+    let page = code_page(cpg, table, found);
+    let slots = slots(table, page, found);
+    let rows = &table.rows;
     for (index, row) in rows.iter().enumerate().filter(|(index, _)| !rows.is_deleted(*index)) {
         for (field, slot) in table.fields.iter().zip(&slots) {
             if let Some(slot) = *slot {

@@ -279,7 +279,8 @@ fn rings_of_parts(geometry: &Geometry<'_>) -> Result<Vec<Vec<Plan>>> {
     let mut rings = Vec::new();
     for part in parts {
         rings.append(&mut match kind_of(&part, GeometryType::Polygon) {
-            GeometryType::Polygon => paths(&part)?,
+            // Some writers give the parts the type of the whole.
+            GeometryType::Polygon | GeometryType::MultiPolygon | GeometryType::Triangle => paths(&part)?,
             GeometryType::CurvePolygon => straight_parts(&part)?,
             other => return Err(no_plain_type(other)),
         });

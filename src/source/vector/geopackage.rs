@@ -25,6 +25,9 @@ struct Table {
 pub(super) fn read(path: &Path, layer: Option<&str>, wanted: Wanted) -> Result<Collector> {
     let connection = open(path)?;
     let tables = tables_of(&connection)?;
+    if tables.is_empty() {
+        return Err(without_features(&connection, path));
+    }
     let table = chosen(&tables, layer)?;
     let mut found = Collector::new(wanted);
     note_unmerged_log(path, &mut found);
@@ -36,7 +39,11 @@ pub(super) fn read(path: &Path, layer: Option<&str>, wanted: Wanted) -> Result<C
 
 /// The layers with features, in the order of their names.
 pub(super) fn layer_names(path: &Path) -> Result<Vec<String>> {
-    let tables = tables_of(&open(path)?)?;
+    let connection = open(path)?;
+    let tables = tables_of(&connection)?;
+    if tables.is_empty() {
+        return Err(without_features(&connection, path));
+    }
     Ok(tables.into_iter().map(|table| table.name).collect())
 }
 
@@ -107,11 +114,37 @@ fn tables_of(connection: &Connection) -> Result<Vec<Table>> {
     rows.collect::<rusqlite::Result<_>>().map_err(damaged)
 }
 
+/// What there is in a GeoPackage without features.
+fn without_features(connection: &Connection, path: &Path) -> Error {
+    let named = |sql: &str, what: &str| {
+        let rows = connection.prepare(sql).and_then(|mut statement| {
+            statement.query_map([], |row| row.get::<_, String>(0))?.collect::<rusqlite::Result<Vec<_>>>()
+        });
+        let names: Vec<String> = rows.unwrap_or_default().iter().map(|name| format!("`{name}`")).collect();
+        let more = if names.len() > MOST_NAMES { ", ..." } else { "" };
+        let told = names.iter().take(MOST_NAMES).cloned().collect::<Vec<_>>().join(", ");
+        (!names.is_empty()).then(|| format!("{what} {told}{more}"))
+    };
+    let tiles = "SELECT table_name FROM gpkg_contents WHERE data_type LIKE '%tile%' OR data_type LIKE '%coverage%' ORDER BY table_name";
+    let tables = "SELECT table_name FROM gpkg_contents WHERE data_type = 'attributes' ORDER BY table_name";
+    let (tiles, tables) =
+        (named(tiles, "tiles (pictures or heights)"), named(tables, "tables without shapes"));
+    let help = match tiles.is_some() {
+        true => format!("make a GeoTIFF of tiles: gdal_translate {} OUT.tif", path.display()),
+        false => "name a GeoPackage with a layer of polygons or lines".to_owned(),
+    };
+    let held: Vec<String> = tables.into_iter().chain(tiles).collect();
+    let held = if held.is_empty() { String::new() } else { format!("; it holds {}", held.join(" and ")) };
+    Error::new(format!("the GeoPackage has no layer of features{held}")).help(help)
+}
+
+/// The most tables that an error names.
+const MOST_NAMES: usize = 8;
+
 fn chosen<'a>(tables: &'a [Table], layer: Option<&str>) -> Result<&'a Table> {
     let names: Vec<String> = tables.iter().map(|t| format!("'{}'", t.name)).collect();
     let listed = format!("its layers are {}", names.join(", "));
     match (tables, layer) {
-        ([], _) => Err(Error::new("the GeoPackage has no layer of features").help("it may hold tiles only")),
         ([only], None) => Ok(only),
         (_, None) => Err(Error::new("the GeoPackage has several layers and none is named")
             .help(format!("name one as layer; {listed}"))),

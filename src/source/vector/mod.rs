@@ -20,6 +20,7 @@ mod column_summary;
 mod curve;
 mod dbf;
 mod flatgeobuf;
+mod foreign;
 mod geojson;
 #[cfg(feature = "gpkg")]
 mod geopackage;
@@ -121,21 +122,47 @@ fn read_collected(path: &Path, layer: Option<&str>, wanted: Wanted) -> Result<(V
     Ok((format, found))
 }
 
-/// Whether a file is one of vectors: by its name, or where that tells nothing by what it begins with.
+/// Whether a file is one of vectors: of a kind that is read here, or of one that is known and refused with the command which
+/// converts it. By its name, and where that says nothing by its content.
 pub fn is_vector(path: &Path) -> bool {
-    promised_by_name(path).is_some()
-        || beginning_of(path).is_ok_and(|start| told_by_content(&start).is_some())
+    let by_content = || {
+        let start = beginning_of(path).unwrap_or_default();
+        told_by_content(&start).is_some() || foreign::by_content(&start).is_some()
+    };
+    match path.extension().and_then(|extension| extension.to_str()) {
+        _ if promised_by_name(path).is_some() || foreign::by_name(path).is_some() => true,
+        Some(extension) if TERRAIN.contains(&extension.to_ascii_lowercase().as_str()) => false,
+        _ => by_content(),
+    }
 }
+
+/// The names of terrain files.
+const TERRAIN: [&str; 9] = ["tif", "tiff", "hgt", "asc", "agr", "xyz", "png", "vrt", "toml"];
 
 /// The format by what the file begins with; a name that promises another is refused.
 fn format_of(path: &Path) -> Result<VectorFormat> {
+    if let Some(foreign) = foreign::by_name(path).filter(|_| path.is_dir()) {
+        return Err(foreign.refuse(path));
+    }
     let start = beginning_of(path)?;
+    if start.is_empty() {
+        return Err(Error::new("the file is empty").help("write the file again"));
+    }
     let promised = promised_by_name(path);
     let found = told_by_content(&start);
+    let foreign = match (promised, found) {
+        (_, None | Some(VectorFormat::GeoJson)) => foreign::by_content(&start),
+        _ => None,
+    };
+    if let Some(foreign) = foreign.or_else(|| foreign::by_name(path).filter(|_| found.is_none())) {
+        return Err(foreign.refuse(path));
+    }
     match (promised, found) {
         (Some(promised), Some(found)) if promised == found => Ok(found),
         (None, Some(found)) => Ok(found),
-        (_, None) if start.is_empty() => Err(Error::new("the file is empty").help("write the file again")),
+        (_, None) if start.starts_with(&[0xff, 0xfe]) || start.starts_with(&[0xfe, 0xff]) => {
+            Err(Error::unsupported("this is text in UTF-16").help("save it as UTF-8"))
+        }
         (Some(promised), None) => {
             Err(Error::new(format!("this is not a {promised}, whatever its name says"))
                 .help("check that the file was copied whole"))
@@ -144,9 +171,13 @@ fn format_of(path: &Path) -> Result<VectorFormat> {
             Err(Error::new(format!("the name says {promised} but the content is a {found}"))
                 .help("give the file the extension of what it is"))
         }
-        (None, None) => Err(Error::unsupported("this is no vector file of a kind known here")
-            .help("use .geojson, .json, .shp, .fgb or .gpkg")),
+        (None, None) => Err(unknown()),
     }
+}
+
+fn unknown() -> Error {
+    Error::unsupported("this is no vector file of a kind known here")
+        .help("use .geojson, .json, .geojsonl, .shp, .fgb or .gpkg; heights go into [terrain]")
 }
 
 fn beginning_of(path: &Path) -> Result<Vec<u8>> {

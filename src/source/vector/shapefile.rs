@@ -13,7 +13,7 @@ use super::dbf::{self, Rows};
 use crate::crs::Crs;
 use crate::error::{Error, Result};
 use crate::space::Plan;
-use records::Records;
+use records::{Records, damaged};
 use std::path::Path;
 
 /// The contents of the files that are a shapefile.
@@ -83,11 +83,6 @@ fn read_prj(prj: Option<&[u8]>, found: &mut Collector) {
         Ok(crs) => found.crs = Some(crs),
         Err(e) => found.notes.push(format!("the CRS in the .prj is not understood: {}", e.what())),
     }
-}
-
-fn damaged(why: &str) -> Error {
-    Error::new(format!("the shapefile is damaged: {why}"))
-        .help("write it again from its source, or repair it with a GIS")
 }
 
 fn read_record(mut record: Cursor<'_>, found: &mut Collector) -> Result<()> {

@@ -2,6 +2,7 @@ mod attributes;
 #[cfg(feature = "gpkg")]
 mod curves;
 mod geojson;
+mod kinds;
 mod shapefile;
 
 use super::*;
@@ -119,8 +120,12 @@ fn fgb() -> Vec<u8> {
 /// A FlatGeobuf whose header says this type.
 fn fgb_of(stated: ::flatgeobuf::GeometryType, add: impl FnOnce(&mut ::flatgeobuf::FgbWriter<'_>)) -> Vec<u8> {
     use ::flatgeobuf::{FgbCrs, FgbWriter, FgbWriterOptions};
-    let options =
-        FgbWriterOptions { crs: FgbCrs { code: 32733, ..Default::default() }, ..Default::default() };
+    let options = FgbWriterOptions {
+        crs: FgbCrs { code: 32733, ..Default::default() },
+        detect_type: false,
+        promote_to_multi: false,
+        ..Default::default()
+    };
     let mut writer = FgbWriter::create_with_options("made", stated, options).unwrap();
     add(&mut writer);
     let mut out = Vec::new();

@@ -51,6 +51,8 @@ fn an_archive_of_no_terrain_or_of_several_says_so() {
     for none in [packed(&[("roads.shp", b"1")]), packed(&[])] {
         assert!(refusal("a.zip", &none, &DemOptions::default()).contains("no terrain file"));
     }
+    let arrays = packed(&[("a.npy", b"1"), ("b.npy", b"2")]);
+    assert!(refusal("a.npz", &arrays, &DemOptions::default()).contains("NumPy"));
     let nested = packed(&[("a.tif", &packed(&[("a.tif", b"1")]))]);
     assert!(refusal("a.zip", &nested, &DemOptions::default()).contains("zip archive in another"));
     let cut = &packed(&[("g.asc", GRID)])[..60];

@@ -27,6 +27,12 @@ fn separators_comments_and_a_header_are_understood() {
 }
 
 #[test]
+fn a_byte_order_mark_does_not_make_a_header_of_the_first_point() {
+    let text = "\u{feff}0 0 1\n10 0 2\n10 10 3\n";
+    assert_eq!(points(read_bytes("a.xyz", text.as_bytes(), &DemOptions::default()).unwrap()).len(), 3);
+}
+
+#[test]
 fn a_window_filters_points() {
     let few = points(read_bytes("a.xyz", POINTS.as_bytes(), &window([0.0, 0.0, 10.0, 9.0])).unwrap());
     assert_eq!(few.len(), 3);

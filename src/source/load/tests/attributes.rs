@@ -81,8 +81,8 @@ fn each_value_has_its_colour_and_equal_looks_are_one_style() {
 fn numbers_and_flags_are_keys_in_any_spelling() {
     let folder =
         folder(&[(LONG, r#""n":2"#), (LONG, r#""n":2.5"#), (LONG, r#""n":true"#), (LONG, r#""n":"2""#)]);
-    let map = "line = { color = \"#000000\", width_m = { by = \"n\", map = { \"2.0\" = 3, \"25e-1\" = 4, true = 5, 2 = 6 } } }";
-    // Keys are looked up in ascending order.
+    let map =
+        "line = { color = \"#000000\", width_m = { by = \"n\", map = { \"25e-1\" = 4, true = 5, 2 = 6 } } }";
     assert_eq!(widths(&drawn(&folder, map)), [6.0, 4.0, 5.0, 6.0]);
 }
 
@@ -262,4 +262,35 @@ fn a_mosaics_column_tells_the_class_that_a_layer_may_keep() {
         ));
         assert!(kept == told && !kept.is_empty(), "{class}");
     }
+}
+
+#[test]
+fn two_keys_of_a_map_that_are_one_number_are_refused_where_a_feature_has_it_and_two_texts_are_two() {
+    let folder = folder(&[(LONG, r#""T":2.5"#), (LONG, r#""T":"2.50""#)]);
+    let map = "map = { \"2.5\" = 1, \"2.50\" = 3 }";
+    let line =
+        |map: &str| layer(&format!("line = {{ color = \"#000000\", width_m = {{ by = \"T\", {map} }} }}"));
+    let error = folder.refused(&line(map));
+    assert!(
+        error.what().contains("`2.5` and `2.50` in the map of `layer.r.line.width_m` are one number, 2.5"),
+        "{error}"
+    );
+    let texts = self::folder(&[(LONG, r#""T":"2.5""#), (LONG, r#""T":"2.50""#)]);
+    assert_eq!(widths(&texts.load(&line(map)).unwrap().0), [1.0, 3.0]);
+}
+
+#[test]
+fn a_layer_without_a_name_is_called_by_its_number_as_in_errors_of_the_scene_file() {
+    let scene = format!("{PLANE}[[layer]]\nfeatures = [{{ line = [[0, 0]] }}]\n{BLACK}\n");
+    assert!(Folder::new().refused(&scene).what().starts_with("`layer.0.features.0`"));
+}
+
+#[test]
+fn vectors_are_no_terrain() {
+    let folder = folder(&[(LONG, "")]);
+    let error = folder.refused("terrain = { source = \"r.json\" }\n");
+    assert!(
+        error.what().contains("one of vectors") && error.help_text().unwrap().contains("[[layer]]"),
+        "{error}"
+    );
 }

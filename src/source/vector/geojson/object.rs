@@ -191,6 +191,8 @@ pub(super) fn add_object(object: Object, reading: &mut Reading) -> Result<()> {
             .help("check that the file was written whole")),
         "Topology" => Err(Error::unsupported("TopoJSON is not supported")
             .help("convert it to GeoJSON: ogr2ogr OUT.geojson IN")),
+        "" if !is_nested => Err(Error::new("the object has no `type`, so it is no GeoJSON")
+            .help("Esri JSON is converted by: ogr2ogr OUT.geojson IN")),
         // Some writers forget the type of features.
         kind if kind == "Feature" || (is_nested && geometry.is_some()) => {
             let found = &mut reading.found;

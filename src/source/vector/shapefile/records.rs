@@ -5,7 +5,6 @@
 //! overlaps another, and their number is the one that its own header or the .dbf states. Otherwise records are read one after the
 //! other, and a note says so. The length in the header of the .shp is believed where nothing else speaks against it.
 
-use super::damaged;
 use crate::error::{Error, Result};
 use crate::source::vector::bytes::{Cursor, Endian};
 
@@ -306,4 +305,10 @@ impl Index {
             read.len()
         )
     }
+}
+
+/// The refusal of a damaged .shp.
+pub(super) fn damaged(why: &str) -> Error {
+    Error::new(format!("the shapefile is damaged: {why}"))
+        .help("write it again from its source, or repair it with a GIS")
 }
