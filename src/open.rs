@@ -4,7 +4,7 @@
 //! scene file and the readers of its data refuse.
 
 use crate::error::{Error, Result};
-use crate::scene_file::{SceneFile, SceneText, TerrainSource};
+use crate::scene_file::{SceneFile, SceneText};
 use crate::source::load;
 use crate::space::ViewFrame;
 use crate::stage::Stage;
@@ -72,7 +72,7 @@ impl Opened {
 
 /// An error of the terrain's surface: its file and the line that names it.
 fn of_terrain(error: Error, scene: &SceneFile) -> Error {
-    let TerrainSource::File(file) = &scene.terrain.source else {
+    let Some(file) = scene.terrain.source.files().first() else {
         return error;
     };
     let error = error.in_file(&file.path);

@@ -226,7 +226,9 @@ fn of_scene(scene: &SceneFile) -> Table {
     table.row(
         "terrain",
         match &scene.terrain.source {
-            TerrainSource::File(file) => file.written.clone(),
+            TerrainSource::Files(files) => {
+                files.iter().map(|file| file.written.as_str()).collect::<Vec<_>>().join(", ")
+            }
             TerrainSource::Generate(terrain) => {
                 format!("generated, {} x {} posts", terrain.posts.0, terrain.posts.1)
             }

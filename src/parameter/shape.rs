@@ -7,6 +7,8 @@ use super::{Named, Value};
 pub enum Shape {
     /// Any string but the empty one.
     Text,
+    /// A text, or a list of at least one.
+    Texts,
     /// A colour as CSS writes it: `"#rrggbb"`, a name, `"rgb(...)"`.
     Color,
     /// `true` or `false`.
@@ -135,6 +137,7 @@ impl Shape {
     pub fn words(&self) -> String {
         match self {
             Shape::Text => "a string that is not empty".into(),
+            Shape::Texts => "a string that is not empty, or a list of these".into(),
             Shape::Color => {
                 "a colour of CSS (\"#rrggbb\", \"#rrggbbaa\", \"#rgb\", a name, rgb(), hsl())".into()
             }

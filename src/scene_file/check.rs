@@ -61,6 +61,7 @@ impl Check<'_> {
             (Shape::Scalars, Value::Array(items)) if !items.is_empty() => {
                 self.each(items, &Shape::Scalar, path)
             }
+            (Shape::Texts, Value::Array(items)) if !items.is_empty() => self.each(items, &Shape::Text, path),
             (Shape::Numbers(count), Value::Array(items)) if items.len() == *count => {
                 self.each(items, &Shape::Number(Range::Finite), path)
             }
@@ -217,7 +218,7 @@ pub(super) fn is_nested(items: &[Node]) -> bool {
 /// Whether a value that holds no others is of a shape.
 fn fits(shape: &Shape, value: &Value) -> bool {
     match (shape, value) {
-        (Shape::Text, Value::Text(text)) => !text.is_empty(),
+        (Shape::Text | Shape::Texts, Value::Text(text)) => !text.is_empty(),
         (Shape::Color, Value::Text(text)) => color(text).is_some(),
         (Shape::Flag, Value::Flag(_)) => true,
         (Shape::Scalar | Shape::Scalars, Value::Text(_) | Value::Flag(_)) => true,

@@ -38,6 +38,10 @@ fn described(key: &Key) -> Value {
 fn value(shape: &Shape) -> Value {
     match shape {
         Shape::Text => json!({ "type": "string", "minLength": 1 }),
+        Shape::Texts => {
+            let text = value(&Shape::Text);
+            json!({ "anyOf": [text.clone(), { "type": "array", "items": text, "minItems": 1 }] })
+        }
         Shape::Color => json!({ "type": "string", "pattern": COLOR }),
         Shape::Flag => json!({ "type": "boolean" }),
         Shape::Choice(names) => json!({ "enum": names() }),

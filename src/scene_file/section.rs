@@ -76,6 +76,22 @@ impl<'a> Section<'a> {
         self.taken(key, |value| if let Found::Text(text) = value { Some(text) } else { None })
     }
 
+    /// A text, or each text of a list, with its own place.
+    pub(super) fn texts_at(&mut self, key: &str) -> Result<Vec<Taken<String>>> {
+        let Some(Node { value, place }) = self.take(key) else {
+            return Ok(Vec::new());
+        };
+        let nodes = match value {
+            Found::Array(items) => items,
+            value => vec![Node { value, place }],
+        };
+        let text = |node: Node| match node.value {
+            Found::Text(value) => Ok(Taken { value, place: node.place }),
+            _ => Err(bug(key)),
+        };
+        nodes.into_iter().map(text).collect()
+    }
+
     pub(super) fn number(&mut self, key: &str) -> Result<Option<f64>> {
         self.plain(key, |value| value.number())
     }

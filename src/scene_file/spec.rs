@@ -113,10 +113,20 @@ pub struct TerrainSpec {
 /// Where heights come from.
 #[derive(Debug, Clone, PartialEq)]
 pub enum TerrainSource {
-    /// A file.
-    File(DataFile),
+    /// A file, or several whose posts stand on one grid; never none.
+    Files(Vec<DataFile>),
     /// A formula.
     Generate(TerrainGenerator),
+}
+
+impl TerrainSource {
+    /// Its files; none where it is generated.
+    pub fn files(&self) -> &[DataFile] {
+        match self {
+            Self::Files(files) => files,
+            Self::Generate(_) => &[],
+        }
+    }
 }
 
 words! {

@@ -30,8 +30,10 @@ pub(super) fn terrain(section: &mut Section<'_>) -> Result<TerrainSpec> {
 }
 
 fn source(section: &mut Section<'_>) -> Result<TerrainSource> {
-    if let Some(taken) = section.text_at("source")? {
-        return Ok(TerrainSource::File(data_file(section.origin(), taken)));
+    let taken = section.texts_at("source")?;
+    if !taken.is_empty() {
+        let files = taken.into_iter().map(|taken| data_file(section.origin(), taken));
+        return Ok(TerrainSource::Files(files.collect()));
     }
     if let Some((key, place)) = section.first_of(&["window", "crs", "bounds", "encoding", "band", "nodata"]) {
         return Err(

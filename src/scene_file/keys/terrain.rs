@@ -8,7 +8,12 @@ use crate::scene_file::spec::HeightEncoding;
 
 pub(super) static TERRAIN: TableShape = TableShape {
     keys: &[
-        key("source", Shape::Text, "A height file: .tif .hgt .asc .png .xyz. Relative to the scene file."),
+        key(
+            "source",
+            Shape::Texts,
+            "A height file: .tif .hgt .asc .png .xyz .vrt, or one of them in a .zip; or a list of files that stand on one grid. \
+             Relative to the scene file.",
+        ),
         key("generate", Shape::Table(&GENERATE_TERRAIN), "Heights by a formula instead."),
         key(
             "window",

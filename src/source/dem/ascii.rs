@@ -43,6 +43,7 @@ impl<R: Read + Seek> AsciiGrid<R> {
             layout: "rows".into(),
             nodata: Some(declared.to_string()),
             frame: keys.frame()?,
+            is_placed: true,
             unit: prj.as_deref().and_then(unit_of_prj),
             crs_hint: prj.as_deref().map(crs_of_prj),
             scaling: None,

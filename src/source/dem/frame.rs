@@ -156,6 +156,24 @@ impl Frame {
         Ok((part, note))
     }
 
+    /// How many columns and rows another frame's first post lies off; `None` where its posts do not stand on this frame's grid.
+    pub(super) fn steps_to(&self, other: &Self) -> Option<(i64, i64)> {
+        /// A share of a cell that a post may be off.
+        const SLACK: f64 = 0.01;
+        let cells = |v: DVec2| {
+            let det = self.column().perp_dot(self.row());
+            DVec2::new(v.perp_dot(self.row()) / det, self.column().perp_dot(v) / det)
+        };
+        let offset = cells(other.at(0.0, 0.0) - self.at(0.0, 0.0));
+        let whole = offset.round();
+        let drift = |step: DVec2, unit: DVec2, count: usize| (cells(step) - unit).length() * count as f64;
+        let is_same = (offset - whole).length() <= SLACK
+            && drift(other.column(), DVec2::X, other.columns) <= SLACK
+            && drift(other.row(), DVec2::Y, other.rows) <= SLACK
+            && whole.length() < 1e9;
+        is_same.then_some((whole.x as i64, whole.y as i64))
+    }
+
     /// The smallest range of columns and rows around a window: c0, r0, c1, r1.
     fn window_in_posts(&self, [x0, y0, x1, y1]: [f64; 4]) -> [f64; 4] {
         let det = self.column.perp_dot(self.row);

@@ -42,6 +42,8 @@ pub(super) struct Header {
     pub(super) layout: String,
     pub(super) nodata: Option<String>,
     pub(super) frame: Frame,
+    /// Whether the file, or what lies beside it, says where the frame is.
+    pub(super) is_placed: bool,
     pub(super) crs_hint: Option<CrsHint>,
     /// What the samples count in, once scaled; the metre where nothing is said.
     pub(super) unit: Option<VerticalUnit>,

@@ -1,6 +1,7 @@
-//! SRTM tiles (`.hgt`): a square degree, its place in its name.
+//! SRTM tiles (`.hgt`): a degree by a degree, its place in its name.
 //!
-//! Big-endian int16 from the north-west, 1201 or 3601 posts a side, the outer posts on the degree lines (neighbours share
+//! Big-endian int16 from the north-west, 1201, 3601 or 7201 posts a side, or 1801 from west to east and 3601 from north to south
+//! (two arc seconds by one, as tiles near the poles have it); the outer posts stand on the degree lines (neighbours share
 //! them); -32768 is a void. Source: USGS, "SRTM Topography", section 3.0.
 
 use super::failure::unreadable;
@@ -27,14 +28,13 @@ impl Hgt {
     /// Tells size and place from the file's length and name.
     pub(super) fn open(file: Input, path: &Path, more_nodata: [Option<f64>; 2]) -> Result<Self> {
         let length = file.length()?;
-        let posts = posts_a_side(length)?;
+        let (columns, rows) = size_of(length)?;
         let name = path.file_stem().unwrap_or_default().to_string_lossy();
         let (lon, lat) = south_west(&name).ok_or_else(|| unnamed(&name))?;
-        let step = 1.0 / (posts as f64 - 1.0);
         let frame = Frame::new(
-            (posts, posts),
+            (columns, rows),
             DVec2::new(lon, lat + 1.0),
-            (DVec2::new(step, 0.0), DVec2::new(0.0, -step)),
+            (DVec2::new(1.0 / (columns as f64 - 1.0), 0.0), DVec2::new(0.0, -1.0 / (rows as f64 - 1.0))),
         )?;
         let header = Header {
             format: "SRTM tile",
@@ -43,6 +43,7 @@ impl Hgt {
             layout: "rows".into(),
             nodata: Some(VOID.to_string()),
             frame,
+            is_placed: true,
             crs_hint: Some(CrsHint::Epsg(4326)),
             unit: None,
             scaling: None,
@@ -81,17 +82,17 @@ impl GridFile for Hgt {
     }
 }
 
-fn posts_a_side(length: u64) -> Result<usize> {
-    [1201, 3601]
-        .into_iter()
-        .find(|n| 2 * n * n == length)
-        .map(|n| n as usize)
-        .ok_or_else(|| {
-            Error::new(format!(
-                "the file has {length} bytes; an SRTM tile has 2884802 (1201 x 1201 posts) or 25934402 (3601 x 3601)"
-            ))
+/// Columns and rows of tiles.
+const SIZES: [(usize, usize); 4] = [(1201, 1201), (3601, 3601), (1801, 3601), (7201, 7201)];
+
+/// The columns and rows of a tile of so many bytes.
+fn size_of(length: u64) -> Result<(usize, usize)> {
+    let found = SIZES.into_iter().find(|(columns, rows)| 2 * columns * rows == length as usize);
+    found.ok_or_else(|| {
+        let known = SIZES.map(|(columns, rows)| format!("{} ({columns} x {rows} posts)", 2 * columns * rows));
+        Error::new(format!("the file has {length} bytes; an SRTM tile has {}", known.join(", ")))
             .help("fetch it again, or convert other tiles with: gdal_translate FILE OUT.tif")
-        })
+    })
 }
 
 /// The longitude and latitude of the south-west corner, from a name like `N43E006` or `S34W070.SRTMGL1`.
@@ -135,10 +136,11 @@ mod tests {
     }
 
     #[test]
-    fn only_the_two_known_lengths_are_tiles() {
-        assert_eq!(posts_a_side(2_884_802).unwrap(), 1201);
-        assert_eq!(posts_a_side(25_934_402).unwrap(), 3601);
-        assert!(posts_a_side(2_884_801).is_err());
-        assert!(posts_a_side(0).is_err());
+    fn only_the_known_lengths_are_tiles() {
+        assert_eq!(size_of(2_884_802).unwrap(), (1201, 1201));
+        assert_eq!(size_of(25_934_402).unwrap(), (3601, 3601));
+        assert_eq!(size_of(12_970_802).unwrap(), (1801, 3601));
+        assert!(size_of(2_884_801).is_err());
+        assert!(size_of(0).is_err());
     }
 }

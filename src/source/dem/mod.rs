@@ -10,6 +10,7 @@
 //! | SRTM tile | `.hgt` | `hgt` |
 //! | Esri ASCII grid | `.asc` | `ascii` |
 //! | points | `.xyz` | `xyz` |
+//! | plain files side by side (`.vrt`) | first bytes, `.vrt` | `vrt`, `mosaic` |
 //! | one of these in a zip archive | first bytes | `site` |
 //!
 //! Every grid is read the same way: its header gives a `Frame` (where the posts stand), the window a `Part` of it, and
@@ -32,6 +33,7 @@ mod geotiff;
 mod grid;
 mod hgt;
 mod mask;
+mod mosaic;
 mod nodata;
 mod open;
 mod options;
@@ -42,6 +44,7 @@ pub(super) mod site;
 mod summary;
 mod text;
 mod vertical;
+mod vrt;
 pub(super) mod world_file;
 mod xml;
 mod xyz;
@@ -58,7 +61,7 @@ use crate::error::Result;
 use crate::scene::Surface;
 use grid::{GridFile, Sheet};
 use open::DemFile;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Reads a terrain file, the format told by its content and extension.
 ///
@@ -70,6 +73,14 @@ pub fn read(path: &Path, options: &DemOptions) -> Result<Dem> {
         DemFile::Points(mut file) => file.read(options.window),
     };
     read().map_err(|error| error.in_file(path))
+}
+
+/// Reads several terrain files as one: grids whose posts stand on one grid, in one CRS. Posts that they share are averaged.
+///
+/// # Errors
+/// As [`read`]; and when the files do not fit together, naming the one that does not.
+pub fn read_together(paths: &[PathBuf], options: &DemOptions) -> Result<Dem> {
+    read_grid(&mut *open::open_together(paths, options)?, options.window)
 }
 
 /// Reads the wanted part of a grid.

@@ -5,15 +5,17 @@ use super::failure::unreadable;
 use super::geotiff::{GeoTiff, MaskPlace};
 use super::grid::GridFile;
 use super::hgt::Hgt;
+use super::mosaic::{Mosaic, Piece};
 use super::options::DemOptions;
 use super::png::HeightPng;
 use super::refined::Refined;
 use super::sidecar::Sidecar;
 use super::site::{Input, Site};
+use super::vrt;
 use super::xyz::Xyz;
 use crate::error::{Error, Result};
 use std::io::Read;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// An opened terrain file.
 pub(super) enum DemFile {
@@ -23,14 +25,57 @@ pub(super) enum DemFile {
 
 /// Opens a terrain file, or the only one of an archive, and reads its header.
 pub(super) fn open(path: &Path, options: &DemOptions) -> Result<DemFile> {
-    let site = Site::on_disk(path);
-    match &magic(&site)?[..] {
-        [b'P', b'K', 3 | 5, ..] => open_site(&site.in_archive()?, options),
-        _ => open_site(&site, options),
+    let site = site_of(path)?;
+    if site.extension() == "vrt" || magic(&site)?.starts_with(b"<VRTData") {
+        return open_virtual(&site, options).map(DemFile::Grid);
+    }
+    open_site(&site, options, true)
+}
+
+/// Opens several grids as one.
+pub(super) fn open_together(paths: &[PathBuf], options: &DemOptions) -> Result<Box<dyn GridFile>> {
+    if options.bounds.is_some() {
+        return Err(Error::new("`bounds` places one file, but several are named")
+            .help("give each a world file, or georeference it: gdal_translate -a_ullr"));
+    }
+    let options = DemOptions { window: None, ..*options };
+    let open = move |piece: &Piece| only_grid(open(&piece.path, &options)?);
+    Ok(Box::new(Mosaic::of_files(paths, Box::new(open))?))
+}
+
+/// Opens a virtual raster.
+fn open_virtual(site: &Site, options: &DemOptions) -> Result<Box<dyn GridFile>> {
+    let beside = Sidecar::beside(site, options.band.unwrap_or(1))?;
+    let of_pieces = DemOptions { window: None, bounds: None, ..*options };
+    // Plain files alone: a virtual raster of virtual rasters could name itself.
+    let open = move |piece: &Piece| {
+        let options = DemOptions { band: piece.band, ..of_pieces };
+        only_grid(open_site(&site_of(&piece.path)?, &options, false)?)
+    };
+    let mosaic = vrt::open(site, options, &beside, Box::new(open))?;
+    let masks = mask_beside(site, options.band)?.into_iter().collect();
+    Ok(Box::new(Refined::new(Box::new(mosaic), beside, masks, true)?))
+}
+
+fn only_grid(file: DemFile) -> Result<Box<dyn GridFile>> {
+    match file {
+        DemFile::Grid(grid) => Ok(grid),
+        DemFile::Points(_) => Err(Error::unsupported("scattered points cannot be put beside other files")
+            .help("name the one file of points, with all of them")),
     }
 }
 
-fn open_site(site: &Site, options: &DemOptions) -> Result<DemFile> {
+/// The place of a file on disk, or of the only terrain file of the archive there.
+fn site_of(path: &Path) -> Result<Site> {
+    let site = Site::on_disk(path);
+    match &magic(&site)?[..] {
+        [b'P', b'K', 3 | 5, ..] => site.in_archive(),
+        _ => Ok(site),
+    }
+}
+
+/// Opens a file of one raster, or of points; one that is not converted keeps its samples as they are stored.
+fn open_site(site: &Site, options: &DemOptions, converts: bool) -> Result<DemFile> {
     let magic = magic(site)?;
     if magic.is_empty() {
         return Err(Error::new("the file is empty").help("fetch it again"));
@@ -59,7 +104,7 @@ fn open_site(site: &Site, options: &DemOptions) -> Result<DemFile> {
         _ => return Err(unknown(&extension)),
     };
     masks.extend(mask_beside(site, options.band)?);
-    Ok(DemFile::Grid(Box::new(Refined::new(grid, beside, masks)?)))
+    Ok(DemFile::Grid(Box::new(Refined::new(grid, beside, masks, converts)?)))
 }
 
 /// The masks inside a TIFF, each read through its own view of the file.
@@ -124,6 +169,6 @@ fn unknown(extension: &str) -> Error {
         format!("terrain files of the kind .{extension} are unknown")
     };
     Error::unsupported(what).help(
-        "known are .tif .hgt .asc .png .xyz; convert others with: gdal_translate FILE OUT.tif -co COMPRESS=DEFLATE",
+        "known are .tif .hgt .asc .png .xyz .vrt; convert others with: gdal_translate FILE OUT.tif -co COMPRESS=DEFLATE",
     )
 }

@@ -47,7 +47,7 @@ impl HeightPng {
         }
         let (columns, rows) = decoder.dimensions();
         let size = (columns as usize, rows as usize);
-        let (frame, note) = place(site, size, options.bounds, beside.place)?;
+        let (frame, is_placed, note) = place(site, size, options.bounds, beside.place)?;
         let header = Header {
             format: "PNG",
             sample: "uint8 x 3".into(),
@@ -55,6 +55,7 @@ impl HeightPng {
             layout: "rows".into(),
             nodata: None,
             frame,
+            is_placed,
             crs_hint: None,
             unit: None,
             scaling: None,
@@ -127,17 +128,18 @@ fn place(
     size: (usize, usize),
     bounds: Option<[f64; 4]>,
     beside: Option<[f64; 6]>,
-) -> Result<(Frame, &'static str)> {
+) -> Result<(Frame, bool, &'static str)> {
     if let Some(place) = beside {
-        return Ok((Frame::of_geo_transform(size, place)?, "placed by the .aux.xml beside it"));
+        return Ok((Frame::of_geo_transform(size, place)?, true, "placed by the .aux.xml beside it"));
     }
     if let Some(frame) = world_file::frame_beside(site, size)? {
-        return Ok((frame, "placed by the world file beside it; it has no CRS"));
+        return Ok((frame, true, "placed by the world file beside it; it has no CRS"));
     }
     match bounds {
-        Some(bounds) => Ok((Frame::within(size, bounds)?, "placed by the given bounds")),
+        Some(bounds) => Ok((Frame::within(size, bounds)?, false, "placed by the given bounds")),
         None => Ok((
             Frame::local(size)?,
+            false,
             "the image says neither its place nor its CRS: a local grid, cell 1, south-west post at (0, 0)",
         )),
     }

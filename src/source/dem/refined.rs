@@ -12,14 +12,17 @@ pub(super) struct Refined {
     file: Box<dyn GridFile>,
     header: Header,
     masks: Vec<Box<dyn GridFile>>,
+    converts: bool,
 }
 
 impl Refined {
-    /// A file with what lies beside it, and with its masks: rasters of the same size, 0 where there is no post.
+    /// A file with what lies beside it, and with its masks: rasters of the same size, 0 where there is no post. One that does not
+    /// convert hands on samples as they are stored, and says in its header alone what they count in.
     pub(super) fn new(
         file: Box<dyn GridFile>,
         beside: Sidecar,
         masks: Vec<Box<dyn GridFile>>,
+        converts: bool,
     ) -> Result<Self> {
         let mut header = file.header().clone();
         let size = (header.frame.columns, header.frame.rows);
@@ -42,18 +45,21 @@ impl Refined {
         }
         header.unit = beside.unit.or(header.unit);
         header.scaling = beside.scaling.or(header.scaling).filter(|s| *s != (1.0, 0.0));
-        if let Some((factor, offset)) = header.scaling {
+        if let Some((factor, offset)) = header.scaling.filter(|_| converts) {
             header.notes.push(format!("heights are samples x {factor} + {offset}, as the file declares"));
         }
-        header.notes.extend(header.unit.as_ref().and_then(|unit| unit.note()));
+        header.notes.extend(header.unit.as_ref().filter(|_| converts).and_then(|unit| unit.note()));
         if !masks.is_empty() {
             header.notes.push("posts that the file's mask or alpha band leaves out hold no data".into());
         }
-        Ok(Self { file, header, masks })
+        Ok(Self { file, header, masks, converts })
     }
 
     /// From samples to heights.
     fn conversion(&self) -> Conversion {
+        if !self.converts {
+            return Conversion::NONE;
+        }
         let (factor, offset) = self.header.scaling.unwrap_or((1.0, 0.0));
         let metres = self.header.unit.as_ref().map_or(1.0, |unit| unit.metres());
         Conversion { factor, offset, metres }
@@ -61,7 +67,7 @@ impl Refined {
 
     /// Notes heights that the Earth does not have, and such as often stand for no data.
     fn note_extremes(&mut self, extremes: &Extremes) {
-        let Some(range) = extremes.range() else {
+        let Some(range) = extremes.range().filter(|_| self.converts) else {
             return;
         };
         let conversion = self.conversion();
@@ -104,6 +110,13 @@ impl GridFile for Refined {
             Refining { part: *part, mask, conversion, extremes: Extremes::NONE, heights: Vec::new(), sink };
         self.file.scan(part, &mut refining)?;
         let extremes = refining.extremes;
+        // What the scan found out.
+        let known = self.file.header().notes.clone();
+        for note in known {
+            if !self.header.notes.contains(&note) {
+                self.header.notes.push(note);
+            }
+        }
         self.note_extremes(&extremes);
         Ok(())
     }
@@ -118,6 +131,8 @@ struct Conversion {
 }
 
 impl Conversion {
+    const NONE: Self = Self { factor: 1.0, offset: 0.0, metres: 1.0 };
+
     fn height(self, sample: f64) -> f64 {
         (sample * self.factor + self.offset) * self.metres
     }
@@ -145,8 +160,7 @@ impl RowSink for Refining<'_> {
             mask.apply(row, column, &mut self.heights);
         }
         self.heights.iter().for_each(|h| self.extremes.take(*h));
-        let none = Conversion { factor: 1.0, offset: 0.0, metres: 1.0 };
-        if self.conversion != none {
+        if self.conversion != Conversion::NONE {
             self.heights.iter_mut().for_each(|h| *h = self.conversion.height(*h));
         }
         self.sink.take(row, column, &self.heights);

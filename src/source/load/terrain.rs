@@ -14,6 +14,7 @@ use crate::source::generate;
 use crate::source::vector::is_vector;
 use crate::space::{Plan, PlanBox, World};
 use glam::DVec2;
+use std::path::PathBuf;
 
 /// The terrain in local coordinates, and where those are.
 pub(super) struct Terrain {
@@ -37,15 +38,15 @@ pub(super) fn terrain(
             );
             (surface, asked_plan(scene, notes)?, DVec2::ZERO)
         }
-        TerrainSource::File(file) => from_file(scene, file, progress, notes)?,
+        TerrainSource::Files(files) => from_files(scene, files, progress, notes)?,
     };
     stretch(&mut surface, scene.terrain.vertical_scale)?;
     let offset = scene.terrain.offset;
     let bounds = bounds(&surface);
     let place = PlanFrame { space, anchor, offset };
-    within_reach(&surface, &bounds, place.origin()).map_err(|error| match &scene.terrain.source {
-        TerrainSource::File(file) => Named::new(scene, file).blame(error),
-        TerrainSource::Generate(_) => of_key(scene, "terrain", error),
+    within_reach(&surface, &bounds, place.origin()).map_err(|error| match scene.terrain.source.files() {
+        [file, ..] => Named::new(scene, file).blame(error),
+        [] => of_key(scene, "terrain", error),
     })?;
     Ok(Terrain { bounds, surface, place })
 }
@@ -62,21 +63,34 @@ fn asked_plan(scene: &SceneFile, notes: &mut Vec<String>) -> Result<Option<PlanS
 
 type Placed = (Surface, Option<PlanSpace>, DVec2);
 
-fn from_file(
+fn from_files(
     scene: &SceneFile,
-    file: &DataFile,
+    files: &[DataFile],
     progress: &dyn Fn(&str),
     notes: &mut Vec<String>,
 ) -> Result<Placed> {
+    let [file, more @ ..] = files else {
+        return Err(Error::internal("a terrain of no files"));
+    };
     let named = Named::new(scene, file);
-    named.require()?;
-    if is_vector(named.path()) {
-        let error = Error::new("this file is one of vectors, and a terrain is of heights");
-        return Err(named.blame(error.help("name it as the `source` of a [[layer]]")));
+    for file in files {
+        let named = Named::new(scene, file);
+        named.require()?;
+        if is_vector(named.path()) {
+            let error = Error::new("this file is one of vectors, and a terrain is of heights");
+            return Err(named.blame(error.help("name it as the `source` of a [[layer]]")));
+        }
     }
     let asked = asked_plan(scene, notes)?;
-    progress(&format!("reading {}", file.written));
-    let dem = dem::read(named.path(), &options(scene)).map_err(|error| named.blame(error))?;
+    let read = if more.is_empty() {
+        progress(&format!("reading {}", file.written));
+        dem::read(named.path(), &options(scene))
+    } else {
+        progress(&format!("reading {} and {} more", file.written, more.len()));
+        let paths: Vec<PathBuf> = files.iter().map(|file| file.path.clone()).collect();
+        dem::read_together(&paths, &options(scene))
+    };
+    let dem = read.map_err(|error| named.blame(error))?;
     let note = &mut |text: String| notes.push(format!("terrain: {text}"));
     dem.notes.iter().for_each(|text| note(text.clone()));
     let own = own_crs(scene, &dem, asked.is_some(), note).map_err(|error| named.blame(error))?;

@@ -1,11 +1,12 @@
-//! Compressed bytes -> rows of samples: LZW, deflate, and the three predictors.
+//! Compressed bytes -> rows of samples: PackBits, LZW, deflate, ZSTD, and the three predictors.
 //!
 //! Everything is decoded row by row, and no further than the last wanted row: a stream that lacks its end code is read
-//! until the rows are full, and one that would expand without end never gets the memory. Sources: "TIFF 6.0", sections 13
-//! and 14; Adobe, "TIFF Technical Note 3" (floating-point predictor).
+//! until the rows are full, and one that would expand without end never gets the memory. Sources: "TIFF 6.0", sections 9,
+//! 13 and 14; Adobe, "TIFF Technical Note 3" (floating-point predictor).
 
 use super::tags::Endian;
 use crate::error::{Error, Result};
+use ruzstd::decoding::{FrameDecoder, StreamingDecoder};
 use std::io::{self, BufRead, Read};
 use weezl::decode::Decoder;
 use weezl::{BitOrder, LzwStatus};
@@ -14,8 +15,10 @@ use weezl::{BitOrder, LzwStatus};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Compression {
     None,
+    PackBits,
     Lzw,
     Deflate,
+    Zstd,
 }
 
 impl Compression {
@@ -25,13 +28,13 @@ impl Compression {
             1 => return Ok(Self::None),
             5 => return Ok(Self::Lzw),
             8 | 32946 => return Ok(Self::Deflate),
+            32773 => return Ok(Self::PackBits),
+            50000 => return Ok(Self::Zstd),
             2..=4 => "CCITT fax",
             6 | 7 => "JPEG",
-            32773 => "PackBits",
             34887 => "LERC",
             34925 => "LZMA",
             34712 => "JPEG 2000",
-            50000 => "ZSTD",
             50001 => "WebP",
             50002 => "JPEG XL",
             _ => "an unknown one",
@@ -43,8 +46,10 @@ impl Compression {
     pub(super) fn name(self) -> &'static str {
         match self {
             Self::None => "none",
+            Self::PackBits => "PackBits",
             Self::Lzw => "LZW",
             Self::Deflate => "deflate",
+            Self::Zstd => "ZSTD",
         }
     }
 
@@ -52,10 +57,14 @@ impl Compression {
     pub(super) fn most_from(self, packed: u64) -> u64 {
         match self {
             Self::None => packed,
+            // Two bytes repeat one up to 128 times.
+            Self::PackBits => packed.saturating_mul(64),
             // 12 bits stand for at most the longest string of the table, 4096 - 258.
             Self::Lzw => packed.saturating_add(16).saturating_mul(2560),
             // 258 bytes in two bits.
             Self::Deflate => packed.saturating_add(16).saturating_mul(1032),
+            // A block of four bytes repeats one 128 Ki times.
+            Self::Zstd => packed.saturating_mul(1 << 15),
         }
     }
 
@@ -66,7 +75,94 @@ impl Compression {
             Self::Lzw => {
                 Box::new(LzwReader { packed, decoder: Decoder::with_tiff_size_switch(BitOrder::Msb, 8) })
             }
+            Self::PackBits => Box::new(PackBits { packed, run: Run::Copied(0) }),
             Self::Deflate => Box::new(flate2::bufread::ZlibDecoder::new(packed)),
+            Self::Zstd => Box::new(Zstd::Closed(Some(packed))),
+        }
+    }
+}
+
+/// Unpacks Apple's PackBits while reading.
+struct PackBits<R> {
+    packed: R,
+    run: Run,
+}
+
+/// What is left of a run.
+#[derive(Debug, Clone, Copy)]
+enum Run {
+    /// So many bytes as they are.
+    Copied(usize),
+    /// So many times a byte.
+    Repeated(usize, u8),
+}
+
+impl<R: BufRead> PackBits<R> {
+    fn byte(&mut self) -> io::Result<Option<u8>> {
+        let byte = self.packed.fill_buf()?.first().copied();
+        self.packed.consume(usize::from(byte.is_some()));
+        Ok(byte)
+    }
+
+    /// The next run; `None` at the end.
+    fn next_run(&mut self) -> io::Result<Option<Run>> {
+        let Some(head) = self.byte()? else {
+            return Ok(None);
+        };
+        Ok(match head {
+            0..=127 => Some(Run::Copied(usize::from(head) + 1)),
+            // Says nothing.
+            128 => Some(Run::Copied(0)),
+            129.. => self.byte()?.map(|byte| Run::Repeated(257 - usize::from(head), byte)),
+        })
+    }
+}
+
+impl<R: BufRead> Read for PackBits<R> {
+    fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
+        while !out.is_empty() {
+            match &mut self.run {
+                Run::Copied(0) | Run::Repeated(0, _) => match self.next_run()? {
+                    Some(run) => self.run = run,
+                    None => return Ok(0),
+                },
+                Run::Copied(left) => {
+                    let count = out.len().min(*left);
+                    let read = self.packed.read(&mut out[..count])?;
+                    *left -= read;
+                    return Ok(read);
+                }
+                Run::Repeated(left, byte) => {
+                    let count = out.len().min(*left);
+                    out[..count].fill(*byte);
+                    *left -= count;
+                    return Ok(count);
+                }
+            }
+        }
+        Ok(0)
+    }
+}
+
+/// Unpacks ZSTD while reading; the frame is opened with the first byte that is wanted.
+enum Zstd<R: Read> {
+    Closed(Option<R>),
+    Open(Box<StreamingDecoder<R, FrameDecoder>>),
+}
+
+impl<R: Read> Read for Zstd<R> {
+    fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
+        if let Self::Closed(packed) = self {
+            let Some(packed) = packed.take() else {
+                return Ok(0);
+            };
+            let decoder = StreamingDecoder::new(packed);
+            let damaged = |error| io::Error::new(io::ErrorKind::InvalidData, format!("{error}"));
+            *self = Self::Open(Box::new(decoder.map_err(damaged)?));
+        }
+        match self {
+            Self::Open(decoder) => decoder.read(out),
+            Self::Closed(_) => Ok(0),
         }
     }
 }

@@ -63,7 +63,7 @@ impl Head {
         let layout = layout(directory, source, size, &coding, &bands)?;
         let keys = geo_keys(directory, source)?;
         let place = (site, options.bounds, beside.place);
-        let (frame, note) = place::frame(directory, source, &keys, size, place)?;
+        let place::Place { frame, is_placed, note } = place::frame(directory, source, &keys, size, place)?;
         let declared = directory.text(source, tag::GDAL_NODATA)?;
         let of_file = nodata(declared.as_deref())?;
         let metadata = Metadata::read(directory, source, bands.heights)?;
@@ -76,6 +76,7 @@ impl Head {
             layout: layout.describe(),
             nodata: declared.or(beside.nodata.map(|v| v.to_string())),
             frame,
+            is_placed,
             crs_hint: keys.crs_hint(),
             unit: metadata.unit.or_else(|| keys.vertical_unit()),
             scaling: metadata.scaling,
@@ -102,6 +103,7 @@ impl Head {
             layout: layout.describe(),
             nodata: None,
             frame: Frame::local(size)?,
+            is_placed: false,
             crs_hint: None,
             unit: None,
             scaling: None,

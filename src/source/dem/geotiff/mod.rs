@@ -1,6 +1,6 @@
 //! GeoTIFF and BigTIFF, classic layouts: strips or tiles, one band of the first image, and the masks that belong to it.
 //!
-//! Reads 8, 16 and 32-bit whole numbers, half, single and double precision; uncompressed, LZW or deflate, with any predictor;
+//! Reads 8, 16 and 32-bit whole numbers, half, single and double precision; uncompressed, PackBits, LZW, deflate or ZSTD, with any predictor;
 //! only the blocks that the window needs, one row of one block at a time. It refuses other compressions by name, and, before
 //! memory is set aside, blocks outside the file and blocks that promise more than their bytes can stand for.
 

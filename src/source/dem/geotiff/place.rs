@@ -12,33 +12,43 @@ use crate::error::{Error, Result};
 use glam::DVec2;
 use std::io::{Read, Seek};
 
-/// The frame of a TIFF, and a note where the file itself does not give it.
+/// Where a TIFF's samples stand.
+pub(super) struct Place {
+    pub(super) frame: Frame,
+    /// Whether the file or what lies beside it says so.
+    pub(super) is_placed: bool,
+    /// What to say where the file itself does not.
+    pub(super) note: Option<String>,
+}
+
+/// The frame of a TIFF; `site` serves to find a world file, `bounds` and what is `beside` it stand in for a missing place.
 pub(super) fn frame<R: Read + Seek>(
     directory: &Directory,
     source: &mut Source<R>,
     keys: &GeoKeys,
     size: (usize, usize),
     (site, bounds, beside): (Option<&Site>, Option<[f64; 4]>, Option<[f64; 6]>),
-) -> Result<(Frame, Option<String>)> {
+) -> Result<Place> {
     if let Some([a, b, x, d, e, y]) = affine(directory, source)? {
         let (column, row) = (DVec2::new(a, d), DVec2::new(b, e));
         let half = if keys.pixel_is_point() { 0.0 } else { 0.5 };
         let first = DVec2::new(x, y) + (column + row) * half;
-        return Ok((Frame::new(size, first, (column, row))?, None));
+        return Ok(Place { frame: Frame::new(size, first, (column, row))?, is_placed: true, note: None });
     }
+    let told = |frame, is_placed, note: &str| Place { frame, is_placed, note: Some(note.into()) };
     if let Some(place) = beside {
-        return Ok((Frame::of_geo_transform(size, place)?, Some("placed by the .aux.xml beside it".into())));
+        return Ok(told(Frame::of_geo_transform(size, place)?, true, "placed by the .aux.xml beside it"));
     }
     let beside = site.map(|s| world_file::frame_beside(s, size)).transpose()?;
-    let (frame, note) = match (beside.flatten(), bounds) {
-        (Some(frame), _) => (frame, "placed by the world file beside it"),
-        (None, Some(bounds)) => (Frame::within(size, bounds)?, "placed by the given bounds"),
-        (None, None) => (
+    Ok(match (beside.flatten(), bounds) {
+        (Some(frame), _) => told(frame, true, "placed by the world file beside it"),
+        (None, Some(bounds)) => told(Frame::within(size, bounds)?, false, "placed by the given bounds"),
+        (None, None) => told(
             Frame::local(size)?,
+            false,
             "the file does not say its place: a local grid, cell 1, south-west post at (0, 0)",
         ),
-    };
-    Ok((frame, Some(note.into())))
+    })
 }
 
 /// The map `x = a c + b r + x0`, `y = d c + e r + y0` from raster space: `[a, b, x0, d, e, y0]`.

@@ -36,3 +36,13 @@ fn a_cut_tile_is_refused() {
     let message = refusal("N43E006.hgt", &tile()[..100_000], &DemOptions::default());
     assert!(message.contains("100000 bytes"), "{message}");
 }
+
+#[test]
+fn a_tile_of_two_arc_seconds_by_one_covers_its_degree() {
+    let bytes: Vec<u8> =
+        (0..3601_i16).flat_map(|row| (0..1801_i16).flat_map(move |c| (row - c).to_be_bytes())).collect();
+    let posts = posts(read_bytes("N61E006.hgt", &bytes, &DemOptions::default()).unwrap());
+    assert_eq!((posts.columns(), posts.rows()), (1801, 3601));
+    assert!((posts.plan(1800, 3600) - Plan::new(7.0, 62.0)).length() < 1e-12);
+    assert_eq!((posts.world(0, 0).z, posts.world(1800, 3600).z), (3600.0, -1800.0));
+}

@@ -10,7 +10,9 @@ mod pictures;
 mod png;
 mod robustness;
 mod tiff_writer;
+mod together;
 mod units;
+mod vrt;
 mod xyz;
 
 use super::{Dem, DemOptions};

@@ -3,6 +3,7 @@
 use super::super::{DemOptions, PngEncoding, describe, read};
 use super::tiff_writer::{Kind, Tiff, Values};
 use super::{png, with_file};
+use crate::source::zip::tests::packed;
 use proptest::prelude::*;
 
 /// Small valid files of every format.
@@ -21,12 +22,22 @@ fn valid_files() -> Vec<(&'static str, Vec<u8>)> {
         ],
         ..Tiff::new((9, 7), Kind::F32, |c, r| (c * r) as f64)
     };
+    let masked = {
+        let mask =
+            Tiff { tags: vec![(254, Values::Longs(vec![4]))], ..Tiff::new((9, 7), Kind::Bit, |_, _| 1.0) };
+        Tiff { more: vec![mask], ..tiff(8, 1, None, false, false) }
+    };
+    let grid = b"ncols 3\nnrows 2\nxllcorner 10\nyllcorner 20\ncellsize 2\n1 2 3\n4 5 6\n";
     vec![
+        ("a.tif", masked.bytes()),
+        ("a.zip", packed(&[("a.asc", grid)])),
         ("a.tif", tiff(1, 1, None, false, false).bytes()),
         ("a.tif", tiff(5, 2, Some((4, 4)), true, false).bytes()),
         ("a.tif", tiff(8, 3, Some((8, 8)), false, true).bytes()),
+        ("a.tif", tiff(32773, 1, None, false, false).bytes()),
+        ("a.tif", tiff(50000, 2, Some((4, 4)), false, false).bytes()),
         ("a.png", png::mapbox()),
-        ("a.asc", b"ncols 3\nnrows 2\nxllcorner 10\nyllcorner 20\ncellsize 2\n1 2 3\n4 5 6\n".to_vec()),
+        ("a.asc", grid.to_vec()),
         ("a.xyz", b"x y z\n0 0 1\n1 0 2\n0 1 3\n1 1 4\n".to_vec()),
     ]
 }
@@ -67,6 +78,8 @@ fn magic() -> impl Strategy<Value = &'static [u8]> {
         b"II+\0\x08\0\0\0\x10\0\0\0\0\0\0\0",
         b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR",
         b"ncols 3 nrows 3 ",
+        b"PK\x03\x04",
+        b"<VRTDataset rasterXSize=\"3\" rasterYSize=\"3\">",
     ])
 }
 
@@ -82,7 +95,7 @@ proptest! {
     fn random_bytes_return(
         magic in magic(),
         bytes in prop::collection::vec(any::<u8>(), 0..600),
-        name in prop::sample::select(vec!["a.tif", "a.png", "a.asc", "a.xyz", "N43E006.hgt", "a.bin"]),
+        name in prop::sample::select(vec!["a.tif", "a.png", "a.asc", "a.xyz", "N43E006.hgt", "a.bin", "a.vrt"]),
     ) {
         try_all(name, &[magic, &bytes].concat(), None);
     }

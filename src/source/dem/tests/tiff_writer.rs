@@ -185,6 +185,8 @@ impl Tiff {
                 packer.write_all(bytes).unwrap();
                 packer.finish().unwrap()
             }
+            32773 => packed_bits(bytes),
+            50000 => ruzstd::encoding::compress_to_vec(bytes, ruzstd::encoding::CompressionLevel::Fastest),
             _ => bytes.to_vec(),
         }
     }
@@ -327,6 +329,19 @@ impl Kind {
             Self::F64 => sample.to_le_bytes().to_vec(),
         }
     }
+}
+
+/// PackBits: runs of equal bytes, and copies of what lies between them.
+fn packed_bits(bytes: &[u8]) -> Vec<u8> {
+    let mut out = Vec::new();
+    for run in bytes.chunk_by(|a, b| a == b).flat_map(|run| run.chunks(128)) {
+        if run.len() > 1 {
+            out.extend([(257 - run.len()) as u8, run[0]]);
+        } else {
+            out.extend([0, run[0], 128]);
+        }
+    }
+    out
 }
 
 /// The bits in half precision of a whole number from 0 to 2048, which has them exactly.

@@ -1,0 +1,142 @@
+//! Virtual rasters of plain files.
+
+use super::super::{Dem, DemOptions, describe, read};
+use super::posts;
+use super::tiff_writer::{Kind, Tiff, Values};
+use crate::space::Plan;
+
+/// The heights of a file are 100 times its number, and those of its columns and rows.
+fn file(number: f64) -> Tiff {
+    Tiff::new((4, 3), Kind::I16, move |c, r| 100.0 * number + (10 * c + r) as f64)
+}
+
+fn source(kind: &str, name: &str, from: [f64; 4], to: [f64; 4], more: &str) -> String {
+    let rectangle = |tag: &str, [x, y, w, h]: [f64; 4]| {
+        format!(r#"<{tag} xOff="{x}" yOff="{y}" xSize="{w}" ySize="{h}" />"#)
+    };
+    format!(
+        r#"<{kind} resampling="near"><SourceFilename relativeToVRT="1">{name}</SourceFilename><SourceBand>1</SourceBand>
+        <SourceProperties RasterXSize="4" RasterYSize="3" DataType="Int16" BlockXSize="4" BlockYSize="3" />{}{}{more}</{kind}>"#,
+        rectangle("SrcRect", from),
+        rectangle("DstRect", to)
+    )
+}
+
+fn dataset(band: &str) -> String {
+    format!(
+        r#"<VRTDataset rasterXSize="8" rasterYSize="3"><SRS>EPSG:32633</SRS>
+        <GeoTransform> 1.0e+03, 1.0e+01, 0.0, 2.0e+03, 0.0, -1.0e+01</GeoTransform>
+        <VRTRasterBand dataType="Int16" band="1">{band}</VRTRasterBand></VRTDataset>"#
+    )
+}
+
+const WHOLE: [f64; 4] = [0.0, 0.0, 4.0, 3.0];
+
+fn with_files<T>(xml: &str, then: impl FnOnce(&std::path::Path) -> T) -> T {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir(folder.path().join("tiles")).unwrap();
+    for number in [1, 2] {
+        let mut tiff = file(f64::from(number));
+        tiff.tags.push((34735, Values::Shorts(vec![1, 1, 0, 2, 1024, 0, 1, 1, 3072, 0, 1, 32633])));
+        std::fs::write(folder.path().join(format!("tiles/{number}.tif")), tiff.bytes()).unwrap();
+    }
+    let path = folder.path().join("all.vrt");
+    std::fs::write(&path, xml).unwrap();
+    then(&path)
+}
+
+fn read_vrt(xml: &str, options: &DemOptions) -> crate::Result<Dem> {
+    with_files(xml, |path| read(path, options))
+}
+
+fn two() -> String {
+    source("SimpleSource", "tiles/1.tif", WHOLE, WHOLE, "")
+        + &source("SimpleSource", "tiles/2.tif", WHOLE, [4.0, 0.0, 4.0, 3.0], "")
+}
+
+#[test]
+fn files_side_by_side_are_one_terrain_whole_or_in_a_window() {
+    let dem = read_vrt(&dataset(&two()), &DemOptions::default()).unwrap();
+    assert_eq!(format!("{:?}", dem.crs_hint), "Some(Epsg(32633))");
+    let whole = posts(dem);
+    assert_eq!((whole.columns(), whole.rows(), whole.first), (8, 3, Plan::new(1005.0, 1975.0)));
+    assert_eq!((whole.world(3, 2).z, whole.world(4, 2).z, whole.world(7, 0).z), (130.0, 200.0, 232.0));
+    let window = DemOptions { window: Some([1035.0, 1975.0, 1045.0, 1985.0]), ..DemOptions::default() };
+    let part = posts(read_vrt(&dataset(&two()), &window).unwrap());
+    assert_eq!(part.heights(), [132.0, 202.0, 131.0, 201.0]);
+    let told = with_files(&dataset(&two()), |path| describe(path, &DemOptions::default())).unwrap();
+    assert_eq!(
+        (told.format, told.size, told.heights),
+        ("virtual raster", Some((8, 3)), Some([100.0, 232.0]))
+    );
+}
+
+#[test]
+fn later_files_lie_on_earlier_ones_except_where_they_hold_no_data() {
+    let over = source("ComplexSource", "tiles/2.tif", WHOLE, [2.0, 0.0, 4.0, 3.0], "<NODATA>210</NODATA>");
+    let band = source("SimpleSource", "tiles/1.tif", WHOLE, WHOLE, "") + &over;
+    let posts = posts(read_vrt(&dataset(&band), &DemOptions::default()).unwrap());
+    assert_eq!((posts.world(1, 2).z, posts.world(2, 2).z, posts.world(3, 2).z), (110.0, 200.0, 130.0));
+    assert!(posts.world(7, 2).z.is_nan(), "what no file covers is no post");
+}
+
+#[test]
+fn scale_offset_nodata_and_unit_of_the_raster_count() {
+    let scaled = "<ScaleOffset>1000</ScaleOffset><ScaleRatio>2</ScaleRatio>";
+    let band = source("ComplexSource", "tiles/1.tif", WHOLE, WHOLE, scaled);
+    let posts_of =
+        |more: &str| posts(read_vrt(&dataset(&(band.clone() + more)), &DemOptions::default()).unwrap());
+    assert_eq!(posts_of("").world(0, 2).z, 1200.0);
+    assert!(posts_of("<NoDataValue>1200</NoDataValue>").world(0, 2).z.is_nan());
+    assert_eq!(posts_of("<UnitType>ft</UnitType>").world(0, 2).z, 1200.0 * 0.3048);
+    assert_eq!(posts_of("<Scale>0.5</Scale><Offset>7</Offset>").world(0, 2).z, 607.0);
+}
+
+#[test]
+fn rectangles_that_leave_the_raster_are_cut_and_ones_that_leave_a_file_refused() {
+    let band = source("SimpleSource", "tiles/1.tif", WHOLE, [-2.0, 0.0, 4.0, 3.0], "");
+    let posts = posts(read_vrt(&dataset(&band), &DemOptions::default()).unwrap());
+    assert_eq!((posts.world(0, 2).z, posts.world(1, 2).z), (120.0, 130.0));
+    let band = source("SimpleSource", "tiles/1.tif", [0.0, 0.0, 8.0, 3.0], [0.0, 0.0, 8.0, 3.0], "");
+    let message = read_vrt(&dataset(&band), &DemOptions::default()).unwrap_err().to_string();
+    assert!(message.contains("1.tif") && message.contains("has 4 x 3"), "{message}");
+}
+
+#[test]
+fn what_is_more_than_plain_files_is_refused_by_name() {
+    let half = [0.0, 0.0, 2.0, 1.5];
+    let simple = |name: &str| source("SimpleSource", name, WHOLE, WHOLE, "");
+    for (xml, expected) in [
+        (dataset(&source("SimpleSource", "tiles/1.tif", WHOLE, half, "")), "resampled to 2 x 1.5"),
+        (dataset(&source("SimpleSource", "tiles/1.tif", WHOLE, [0.5, 0.0, 4.0, 3.0], "")), "pixel 0.5"),
+        (dataset(&source("ComplexSource", "tiles/1.tif", WHOLE, WHOLE, "<LUT>0:1,2:3</LUT>")), "LUT"),
+        (dataset(&source("KernelFilteredSource", "tiles/1.tif", WHOLE, WHOLE, "")), "KernelFilteredSource"),
+        (dataset(&two()).replace("<VRTDataset ", "<VRTDataset subClass=\"VRTWarpedDataset\" "), "VRTWarped"),
+        (
+            dataset(&two()).replace("band=\"1\">", "band=\"1\" subClass=\"VRTDerivedRasterBand\">"),
+            "VRTDerived",
+        ),
+        (dataset(&two()).replace("band=\"1\">", "band=\"2\">"), "no such band"),
+        (dataset(&two()).replace("\"8\"", "\"many\""), "`many`"),
+        (dataset(&two()).replace("\"8\"", "\"99999999999999999999\""), "999"),
+        (dataset(&simple("/vsicurl/x.tif")), "no file on disk"),
+        (dataset(&simple("all.vrt")), "names another"),
+        (dataset(&simple("tiles/3.tif")), "3.tif"),
+        (dataset(""), "names no file"),
+        ("<VRTDataset".into(), "XML"),
+        ("<other/>".into(), "<other> is no virtual raster"),
+    ] {
+        let message = read_vrt(&xml, &DemOptions::default()).unwrap_err().to_string();
+        assert!(message.contains(expected), "{expected}: {message}");
+    }
+}
+
+#[test]
+fn one_that_names_itself_by_another_name_ends() {
+    let xml = dataset(&source("SimpleSource", "self.tif", WHOLE, WHOLE, ""));
+    let message = with_files(&xml, |path| {
+        std::fs::write(path.with_file_name("self.tif"), &xml).unwrap();
+        read(path, &DemOptions::default()).unwrap_err().to_string()
+    });
+    assert!(message.contains("self.tif"), "{message}");
+}
