@@ -190,6 +190,11 @@ impl Crs {
         (!self.is_geographic()).then_some(self.unit)
     }
 
+    /// Degrees in a unit of its coordinates; `None` where they are lengths.
+    pub fn degrees_per_unit(&self) -> Option<f64> {
+        self.is_geographic().then_some(self.unit)
+    }
+
     /// What the user should know before trusting positions to the metre.
     pub fn note(&self) -> Option<String> {
         matches!(self.datum, Datum::Unknown).then(|| {

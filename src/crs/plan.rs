@@ -245,6 +245,33 @@ impl PlanFrom {
         self.plan.plan_from_native(there)
     }
 
+    /// The same for coordinates whose longitudes have been unrolled: on the local plane of the file's own CRS a place a turn away is a
+    /// turn away, and a latitude over a pole is beyond it.
+    ///
+    /// # Errors
+    /// When the point lies outside the domain of either CRS or is not finite.
+    pub fn apply_unrolled(&self, p: DVec2) -> Result<DVec2> {
+        if !self.same {
+            return self.apply(p);
+        }
+        let Affine { origin, scale } = self.plan.affine();
+        let placed = Some((p - origin) * scale).filter(|q| q.is_finite());
+        placed.ok_or_else(|| not_on_the_globe(p, self.plan.crs()))
+    }
+
+    /// The inverse of [`Self::apply_unrolled`].
+    ///
+    /// # Errors
+    /// When the point lies outside the domain of either CRS or is not finite.
+    pub fn invert_unrolled(&self, p: DVec2) -> Result<DVec2> {
+        if !self.same {
+            return self.invert(p);
+        }
+        let Affine { origin, scale } = self.plan.affine();
+        let placed = Some(p / scale + origin).filter(|q| q.is_finite());
+        placed.ok_or_else(|| not_on_the_globe(p, self.plan.crs()))
+    }
+
     /// The point in the file's CRS of a plan point: the inverse of [`Self::apply`].
     ///
     /// # Errors

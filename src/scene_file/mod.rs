@@ -47,7 +47,7 @@ pub use keys::SCHEMA;
 pub use overrides::Override;
 pub use schema::schema;
 pub use spec::{
-    CameraSpec, DataFile, GroundColorsSpec, GroundSpec, HeightEncoding, InlineFeature, LayerSource,
+    CameraSpec, DataFile, Edges, GroundColorsSpec, GroundSpec, HeightEncoding, InlineFeature, LayerSource,
     LayerSpec, SceneFile, Spot, TerrainGenerator, TerrainKind, TerrainSource, TerrainSpec, VectorGenerator,
     VectorKind, ViewSpec,
 };

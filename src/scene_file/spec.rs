@@ -215,6 +215,8 @@ pub struct LayerSpec {
     pub source: LayerSource,
     /// The CRS of the data, over what the file says.
     pub crs: Option<String>,
+    /// What its edges are where it is reprojected.
+    pub edges: Edges,
     /// Moves the layer in plan space.
     pub offset: DVec2,
     /// How its features look.
@@ -238,6 +240,18 @@ impl LayerSpec {
         names.sort_unstable();
         names.dedup();
         names.into_iter().map(Into::into).collect()
+    }
+}
+
+words! {
+    /// What lies between two vertices of a file whose coordinates are not the plan's.
+    #[derive(Default)]
+    pub enum Edges {
+        /// What is straight in the file's coordinates.
+        #[default]
+        Projected = "projected",
+        /// What is straight in the plan.
+        Straight = "straight",
     }
 }
 

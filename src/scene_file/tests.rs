@@ -46,6 +46,7 @@ name = "lakes"
 source = "data/lakes.gpkg"
 layer = "water"
 crs = "EPSG:4326"
+edges = "straight"
 offset = [5, 6]
 opacity = 0.8
 fill = { color = "#3388ff", opacity = 0.5, rule = "nonzero" }

@@ -42,6 +42,7 @@ fn layer(section: &mut Section<'_>, index: usize) -> Result<LayerSpec> {
         name: name.unwrap_or(default),
         source,
         crs: section.text("crs")?,
+        edges: section.name("edges")?.unwrap_or_default(),
         offset: section.numbers("offset")?.map_or(DVec2::ZERO, DVec2::from_array),
         style: style(section)?,
         opacity: section.number("opacity")?.unwrap_or(1.0),
@@ -66,7 +67,7 @@ fn source(section: &mut Section<'_>) -> Result<LayerSource> {
         let file = data_file(section.origin(), taken);
         return Ok(LayerSource::File { file, layer: section.text("layer")? });
     }
-    if let Some((key, place)) = section.first_of(&["layer", "crs"]) {
+    if let Some((key, place)) = section.first_of(&["layer", "crs", "edges"]) {
         return Err(section.error_at(place, format!("`{key}` goes with a layer's `source` only")));
     }
     if let Some(features) = section.tables("features")? {

@@ -5,6 +5,7 @@ use super::{POSITIVE, SEED, SHARE};
 use crate::parameter::{Range, Rule as Keys, Shape, TableShape, choice, key};
 use crate::scene::{Cap, OutlineMode, Rule};
 use crate::scene_file::names::{JoinName, VectorName};
+use crate::scene_file::spec::Edges;
 
 pub(super) static LAYER: TableShape = TableShape {
     keys: &[
@@ -18,6 +19,11 @@ pub(super) static LAYER: TableShape = TableShape {
         key("generate", Shape::Table(&GENERATE_LAYER), "Features by a generator."),
         key("layer", Shape::Text, "Which layer of a file that has several (GeoPackage)."),
         key("crs", Shape::Text, "The CRS of the data, over what the file says."),
+        key(
+            "edges",
+            choice::<Edges>(),
+            "What lies between two vertices of data that is reprojected: \"projected\" (the straight line of the file's coordinates: a curve, followed by further vertices) or \"straight\" (a chord). Default: \"projected\".",
+        ),
         key(
             "offset",
             Shape::Numbers(2),

@@ -3,20 +3,23 @@
 use super::blame::{Named, of_key};
 use super::columns::Columns;
 use super::filter::fulfilling;
+use super::off_terrain::{leave_out, reach_of};
 use super::order::ordered;
 use super::place::Map;
+use super::reproject::{Onto, reproject};
 use super::styling::styled;
 use super::terrain::Terrain;
 use crate::crs::Crs;
 use crate::error::{Error, Result};
-use crate::math::max;
-use crate::parallel;
-use crate::scene::{Feature, Join, Layer, Line, Shape, Style, Width};
+use crate::scene::{Feature, Layer, Shape};
 use crate::scene_file::{DataFile, InlineFeature, LayerSource, LayerSpec, SceneFile, VectorGenerator};
 use crate::source::vector::is_drawable;
 use crate::source::{generate, vector};
 use crate::space::{Plan, PlanBox};
 use glam::DVec2;
+
+/// A chord may be off the curve that it stands for by this share of the terrain's cell.
+const OFF_A_CURVE: f64 = 0.01;
 
 /// Reads the layers of a scene.
 pub(super) fn layers(
@@ -55,10 +58,17 @@ fn layer(
     columns.require(spec)?;
     let mut features = fulfilling(features, spec, &columns, notes)?;
     let styles = styled(&mut features, spec, &columns)?;
-    let moved = parallel::map_owned(features, |feature| moved(feature, &map, shift));
-    let features = moved.into_iter().collect::<Result<_>>().map_err(|error| columns.blame(error))?;
+    let count = features.len();
+    let onto = Onto {
+        terrain: terrain.bounds,
+        shift,
+        reach: reach_of(&styles),
+        tolerance: terrain.cell() * OFF_A_CURVE,
+        edges: spec.edges,
+    };
+    let features = reproject(features, &map, &onto, notes).map_err(|error| columns.blame(error))?;
     let mut layer = Layer { name: spec.name.clone(), styles, features, opacity: spec.opacity };
-    leave_out_what_is_off(terrain, &mut layer, notes);
+    leave_out(terrain, &mut layer, count, notes);
     layer.features = ordered(layer.features, spec, &columns);
     Ok(layer)
 }
@@ -174,57 +184,6 @@ fn map(own: Option<Crs>, terrain: &Terrain, file: &DataFile, notes: &mut Vec<Str
         notes.extend(map.note());
     }
     Ok(Map::From(Box::new(map)))
-}
-
-/// A feature taken to the plan, then shifted.
-fn moved(mut feature: Feature, map: &Map, shift: DVec2) -> Result<Feature> {
-    let place = |p: &mut Plan| {
-        *p = map.apply(*p)? + shift;
-        if p.is_finite() {
-            return Ok(());
-        }
-        Err(Error::new("a vertex is moved out of what numbers can tell").help("check the offsets"))
-    };
-    let index = feature.index;
-    let (Shape::Polygon(parts) | Shape::Line(parts)) = &mut feature.shape;
-    let mut vertices = parts.iter_mut().flatten();
-    vertices.try_for_each(place).map_err(|error| error.in_feature(index))?;
-    Ok(feature)
-}
-
-/// Keeps the features that can touch the terrain, in their order: a footprint ends where the terrain does.
-fn leave_out_what_is_off(terrain: &Terrain, layer: &mut Layer, notes: &mut Vec<String>) {
-    let count = layer.features.len();
-    let styles = &layer.styles;
-    layer.features.retain(|feature| {
-        reach(&styles[feature.style as usize], &feature.shape)
-            .is_none_or(|reach| bounds(&feature.shape).grown(reach).meets(&terrain.bounds))
-    });
-    let kept = layer.features.len();
-    if kept == 0 && count > 0 {
-        notes.push(format!("none of its {count} features meets the terrain"));
-    } else if kept < count {
-        notes.push(format!("{} of {count} features lie off the terrain and are left out", count - kept));
-    }
-}
-
-/// How far from its vertices' box a feature may cover the plan; `None` where that depends on the view.
-fn reach(style: &Style, shape: &Shape) -> Option<f64> {
-    let line = match shape {
-        Shape::Polygon(_) => style.outline.map(|outline| outline.line),
-        Shape::Line(_) => style.line,
-    };
-    let reach = |line: Line| match line.width {
-        Width::Pixels(_) => None,
-        Width::Metres(width) => {
-            let corner = match line.join {
-                Join::Miter { limit } => max(limit, 2.0),
-                Join::Round | Join::Bevel => 2.0,
-            };
-            Some(width * 0.5 * corner)
-        }
-    };
-    line.map_or(Some(0.0), reach)
 }
 
 /// The box around a shape.

@@ -23,17 +23,24 @@
 
 mod blame;
 mod camera;
+mod changes;
 mod columns;
+mod cut;
 mod extent;
 mod filter;
+mod follow;
 mod ground;
 mod layer;
+mod off_terrain;
 mod order;
 mod place;
+mod reproject;
 mod resample;
 mod size;
 mod styling;
 mod terrain;
+mod unroll;
+mod window;
 
 #[cfg(test)]
 mod tests;

@@ -6,7 +6,7 @@ use super::place::{Map, PlanFrame, crs_of, default_plan_space, scale_error};
 use super::{place, resample};
 use crate::crs::{Affine, Crs, PlanSpace};
 use crate::error::{Error, Result};
-use crate::math::max;
+use crate::math::{max, min};
 use crate::scene::{Posts, Surface};
 use crate::scene_file::{DataFile, HeightEncoding, SceneFile, TerrainSource};
 use crate::source::dem::{self, Dem, DemOptions, PngEncoding};
@@ -22,6 +22,19 @@ pub(super) struct Terrain {
     pub(super) place: PlanFrame,
     /// The rectangle of the plan that it lies in, local.
     pub(super) bounds: PlanBox,
+}
+
+impl Terrain {
+    /// The size of its detail: the shorter side of a grid's cells, the mean distance of points.
+    pub(super) fn cell(&self) -> f64 {
+        match &self.surface {
+            Surface::Grid(posts) => min(posts.east().length(), posts.north().length()),
+            Surface::Points(points) => {
+                let size = self.bounds.max - self.bounds.min;
+                (size.x * size.y / points.len() as f64).sqrt()
+            }
+        }
+    }
 }
 
 /// Reads or makes the terrain of a scene.

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests are no tests to the lint")]
 
 mod attributes;
+mod globe;
 mod terrains;
 
 use super::load;

@@ -1,0 +1,57 @@
+//! What features lose and gain on their way to the plan, for the notes.
+
+/// What was changed on the way to the plan.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Changes {
+    /// Features with a part that was cut off.
+    pub(super) cut: usize,
+    /// Rings around a pole.
+    pub(super) around: usize,
+    /// Edges that are curves.
+    pub(super) edges: usize,
+    /// Vertices along them.
+    pub(super) along: usize,
+    /// Features that reach farther beyond a pole than anything does.
+    pub(super) beyond: usize,
+}
+
+impl Changes {
+    pub(super) fn add(&mut self, other: &Self) {
+        self.cut += other.cut;
+        self.around += other.around;
+        self.edges += other.edges;
+        self.along += other.along;
+        self.beyond += other.beyond;
+    }
+
+    /// Says so; chords are off by at most `tolerance` metres.
+    pub(super) fn tell(&self, tolerance: f64, notes: &mut Vec<String>) {
+        let mut tell = |count: usize, text: String| {
+            if count > 0 {
+                notes.push(text);
+            }
+        };
+        tell(
+            self.beyond,
+            format!(
+                "features that reach beyond a pole: {} (longitude comes first, then latitude)",
+                self.beyond
+            ),
+        );
+        tell(self.around, format!("rings around a pole, closed by way of it: {}", self.around));
+        tell(
+            self.cut,
+            format!(
+                "features cut off where the projection can be used no farther, out of sight: {}",
+                self.cut
+            ),
+        );
+        tell(
+            self.edges,
+            format!(
+                "edges that are curves in the plan: {}, followed by {} more vertices, to {tolerance} m",
+                self.edges, self.along
+            ),
+        );
+    }
+}
