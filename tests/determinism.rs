@@ -5,6 +5,7 @@
 #![cfg(feature = "render")]
 
 use drapery::buffer::Plane;
+use drapery::scene::{Shape, Surface};
 use drapery::scene_file::{Override, SceneFile};
 use drapery::stage::Stage;
 use drapery::technique::{self, FrameOptions, Kind};
@@ -136,5 +137,71 @@ fn every_buffer_has_the_bits_of_the_last_version_in_every_build() {
     assert_eq!(
         together(&hashes(Kind::InverseProjection, &mountains([0; 3], IMITATED), 128, 2)),
         "465ff6b2a46a921b"
+    );
+}
+
+/// A line in the coordinates of each projection, all about one place of Switzerland.
+#[rustfmt::skip]
+const LINES: [(&str, &str); 11] = [
+    ("EPSG:3035", "[[4125376.83, 2651656.88], [4125935.94, 2651607.58], [4126313.33, 2652114.44]]"),
+    ("EPSG:3413", "[[3873921.07, -2979868.59], [3874330.22, -2979391.7], [3874114.24, -2978716.78]]"),
+    ("EPSG:3031", "[[4035929.94, 30939364.04], [4039874.23, 30938633.05], [4042909.79, 30941988.02]]"),
+    ("EPSG:28992", "[[310985.83, -114270.97], [311547.62, -114285.71], [311894.03, -113754.97]]"),
+    ("EPSG:21781", "[[599500.0, 199650.0], [600060.0, 199620.0], [600420.0, 200140.0]]"),
+    ("EPSG:5514", "[[-1314283.79, -1292005.05], [-1313743.6, -1292162.16], [-1313273.26, -1291736.36]]"),
+    ("+proj=aea +lat_0=30 +lon_0=10 +lat_1=43 +lat_2=62 +ellps=intl +towgs84=-87,-98,-121", "[[-193819.19, 1858259.99], [-193265.05, 1858210.35], [-192889.81, 1858721.72]]"),
+    ("EPSG:31287", "[[-48561.16, 355836.41], [-48005.2, 355764.09], [-47606.95, 356255.17]]"),
+    ("EPSG:32632", "[[380682.07, 5200571.4], [381241.23, 5200530.27], [381611.42, 5201042.88]]"),
+    ("EPSG:3857", "[[827333.67, 5933579.75], [828152.51, 5933535.78], [828678.95, 5934298.54]]"),
+    ("EPSG:4326", "[[7.4320648, 46.9479342], [7.4394206, 46.9476646], [7.4441497, 46.952342]]"),
+];
+
+/// The bits of all that is reprojected to a plan: the vertices of a layer in each of [`LINES`]' systems, and the posts of a terrain.
+fn reprojected(plan: &str) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: String| std::fs::write(folder.path().join(name), text).unwrap();
+    let mut posts = String::from("ncols 9\nnrows 9\nxllcenter 7.42\nyllcenter 46.94\ncellsize 0.004\n");
+    (0..81).for_each(|i| posts += &format!("{} ", 300 + i * i % 37));
+    write("d.asc", posts);
+    let mut scene =
+        format!("schema = 1\ncrs = \"{plan}\"\nterrain = {{ source = \"d.asc\", crs = \"EPSG:4326\" }}\n");
+    for (i, (crs, line)) in LINES.iter().enumerate() {
+        write(&format!("{i}.geojson"), format!(r#"{{"type":"LineString","coordinates":{line}}}"#));
+        scene += &format!(
+            "[[layer]]\nsource = \"{i}.geojson\"\ncrs = \"{crs}\"\nline = {{ color = \"#000000\", width_m = 9 }}\n"
+        );
+    }
+    write("s.toml", scene);
+    let file = SceneFile::read(&folder.path().join("s.toml"), &[]).unwrap();
+    let (scene, surface) = drapery::source::load::load(&file, &|_| {}).unwrap();
+    let told = scene.notes.iter().find(|note| note.contains("between processors"));
+    assert_eq!(told, None);
+    let mut hash = blake3::Hasher::new();
+    let mut add = |number: f64| {
+        hash.update(&number.to_le_bytes());
+    };
+    for feature in scene.layers.iter().flat_map(|layer| &layer.features) {
+        let (Shape::Polygon(parts) | Shape::Line(parts)) = &feature.shape;
+        parts.iter().flatten().for_each(|p| [p.x, p.y].into_iter().for_each(&mut add));
+    }
+    let Surface::Grid(posts) = surface else { panic!("a grid") };
+    posts.heights().iter().copied().for_each(&mut add);
+    hash.finalize().to_hex()[..16].to_owned()
+}
+
+#[test]
+fn what_is_reprojected_has_the_bits_of_the_last_version_in_every_build() {
+    let albers = LINES[6].0;
+    let found = ["EPSG:2056", "EPSG:3035", "EPSG:5514", "EPSG:28992", "EPSG:3413", albers].map(reprojected);
+    assert_eq!(
+        found,
+        [
+            "e7799e2bfe7f5728",
+            "dfdc46b5ce0f8565",
+            "df441037a62a52ac",
+            "00b98c586cf0f9f7",
+            "32ba72dadf7863a6",
+            "45ae55f467f224ac"
+        ]
     );
 }

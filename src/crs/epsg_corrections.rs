@@ -100,12 +100,14 @@ const CORRECTIONS: &[(&[u32], &str)] = &[
 ];
 
 /// Codes whose definition in the list is another than EPSG's, withdrawn, one; and datums whose shift is no similarity.
-const REFUSED: [(u32, &str); 7] = [
+const REFUSED: [(u32, &str); 9] = [
+    (3752, "name EPSG:3994, which took its place"),
     (4120, "reproject the data to EPSG:4121 (GGRS87) or to longitude and latitude on WGS 84"),
     (4815, "reproject the data to EPSG:4121 (GGRS87) or to longitude and latitude on WGS 84"),
     (6200, "name EPSG:6966, which took its place"),
     (6996, "name EPSG:7131, which took its place"),
     (6997, "name EPSG:7132, which took its place"),
+    (22700, "its projection is near-conformal, which nothing here is: reproject the data"),
     (26591, "name EPSG:3003, which took its place"),
     (26592, "name EPSG:3004, which took its place"),
 ];

@@ -134,15 +134,10 @@ fn from_file<'a>(
         return Err(blame(error.help("leave the layer out, or give a file with polygons or lines")));
     }
     let columns = Columns::of_file(&mut file, named);
-    let stated = stated_crs(scene, spec)?;
-    if let Some(stated) = &stated {
-        // What the file's own CRS lacks is of no matter then.
-        let own = file.crs.as_ref().and_then(Crs::note);
-        file.notes.retain(|text| Some(text) != own.as_ref());
-        file.notes.extend(stated.note());
-    }
+    let crs = stated_crs(scene, spec)?.or(file.crs);
     notes.append(&mut file.notes);
-    let map = map(stated.or(file.crs), terrain, named.file, notes).map_err(blame)?;
+    notes.extend(crs.iter().flat_map(|crs| vector::doubts(crs, &file.features)));
+    let map = map(crs, terrain, named.file, notes).map_err(blame)?;
     Ok(Found { features: file.features, columns, map, shift: terrain.place.shift(spec.offset) })
 }
 

@@ -415,6 +415,20 @@ fn an_unknown_datum_is_told_however_the_crs_was_given() {
 }
 
 #[test]
+fn metres_that_a_scene_says_are_metres_are_not_told_off_the_globe() {
+    let folder = Folder::new()
+        .with("d.asc", grid((5, 5), (500_000.0, 5_099_600.0), 100.0, hills))
+        .with("l.geojson", r#"{"type":"LineString","coordinates":[[500100,5099700],[500200,5099900]]}"#);
+    let notes = |crs: &str| {
+        let text = format!(
+            "terrain = {{ source = \"d.asc\", crs = \"EPSG:32632\" }}\n[[layer]]\nsource = \"l.geojson\"\n{crs}\nline = {{ color = \"#000000\", width_m = 4.0 }}",
+        );
+        folder.load(&text).map(|(scene, _)| scene.notes)
+    };
+    assert_eq!(notes("crs = \"EPSG:32632\"").unwrap(), [""; 0]);
+}
+
+#[test]
 fn a_projection_of_another_library_is_told_where_it_places_anything() {
     const CASSINI: &str = "+proj=cass +lat_0=46 +lon_0=9 +ellps=WGS84";
     let told = |scene: &str, terrain: &str, layer: &str| {

@@ -112,10 +112,6 @@ impl Collector {
             _ => "of fewer than 3 vertices: nothing lies in them",
         };
         self.note_count(self.thin_rings, "ring", thin);
-        if let Some(note) = self.crs.as_ref().and_then(Crs::note) {
-            self.notes.push(note);
-        }
-        self.note_metres_under_degrees();
     }
 
     fn note_count(&mut self, count: usize, what: &str, fate: &str) {
@@ -126,26 +122,6 @@ impl Collector {
         };
         if count > 0 {
             self.notes.push(format!("{count} {plural} {fate}"));
-        }
-    }
-
-    fn note_metres_under_degrees(&mut self) {
-        if !self.crs.as_ref().is_some_and(Crs::is_geographic) {
-            return;
-        }
-        let off = |p: &Plan| p.x.abs() > 540.0 || p.y.abs() > 90.0;
-        let wrong: Vec<usize> = self
-            .features
-            .iter()
-            .filter(|f| parts_of(&f.shape).iter().flatten().any(off))
-            .map(|f| f.index)
-            .collect();
-        if let Some(first) = wrong.first() {
-            self.notes.push(format!(
-                "the CRS is in degrees but {} of {} features (the first is feature {first}) are off the globe: metres, perhaps",
-                wrong.len(),
-                self.features.len()
-            ));
         }
     }
 

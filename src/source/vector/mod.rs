@@ -19,6 +19,7 @@ mod collector;
 mod column_summary;
 mod curve;
 mod dbf;
+mod doubts;
 mod flatgeobuf;
 mod foreign;
 mod geojson;
@@ -33,6 +34,7 @@ mod wkb;
 
 pub(super) use collector::is_drawable;
 pub use column_summary::{ColumnKind, ColumnSummary};
+pub use doubts::doubts;
 pub use summary::{VectorSummary, describe};
 
 use crate::crs::Crs;
@@ -59,7 +61,7 @@ pub struct VectorFile {
     pub column_names: Vec<String>,
     /// The CRS the file states.
     pub crs: Option<Crs>,
-    /// What the user should know (points left out, empty geometries, ...).
+    /// What the user should know (points left out, empty geometries, ...), but for [`doubts`] about the CRS.
     pub notes: Vec<String>,
 }
 

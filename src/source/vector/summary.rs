@@ -71,6 +71,7 @@ fn summary(
     let drawn = found.features.iter().filter(is_drawn).count();
     let polygons =
         found.features.iter().filter(is_drawn).filter(|f| matches!(f.shape, Shape::Polygon(_))).count();
+    let doubts = found.crs.as_ref().map(|crs| super::doubts(crs, &found.features));
     let parts = || found.features.iter().flat_map(|f| parts_of(&f.shape));
     VectorSummary {
         format,
@@ -84,6 +85,6 @@ fn summary(
         bounds: PlanBox::around(parts().flatten().copied()),
         crs: found.crs,
         columns: found.attributes.into_summaries(),
-        notes: found.notes,
+        notes: found.notes.into_iter().chain(doubts.into_iter().flatten()).collect(),
     }
 }

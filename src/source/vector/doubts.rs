@@ -1,0 +1,25 @@
+//! What looks wrong in a reference system for the features that are said to be in it.
+
+use super::collector::parts_of;
+use crate::crs::Crs;
+use crate::scene::Feature;
+use crate::space::Plan;
+
+/// What a user should know of a CRS and the features in it: a datum without a shift, places off the globe. The CRS is the file's, or what
+/// the scene says in its place.
+pub fn doubts(crs: &Crs, features: &[Feature]) -> Vec<String> {
+    let off_the_globe = crs.is_geographic().then(|| metres_under_degrees(features)).flatten();
+    crs.note().into_iter().chain(off_the_globe).collect()
+}
+
+fn metres_under_degrees(features: &[Feature]) -> Option<String> {
+    let off = |p: &Plan| p.x.abs() > 540.0 || p.y.abs() > 90.0;
+    let is_wrong = |feature: &&Feature| parts_of(&feature.shape).iter().flatten().any(off);
+    let mut wrong = features.iter().filter(is_wrong).map(|feature| feature.index);
+    let first = wrong.next()?;
+    Some(format!(
+        "the CRS is in degrees but {} of {} features (the first is feature {first}) are off the globe: metres, perhaps",
+        1 + wrong.count(),
+        features.len()
+    ))
+}
