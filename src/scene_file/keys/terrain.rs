@@ -55,7 +55,11 @@ pub(super) static TERRAIN: TableShape = TableShape {
             "\"hillshade\": the colour, or the imagery, lit from the north-west or as `light` says. Default: \"flat\".",
         ),
         key("light", Shape::Table(&LIGHT), "shade = \"hillshade\": where its light comes from."),
-        key("imagery", Shape::Text, "An image over the terrain's rectangle instead of a colour."),
+        key(
+            "imagery",
+            Shape::Text,
+            "An image (PNG, JPEG, WebP) over the terrain's rectangle instead of a colour.",
+        ),
     ],
     rules: &[Keys::One(&["source", "generate"]), Keys::AtMostOne(&["imagery", "color"])],
 };

@@ -1,20 +1,16 @@
 //! The terrain's own colour.
 
 use super::blame::Named;
+use super::picture;
 use super::terrain::Terrain;
-use crate::buffer::Buffer;
 use crate::error::{Error, Result};
-use crate::scene::{Color, Ground, GroundColors, Imagery};
+use crate::scene::{Ground, GroundColors, Imagery};
 use crate::scene_file::{GroundColorsSpec, SceneFile};
 use crate::source::dem::site::Site;
 use crate::source::dem::world_file;
 use crate::space::{Plan, PlanBox};
 use glam::DVec2;
-use image::{ImageError, ImageReader, Limits};
 use std::path::Path;
-
-/// The most texels of an image (1 GiB of colours).
-const MOST_TEXELS: usize = 1 << 25;
 
 /// The ground that a scene asks for.
 pub(super) fn ground(scene: &SceneFile, terrain: &Terrain, progress: &dyn Fn(&str)) -> Result<Ground> {
@@ -32,31 +28,9 @@ pub(super) fn ground(scene: &SceneFile, terrain: &Terrain, progress: &dyn Fn(&st
 }
 
 fn imagery(path: &Path, terrain: &Terrain) -> Result<Imagery> {
-    let texels = texels(path)?;
+    let texels = picture::texels(path)?;
     let extent = extent(path, (texels.width(), texels.height()), terrain)?;
     Ok(Imagery { texels, extent })
-}
-
-fn texels(path: &Path) -> Result<Buffer<Color>> {
-    let unreadable = |error| Error::io("the image cannot be read", error).help("imagery is a PNG");
-    let damaged = |error: ImageError| {
-        Error::new(format!("the image cannot be read: {error}")).caused_by(error).help("imagery is a PNG")
-    };
-    let mut reader =
-        ImageReader::open(path).and_then(ImageReader::with_guessed_format).map_err(unreadable)?;
-    let mut limits = Limits::default();
-    limits.max_alloc = Some(8 * MOST_TEXELS as u64);
-    reader.limits(limits);
-    let image = reader.decode().map_err(damaged)?;
-    let (width, height) = (image.width() as usize, image.height() as usize);
-    if width * height > MOST_TEXELS {
-        return Err(Error::unsupported(format!("{width} x {height} texels are too many"))
-            .help(format!("at most {MOST_TEXELS} in all: make the image smaller")));
-    }
-    // 16 bits hold 8-bit values exactly: v * 257 / 65535 = v / 255.
-    let colors = image.into_rgba16();
-    let color = |pixel: &image::Rgba<u16>| Color(pixel.0.map(|v| f64::from(v) / 65535.0));
-    Ok(Buffer::from_values(width, height, colors.pixels().map(color).collect()))
 }
 
 /// What the image covers: what a world file beside it says, in the coordinates of the plan's CRS, else the terrain.

@@ -33,6 +33,7 @@ mod ground;
 mod layer;
 mod off_terrain;
 mod order;
+mod picture;
 mod place;
 mod reproject;
 mod resample;
