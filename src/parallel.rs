@@ -116,7 +116,8 @@ pub fn sort_by_key<T: Send, K: Ord>(values: &mut [T], key: impl Fn(&T) -> K + Sy
 /// More threads than this only wait for one another.
 const MOST_THREADS: usize = 1024;
 
-/// Runs `f` with `threads` threads (0: as many as the machine has).
+/// Runs `f` with `threads` threads (0: as many as the machine has). On a machine that has none (WebAssembly) `f` does everything
+/// itself, to the same result.
 ///
 /// # Errors
 /// When there are more than any machine has cores for, or the machine refuses them.
@@ -126,6 +127,9 @@ pub fn with_threads<U: Send>(threads: usize, f: impl FnOnce() -> U + Send) -> Re
             "{threads} threads are more than the {MOST_THREADS} that can be used"
         ))
         .help("leave --threads out: there are then as many as the machine has cores"));
+    }
+    if cfg!(target_family = "wasm") {
+        return Ok(f());
     }
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(|e| {
         Error::io(format!("cannot start {threads} threads"), std::io::Error::other(e))

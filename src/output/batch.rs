@@ -1,5 +1,6 @@
 //! The files of one run, which appear together or not at all.
 
+use super::part::{self, Part};
 use super::whole::fill;
 use crate::error::{Error, Result};
 use std::fs::{self, File};
@@ -24,12 +25,12 @@ use std::path::{Path, PathBuf};
 #[derive(Debug)]
 pub struct Batch {
     folder: PathBuf,
-    staging: PathBuf,
+    staging: Part,
     names: Vec<String>,
 }
 
 impl Batch {
-    /// A batch for a folder, which need not exist yet.
+    /// A batch for a folder, which need not exist yet. What runs that were killed left there is cleared.
     ///
     /// # Errors
     /// When something else has the folder's name, or nothing can be written there: known before the work is done.
@@ -37,7 +38,7 @@ impl Batch {
         let refuse =
             |error: io::Error| Error::io("this output folder cannot be written", error).in_file(folder);
         let staging = match fs::metadata(folder) {
-            Ok(found) if found.is_dir() => create_staging(folder, "batch"),
+            Ok(found) if found.is_dir() => staging(folder, folder),
             Ok(_) => Err(io::Error::other("it is a file")),
             Err(error) if error.kind() == io::ErrorKind::NotFound => beside(folder),
             Err(error) => Err(error),
@@ -58,7 +59,7 @@ impl Batch {
         if self.names.iter().any(|known| known == name) {
             return Err(Error::internal("one run writes this file twice").in_file(&path));
         }
-        let staged = self.staging.join(name);
+        let staged = self.staging.files().join(name);
         parent(&staged)
             .map_or(Ok(()), fs::create_dir_all)
             .and_then(|()| File::create_new(staged))
@@ -81,44 +82,31 @@ impl Batch {
                 let place = self.folder.join(name);
                 parent(&place)
                     .map_or(Ok(()), fs::create_dir_all)
-                    .and_then(|()| fs::rename(self.staging.join(name), &place))
+                    .and_then(|()| fs::rename(self.staging.files().join(name), &place))
                     .map_err(|error| refuse(&place, error))?;
             }
             return Ok(());
         }
         parent(&self.folder)
             .map_or(Ok(()), fs::create_dir_all)
-            .and_then(|()| fs::rename(&self.staging, &self.folder))
+            .and_then(|()| fs::rename(self.staging.files(), &self.folder))
             .map_err(|error| refuse(&self.folder, error))
     }
 }
 
-impl Drop for Batch {
-    fn drop(&mut self) {
-        // After a commit it is empty or gone; otherwise the error that led here is told already.
-        let _ = fs::remove_dir_all(&self.staging);
-    }
-}
-
 /// A staging folder for a folder that does not exist, in the nearest folder above it that does.
-fn beside(folder: &Path) -> io::Result<PathBuf> {
-    let name = folder.file_name().ok_or_else(|| io::Error::other("the path names no folder"))?;
+fn beside(folder: &Path) -> io::Result<Part> {
+    folder.file_name().ok_or_else(|| io::Error::other("the path names no folder"))?;
     let above = folder.ancestors().skip(1).map(or_here);
     let nearest = above.into_iter().find(|path| path.exists());
-    create_staging(nearest.unwrap_or(Path::new(".")), &name.to_string_lossy())
+    staging(nearest.unwrap_or(Path::new(".")), folder)
 }
 
-/// A new folder; several processes may be at work.
-fn create_staging(within: &Path, name: &str) -> io::Result<PathBuf> {
-    let mut attempt = 0;
-    loop {
-        let staging = within.join(format!(".{name}.{}-{attempt}.part", std::process::id()));
-        match fs::create_dir(&staging) {
-            Ok(()) => return Ok(staging),
-            Err(error) if error.kind() == io::ErrorKind::AlreadyExists && attempt < 1000 => attempt += 1,
-            Err(error) => return Err(error),
-        }
-    }
+/// A staging folder for a folder. Earlier runs may have begun when fewer of the folders above it were there.
+fn staging(within: &Path, folder: &Path) -> io::Result<Part> {
+    let name = folder.file_name().map_or("batch".into(), |name| name.to_string_lossy());
+    folder.ancestors().map(or_here).for_each(|above| part::clear(above, &name));
+    Part::new(within, &name)
 }
 
 fn parent(folder: &Path) -> Option<&Path> {

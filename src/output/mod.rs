@@ -8,6 +8,7 @@
 mod batch;
 mod look;
 mod npy;
+mod part;
 mod picture;
 mod result;
 mod whole;

@@ -1,9 +1,11 @@
 //! One file that appears whole or not at all: on any failure the path is as it was.
 
+use super::part::{self, Part};
 use crate::error::{Error, Result};
+use std::ffi::OsStr;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Writes a file beside its place and renames it, so that no reader ever sees a part of it. (A device or a pipe, which has no
 /// place, is written to.)
@@ -29,12 +31,12 @@ pub fn write_whole(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result
             .and_then(|file| fill(file, write))
             .map_err(refuse);
     }
-    let (beside, file) = create_beside(&target).map_err(refuse)?;
-    fill(file, write).and_then(|()| fs::rename(&beside, &target)).map_err(|error| {
-        // The error is told already; a temporary file that cannot even be removed adds nothing.
-        let _ = fs::remove_file(&beside);
-        refuse(error)
-    })
+    let (part, name) = beside(&target).map_err(refuse)?;
+    let staged = part.files().join(name);
+    File::create_new(&staged)
+        .and_then(|file| fill(file, write))
+        .and_then(|()| fs::rename(&staged, &target))
+        .map_err(refuse)
 }
 
 /// Writes a new file through a buffer.
@@ -44,18 +46,13 @@ pub(super) fn fill(file: File, write: impl FnOnce(&mut dyn Write) -> io::Result<
     buffered.flush()
 }
 
-/// A new file in the folder of `path`; several processes may be at work.
-fn create_beside(path: &Path) -> io::Result<(PathBuf, File)> {
-    let name = path.file_name().ok_or_else(|| io::Error::other("the path names no file"))?.to_string_lossy();
-    let mut attempt = 0;
-    loop {
-        let beside = path.with_file_name(format!(".{name}.{}-{attempt}.part", std::process::id()));
-        match OpenOptions::new().write(true).create_new(true).open(&beside) {
-            Ok(file) => return Ok((beside, file)),
-            Err(error) if error.kind() == io::ErrorKind::AlreadyExists && attempt < 1000 => attempt += 1,
-            Err(error) => return Err(error),
-        }
-    }
+/// A part in the folder of a file, and the file's name. What runs that were killed left there is cleared.
+fn beside(path: &Path) -> io::Result<(Part, &OsStr)> {
+    let name = path.file_name().ok_or_else(|| io::Error::other("the path names no file"))?;
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let words = name.to_string_lossy();
+    part::clear(folder, &words);
+    Part::new(folder, &words).map(|part| (part, name))
 }
 
 #[cfg(test)]
