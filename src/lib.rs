@@ -93,6 +93,8 @@ pub mod sampling;
 pub mod scene;
 #[cfg(feature = "render")]
 pub mod scene_file;
+#[cfg(test)]
+mod seeds;
 #[cfg(feature = "render")]
 pub mod source;
 #[cfg(feature = "render")]

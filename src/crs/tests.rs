@@ -240,6 +240,19 @@ fn what_is_not_a_crs_is_refused_in_words() {
 }
 
 #[test]
+#[ignore = "writes the seeds for fuzzing into $DRAPERY_SEEDS"]
+fn seeds_for_fuzzing_crs() {
+    let texts =
+        [UTM_33S, MGI_LAMBERT, UTM_33S_WKT2, STATE_PLANE, "EPSG:31287", "urn:ogc:def:crs:OGC:1.3:CRS84"];
+    let proj = [
+        "+proj=utm +zone=33 +south +datum=WGS84 +units=m",
+        "+proj=lcc +lat_1=49 +lat_2=46 +lat_0=47.5 +lon_0=13.3 +x_0=400000 +y_0=400000 +ellps=bessel +towgs84=577,90,463,5.1,1.4,5.2,2.4 +pm=ferro",
+        "+proj=laea +lat_0=52 +lon_0=10 +ellps=GRS80 +to_meter=0.3048",
+    ];
+    crate::seeds::plant("crs", texts.into_iter().chain(proj));
+}
+
+#[test]
 fn deep_brackets_are_refused() {
     assert!(Crs::parse(&"PROJCS[".repeat(20_000)).is_err());
 }

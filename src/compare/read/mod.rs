@@ -99,6 +99,14 @@ mod tests {
         vec![png, npy, exr::tests::example()]
     }
 
+    #[test]
+    #[ignore = "writes the seeds for fuzzing into $DRAPERY_SEEDS"]
+    fn seeds_for_fuzzing_pictures() {
+        for (target, seed) in ["picture_png", "picture_npy", "picture_exr"].into_iter().zip(valid_files()) {
+            crate::seeds::plant(target, [seed]);
+        }
+    }
+
     proptest::proptest! {
         #![proptest_config(proptest::prelude::ProptestConfig::with_cases(512))]
 

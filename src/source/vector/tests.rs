@@ -7,6 +7,7 @@ mod shapefile;
 
 use super::*;
 use crate::scene::Shape;
+use crate::seeds;
 use crate::space::Plan;
 use proptest::prelude::*;
 use std::path::PathBuf;
@@ -87,7 +88,8 @@ fn gpkg(layers: &[&str], blob: &[u8]) -> Vec<u8> {
     let path = folder.path().join("made.gpkg");
     let db = rusqlite::Connection::open(&path).unwrap();
     db.execute_batch(
-        "CREATE TABLE gpkg_contents (table_name TEXT, data_type TEXT);
+        "PRAGMA page_size = 512;
+         CREATE TABLE gpkg_contents (table_name TEXT, data_type TEXT);
          CREATE TABLE gpkg_geometry_columns (table_name TEXT, column_name TEXT, srs_id INTEGER);
          CREATE TABLE gpkg_spatial_ref_sys (srs_id INTEGER, organization TEXT, organization_coordsys_id INTEGER, definition TEXT);
          INSERT INTO gpkg_spatial_ref_sys VALUES (32733, 'EPSG', 32733, '');",
@@ -482,6 +484,23 @@ fn samples() -> &'static [(&'static str, Vec<u8>)] {
             ("a.gpkg", gpkg(&["lakes"], &wkb_polygon())),
         ]
     })
+}
+
+#[test]
+#[ignore = "writes the seeds for fuzzing into $DRAPERY_SEEDS"]
+fn seeds_for_fuzzing_vectors() {
+    for (name, bytes) in samples() {
+        let target = match name.split_once('.') {
+            Some((_, "geojson")) => "vector_geojson",
+            Some((_, "shp")) => "vector_shapefile",
+            Some((_, "fgb")) => "vector_flatgeobuf",
+            _ => "vector_geopackage",
+        };
+        seeds::plant(target, [bytes]);
+    }
+    seeds::plant("layer", [JSON]);
+    #[cfg(feature = "gpkg")]
+    seeds::plant("vector_geopackage_geometry", [wkb_polygon()]);
 }
 
 proptest! {

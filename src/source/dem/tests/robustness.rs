@@ -3,6 +3,7 @@
 use super::super::{DemOptions, PngEncoding, describe, read};
 use super::tiff_writer::{Kind, Tiff, Values};
 use super::{png, with_file};
+use crate::seeds;
 use crate::source::zip::tests::packed;
 use proptest::prelude::*;
 
@@ -68,6 +69,22 @@ fn every_truncation_returns() {
             try_all(name, &bytes[..length], None);
         }
     }
+}
+
+#[test]
+#[ignore = "writes the seeds for fuzzing into $DRAPERY_SEEDS"]
+fn seeds_for_fuzzing_terrain() {
+    let of = |extension: &str| {
+        let files = valid_files().into_iter().filter(|(name, _)| name.ends_with(extension));
+        files.map(|(_, bytes)| bytes).collect::<Vec<_>>()
+    };
+    seeds::plant("dem_geotiff", of("tif"));
+    seeds::plant("dem_ascii", of("asc"));
+    seeds::plant("dem_xyz", of("xyz"));
+    let placed = seeds::beside(&png::mapbox(), &[("pgw", b"5\n0\n0\n-5\n100\n200\n")]);
+    seeds::plant("dem_png", [png::mapbox(), placed.clone()]);
+    seeds::plant("imagery", [png::mapbox(), placed]);
+    seeds::plant("dem_hgt", [b"43E006\n\x00\x01\x80\x00".to_vec()]);
 }
 
 fn magic() -> impl Strategy<Value = &'static [u8]> {

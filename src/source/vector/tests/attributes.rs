@@ -452,6 +452,19 @@ fn sound_fgbs() -> &'static [Vec<u8>; 2] {
     MADE.get_or_init(|| [typed_fgb(), fgb_with_own_columns(&[1, 0, 1, 0, 0, 0, b'x', 0, 0, 5, 1])])
 }
 
+#[test]
+#[ignore = "writes the seeds for fuzzing into $DRAPERY_SEEDS"]
+fn seeds_for_fuzzing_attributes() {
+    let shapes = shp(5, &[shp_parts(5, &[&SQUARE]), shp_parts(5, &[&SQUARE])]);
+    let with_table =
+        |table: &Vec<u8>| seeds::beside(&shapes, &[("dbf", table), ("cpg", b"1252"), ("prj", b"GEOGCS[")]);
+    seeds::plant("vector_shapefile/attributes", tables().iter().map(with_table));
+    seeds::plant("vector_geojson/attributes", [MIXED]);
+    seeds::plant("vector_flatgeobuf/attributes", sound_fgbs());
+    #[cfg(feature = "gpkg")]
+    seeds::plant("vector_geopackage/attributes", [sound_gpkg()]);
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(1000))]
 

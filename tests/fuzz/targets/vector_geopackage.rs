@@ -1,0 +1,3 @@
+//! GeoPackages.
+#![no_main]
+libfuzzer_sys::fuzz_target!(|data: &[u8]| drapery_fuzz::vector("a.gpkg", data));
