@@ -17,6 +17,8 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("math", &[]),
     ("buffer", &[]),
     ("parallel", &[]),
+    // For tests alone.
+    ("seeds", &[]),
     ("tiling", &[]),
     ("space", &[]),
     ("predicate", &["space"]),
