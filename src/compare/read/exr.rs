@@ -1,7 +1,7 @@
 //! OpenEXR: one part of flat data, scan lines or tiles, of half, single or 32-bit integer values; RGB, RGBA or a
 //! single channel.
 
-use super::size::check_size;
+use super::size::{check_promise, check_size};
 use crate::compare::image::Image;
 use crate::error::{Error, Result};
 use ::exr::image::{AnyChannel, FlatSamples};
@@ -17,7 +17,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Image> {
         Error::new(format!("this EXR file cannot be read: {error}")).caused_by(error)
     };
     let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(refuse)?;
-    let (width, height, names) = check(&meta)?;
+    let (width, height, names) = check(&meta, bytes.len())?;
     let read = ::exr::image::read::read().no_deep_data().largest_resolution_level().all_channels();
     let read = read.first_valid_layer().all_attributes().non_parallel();
     let picture = read.from_buffered(Cursor::new(bytes)).map_err(refuse)?;
@@ -33,20 +33,38 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Image> {
     Image::new(width, height, channels.len(), values)
 }
 
-/// The size, and the channels in their order; refuses what cannot be compared.
-fn check(meta: &MetaData) -> Result<(usize, usize, Vec<String>)> {
+/// The size, and the channels in their order; refuses what cannot be compared, and what the file cannot hold.
+fn check(meta: &MetaData, file: usize) -> Result<(usize, usize, Vec<String>)> {
     let [header] = &meta.headers[..] else {
         return Err(Error::unsupported(format!("this EXR file has {} parts", meta.headers.len()))
             .help("one part can be compared: write the picture to a file of its own"));
     };
     let (width, height) = (header.layer_size.x(), header.layer_size.y());
     check_size(width, height, header.channels.list.len())?;
+    check_block(header)?;
+    check_promise((width * height * header.channels.bytes_per_pixel) as u64, file)?;
     let window = header.shared_attributes.display_window;
     if header.own_attributes.layer_position != window.position || header.layer_size != window.size {
         return Err(Error::unsupported("this EXR file's data window is not its display window")
             .help("write the whole picture, so that both are the same"));
     }
     Ok((width, height, names(header)?))
+}
+
+/// Refuses vast tiles and lines: memory for a whole one is taken before it is read.
+fn check_block(header: &Header) -> Result<()> {
+    const MOST_BYTES: usize = 1 << 28;
+    let size = header.max_block_pixel_size();
+    let bytes = size.x().checked_mul(size.y()).and_then(|n| n.checked_mul(header.channels.bytes_per_pixel));
+    if bytes.is_none_or(|bytes| bytes > MOST_BYTES) {
+        return Err(Error::unsupported(format!(
+            "this EXR file has blocks of {} x {} pixels, which are too large to compare",
+            size.x(),
+            size.y()
+        ))
+        .help("write it in tiles, or in lines that are packed one by one"));
+    }
+    Ok(())
 }
 
 /// The channels of a colour in their order, or the only one.
@@ -111,6 +129,26 @@ pub(super) mod tests {
             let wanted = [f64::from(0.1_f32), 0.5, 7.0, 1.0, f64::INFINITY, -2.0, 4_294_967_295.0, 0.25];
             assert_eq!(image.values(), wanted, "{encoding:?}");
         }
+    }
+
+    #[test]
+    fn vast_tiles_and_pixels_that_are_not_there_are_refused_before_memory_is_taken() {
+        let tiled = example();
+        let at = tiled.windows(8).position(|window| window == b"tiledesc").unwrap() + 13;
+        let mut vast = tiled.clone();
+        // Found by fuzzing: 2 GB were asked for.
+        vast[at..at + 8].copy_from_slice(&[0, 1, 0, 4, 0, 1, 0, 0]);
+        let error = decode(&vast).unwrap_err();
+        assert!(error.what().contains("blocks of 67109120 x 256 pixels"), "{error}");
+        let lines =
+            file(vec![channel("Y", FlatSamples::F32(vec![0.5; 64]))], (64, 1), Encoding::UNCOMPRESSED);
+        let mut wide = lines.clone();
+        for name in [&b"dataWindow\0box2i\0"[..], b"displayWindow\0box2i\0"] {
+            let at = wide.windows(name.len()).position(|window| window == name).unwrap() + name.len() + 4;
+            wide[at + 8..at + 12].copy_from_slice(&((1 << 24) - 1_u32).to_le_bytes());
+        }
+        let error = decode(&wide).unwrap_err();
+        assert!(error.what().contains("cannot hold the 67108864 bytes of pixels"), "{error}");
     }
 
     #[test]

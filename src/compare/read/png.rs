@@ -1,6 +1,6 @@
 //! PNG of 8 or 16 bits (fewer bits, palettes and grey become colours).
 
-use super::size::{MOST_PIXELS, check_size};
+use super::size::{MOST_PIXELS, check_promise, check_size};
 use crate::compare::image::Image;
 use crate::error::{Error, Result};
 use image::{ImageDecoder, ImageFormat, ImageReader, Limits};
@@ -22,6 +22,8 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Image> {
     let (width, height) = decoder.dimensions();
     let (width, height) = (width as usize, height as usize);
     check_size(width, height, 4)?;
+    let bits = u64::from(decoder.original_color_type().bits_per_pixel());
+    check_promise((width * height) as u64 * bits / 8, bytes.len())?;
     let picture = image::DynamicImage::from_decoder(decoder).map_err(refuse)?;
     // v * 257 / 65535 is v / 255, in doubles too: both are the nearest to the same quotient.
     let (channels, codes) = if picture.color().has_alpha() {
@@ -63,6 +65,24 @@ mod tests {
     fn grey_is_a_colour() {
         assert_eq!(decoded(&[51], 1, ExtendedColorType::L8).values(), [0.2, 0.2, 0.2]);
         assert_eq!(decoded(&[51, 102], 1, ExtendedColorType::La8).values(), [0.2, 0.2, 0.2, 0.4]);
+    }
+
+    #[test]
+    fn pixels_that_the_file_cannot_hold_are_refused() {
+        let mut file = Vec::new();
+        PngEncoder::new(&mut file).write_image(&[0; 4], 1, 1, ExtendedColorType::Rgba8).unwrap();
+        let mut head = file[12..29].to_vec();
+        head[4..12].copy_from_slice(&[0, 0, 0x10, 0, 0, 0, 0x10, 0]);
+        file[12..29].copy_from_slice(&head);
+        file[29..33].copy_from_slice(&crc32(&head).to_be_bytes());
+        let error = decode(&file).unwrap_err();
+        assert!(error.what().contains("cannot hold the 67108864 bytes of pixels"), "{error}");
+    }
+
+    /// The checksum of a chunk of a PNG.
+    fn crc32(bytes: &[u8]) -> u32 {
+        let step = |crc: u32| if crc & 1 == 1 { 0xedb8_8320 ^ (crc >> 1) } else { crc >> 1 };
+        !bytes.iter().fold(!0, |crc, byte| (0..8).fold(crc ^ u32::from(*byte), |crc, _| step(crc)))
     }
 
     #[test]

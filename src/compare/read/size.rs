@@ -18,3 +18,16 @@ pub(super) fn check_size(width: usize, height: usize, channels: usize) -> Result
     }
     Ok(())
 }
+
+/// Refuses a picture whose pixels cannot come out of a file of so many bytes, before memory is taken for them.
+pub(super) fn check_promise(pixel_bytes: u64, file: usize) -> Result<()> {
+    /// The most that a byte of a file stands for: deflate's 1032, and its half for methods that halve the samples first.
+    const MOST_FROM_BYTE: u64 = 2064;
+    if pixel_bytes > (file as u64).saturating_mul(MOST_FROM_BYTE) {
+        return Err(Error::new(format!(
+            "its {file} bytes cannot hold the {pixel_bytes} bytes of pixels that it promises"
+        ))
+        .help("it may be half a download: fetch or write it again"));
+    }
+    Ok(())
+}

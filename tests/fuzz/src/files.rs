@@ -6,20 +6,22 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 /// What may lie beside a file.
-const BESIDE: [&str; 13] = [
+const BESIDE: [&str; 14] = [
     "shx",
     "dbf",
     "prj",
     "cpg",
+    "qix",
     "tfw",
     "pgw",
     "wld",
-    "hdr",
     "tif.msk",
     "tif.aux.xml",
-    "png.aux.xml",
     "tif.ovr",
-    "qix",
+    "png.aux.xml",
+    "asc.aux.xml",
+    // What a virtual raster may name.
+    "tif",
 ];
 
 /// What opens the content of a file beside.
@@ -105,8 +107,9 @@ fn parted(data: &[u8]) -> (&[u8], Vec<(&'static str, &[u8])>) {
 /// The extension of the file that is opened here, and where its content begins.
 fn opened(data: &[u8]) -> Option<(&'static str, usize)> {
     let rest = data.strip_prefix(MARK)?;
-    let extension =
-        BESIDE.into_iter().find(|e| rest.starts_with(e.as_bytes()) && rest.get(e.len()) == Some(&b'\n'))?;
+    let extension = BESIDE
+        .into_iter()
+        .find(|e| rest.strip_prefix(e.as_bytes()).is_some_and(|rest| rest.starts_with(b"\n")))?;
     Some((extension, MARK.len() + extension.len() + 1))
 }
 

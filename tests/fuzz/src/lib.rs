@@ -42,6 +42,7 @@ fn dem_at(path: &Path, choice: usize) {
         window: [None, Some([1.0, 1.0, 150.0, 250.0])][choice % 2],
         encoding: [Some(PngEncoding::Mapbox), Some(PngEncoding::Terrarium)][choice / 2 % 2],
         bounds: [None, Some([0.0, 0.0, 40.0, 30.0])][choice / 4 % 2],
+        ..DemOptions::default()
     };
     if let Some(dem) = judged(dem::read(path, &options), true)
         && let Some(hint) = &dem.crs_hint

@@ -81,6 +81,13 @@ fn seeds_for_fuzzing_terrain() {
     seeds::plant("dem_geotiff", of("tif"));
     seeds::plant("dem_ascii", of("asc"));
     seeds::plant("dem_xyz", of("xyz"));
+    seeds::plant("dem_zip", of("zip"));
+    let told = b"<PAMDataset><SRS>EPSG:32633</SRS><PAMRasterBand band=\"1\"><NoDataValue>3</NoDataValue></PAMRasterBand></PAMDataset>";
+    let mask = of("tif").swap_remove(0);
+    seeds::plant(
+        "dem_geotiff/beside",
+        [seeds::beside(&of("tif")[1], &[("tif.aux.xml", told), ("tif.msk", &mask)])],
+    );
     let placed = seeds::beside(&png::mapbox(), &[("pgw", b"5\n0\n0\n-5\n100\n200\n")]);
     seeds::plant("dem_png", [png::mapbox(), placed.clone()]);
     seeds::plant("imagery", [png::mapbox(), placed]);

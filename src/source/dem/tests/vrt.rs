@@ -3,6 +3,7 @@
 use super::super::{Dem, DemOptions, describe, read};
 use super::posts;
 use super::tiff_writer::{Kind, Tiff, Values};
+use crate::seeds;
 use crate::space::Plan;
 
 /// The heights of a file are 100 times its number, and those of its columns and rows.
@@ -52,6 +53,16 @@ fn read_vrt(xml: &str, options: &DemOptions) -> crate::Result<Dem> {
 fn two() -> String {
     source("SimpleSource", "tiles/1.tif", WHOLE, WHOLE, "")
         + &source("SimpleSource", "tiles/2.tif", WHOLE, [4.0, 0.0, 4.0, 3.0], "")
+}
+
+#[test]
+#[ignore = "writes the seeds for fuzzing into $DRAPERY_SEEDS"]
+fn seeds_for_fuzzing_virtual_rasters() {
+    let xml = dataset(
+        &(source("SimpleSource", "a.tif", WHOLE, WHOLE, "")
+            + &source("SimpleSource", "a.tif", WHOLE, [4.0, 0.0, 4.0, 3.0], "")),
+    );
+    seeds::plant("dem_vrt", [seeds::beside(xml.as_bytes(), &[("tif", &file(1.0).bytes())])]);
 }
 
 #[test]
