@@ -111,7 +111,7 @@ fn a_report_has_all_its_files_and_a_row_for_every_setting() {
     let place = Place::new();
     let said = place.reported(&["tiny.toml", "--repeat", "1"]);
     assert!(said.contains("report.html") && said.contains("tiny: "), "{said}");
-    let metrics = ["max", "mean", "over-one", "p99", "rmse"];
+    let metrics = ["feature-rmse", "max", "mean", "over-one", "p99", "rmse"];
     let plots = metrics.iter().flat_map(|m| [format!("tiny-{m}-techniques.svg"), format!("tiny-{m}.svg")]);
     let pages = ["report.csv", "report.html", "report.json"].map(String::from);
     let expected: Vec<String> = pages.into_iter().chain(plots).collect();
@@ -128,6 +128,55 @@ fn a_report_has_all_its_files_and_a_row_for_every_setting() {
         assert_eq!(own.count(), 1);
     }
     assert_eq!(place.rows("report/report.csv").len(), runs.len());
+}
+
+#[test]
+fn a_scene_without_features_in_view_says_so_and_scores_nothing() {
+    let place = Place::new();
+    let off = SCENE.replace(
+        "eye = [0, -1800, 1500], target = [0, 0, 100]",
+        "eye = [850, -850, 600], target = [850, -849, 0]",
+    );
+    fs::write(place.path().join("off.toml"), off).unwrap();
+    let said = place.reported(&["off.toml", "--repeat", "1"]);
+    assert!(said.contains("tiny: no feature of a layer is in view"), "{said}");
+    assert_eq!(place.names("report"), ["report.csv", "report.html", "report.json"]);
+    let value: Value = serde_json::from_str(&place.text("report/report.json")).unwrap();
+    let scene = &value["scenes"][0];
+    assert_eq!((scene["runs"].as_array().unwrap().len(), &scene["feature_pixels"]), (0, &0.into()));
+    let page = place.text("report/report.html");
+    assert!(
+        page.contains("no feature of a layer is in view")
+            && page.contains("data:image/png")
+            && !page.contains("<svg")
+    );
+}
+
+#[test]
+fn errors_on_features_are_of_the_pixels_that_they_touch() {
+    let place = Place::new();
+    // A hillshade of many small triangles: its aliasing is in all pixels, the road in few.
+    let scene = SCENE.replace("height_m = 200.0 }", "height_m = 200.0 }\nterrain.shade = \"hillshade\"");
+    let scene = scene.split("[[layer]]\nname = \"lake\"").next().unwrap().to_owned()
+        + "[[layer]]\nname = \"road\"\n"
+        + scene.split("name = \"road\"\n").nth(1).unwrap();
+    fs::write(place.path().join("road.toml"), scene).unwrap();
+    place.reported(&["road.toml", "--repeat", "1", "--truth-width", "0.01"]);
+    let value: Value = serde_json::from_str(&place.text("report/report.json")).unwrap();
+    let scene = &value["scenes"][0];
+    let count = scene["feature_pixels"].as_u64().unwrap();
+    assert!((20..300).contains(&count), "{count} of 1536 pixels");
+    for run in scene["runs"].as_array().unwrap().iter().filter(|run| run["is_own"] == true) {
+        let [whole, touched] = ["error", "error_on_features"].map(|key| run[key]["mean"].as_f64().unwrap());
+        // The mean over all has the touched pixels in it.
+        assert!(
+            touched > whole && touched * count as f64 <= whole * 1536.0,
+            "{}: {whole} {touched}",
+            run["technique"]
+        );
+    }
+    let row = &place.rows("report/report.csv")[0];
+    assert!(row.iter().any(|(head, cell)| head == "feature_pixels" && *cell == count.to_string()), "{row:?}");
 }
 
 #[test]

@@ -116,15 +116,19 @@ fn of_each<T: Send>(
 
 /// A scene's front in some lines, for people.
 fn told(scene: &SceneReport) -> String {
+    if scene.feature_pixels == 0 {
+        return format!("{}: {}", scene.scene.name, scene.notes.last().map_or("", String::as_str));
+    }
     let mut front: Vec<_> = scene.runs.iter().filter(|run| run.on_front).collect();
     front.sort_by(|a, b| a.frame_ms.median.total_cmp(&b.frame_ms.median));
     let mut text =
         format!("{}: {} runs; none is faster and more right than", scene.scene.name, scene.runs.len());
     for run in front {
         text.push_str(&format!(
-            "\n  {:>9.1} ms  rmse {:.6}  {}",
+            "\n  {:>9.1} ms  rmse {:.6}, on features {:.6}  {}",
             run.frame_ms.median,
             run.error.rmse,
+            run.error_on_features.rmse,
             run.label()
         ));
     }

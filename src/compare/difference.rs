@@ -35,6 +35,19 @@ impl Difference {
         &self.0
     }
 
+    /// Those of some pixels alone, in a row; `None` where there are none. `is_kept` tells it of each pixel in row order.
+    ///
+    /// # Panics
+    /// When it does not tell of each.
+    pub fn among(&self, is_kept: &[bool]) -> Option<Self> {
+        let channels = self.0.channels();
+        let pixels = self.0.values().chunks_exact(channels).zip(is_kept);
+        assert_eq!(pixels.len(), is_kept.len(), "pixels and what is told of them");
+        let values: Vec<f64> =
+            pixels.filter(|(_, is_kept)| **is_kept).flat_map(|(pixel, _)| pixel).copied().collect();
+        Image::new(values.len() / channels, 1, channels, values).ok().map(Self)
+    }
+
     /// The largest distance of each pixel's channels.
     pub(super) fn of_pixels(&self) -> impl Iterator<Item = f64> {
         let largest = |channels: &[f64]| channels.iter().copied().fold(0.0, crate::math::max);
@@ -110,6 +123,16 @@ mod tests {
         assert_eq!(of(&two, &wrong), Mismatch::NotANumber { side: Side::Actual, place });
         assert_eq!(of(&wrong, &two), Mismatch::NotANumber { side: Side::Expected, place });
         assert_eq!(of(&wrong, &wrong), Mismatch::NotANumber { side: Side::Expected, place });
+    }
+
+    #[test]
+    fn some_pixels_are_measured_alone() {
+        let picture = Image::new(2, 2, 1, vec![0.0, 0.5, 0.25, 1.0]).unwrap();
+        let black = Expected::exactly(Image::new(2, 2, 1, vec![0.0; 4]).unwrap());
+        let difference = Difference::of(&black, &picture).unwrap();
+        let some = difference.among(&[false, true, true, false]).unwrap().metrics(0.0);
+        assert_eq!((some.max, some.mean), (0.5, 0.375));
+        assert!(difference.among(&[false; 4]).is_none());
     }
 
     #[test]

@@ -33,6 +33,7 @@ mod drawn;
 mod expected;
 mod sampled;
 mod times;
+mod touched;
 mod watch;
 
 pub use certified::Certified;
@@ -40,6 +41,7 @@ pub use drawn::{Drawn, applicable};
 pub use expected::{expected, half_widths, image};
 pub use sampled::supersampled;
 pub use times::Times;
+pub use touched::touched;
 pub use watch::{Unwatched, Watch, timed};
 
 use crate::error::Error;

@@ -60,25 +60,25 @@ impl LogAxis {
         value > self.low && value < self.high
     }
 
-    /// The grid lines: 1 to 9 times each power of ten. Words are at powers of ten, on a shorter axis at 2 and 5 times them too, and on
-    /// a very short one at all.
-    pub(super) fn ticks(&self) -> Vec<Tick> {
-        let length = self.high / self.low;
-        let mut ticks = Vec::new();
-        for exponent in exponent_below(self.low)..=exponent_below(self.high) {
-            for digit in 1..=9 {
-                let value = decimal(digit, exponent);
-                if value >= self.low && value <= self.high {
-                    let is_labelled = match digit {
-                        1 => true,
-                        2 | 5 => length < 1500.0,
-                        _ => length < 5.0,
-                    };
-                    ticks.push(Tick { value, is_labelled, is_decade: digit == 1 });
+    /// The grid lines: 1 to 9 times each power of ten. Words are at as many of them as stay `room` apart, a share of the axis: at powers of
+    /// ten before others, then at 5 and 2 times them.
+    pub(super) fn ticks(&self, room: f64) -> Vec<Tick> {
+        let decades = exponent_below(self.low)..=exponent_below(self.high);
+        let all = decades.flat_map(|exponent| (1..=9).map(move |digit| (digit, decimal(digit, exponent))));
+        let all: Vec<(u32, f64)> =
+            all.filter(|(_, value)| *value >= self.low && *value <= self.high).collect();
+        let mut worded: Vec<f64> = Vec::new();
+        for digit in [1, 5, 2, 3, 7, 4, 6, 8, 9] {
+            for (_, value) in all.iter().filter(|(of, _)| *of == digit) {
+                let is_apart = |other: &f64| (self.place(*value) - self.place(*other)).abs() >= room;
+                if worded.iter().all(is_apart) {
+                    worded.push(*value);
                 }
             }
         }
-        ticks
+        let tick =
+            |(digit, value)| Tick { value, is_labelled: worded.contains(&value), is_decade: digit == 1 };
+        all.into_iter().map(tick).collect()
     }
 }
 
@@ -150,18 +150,18 @@ mod tests {
     #[test]
     fn powers_of_ten_are_exact_and_labelled() {
         let axis = LogAxis::around(&[0.002, 700.0]);
-        let words: Vec<f64> = axis.ticks().iter().filter(|t| t.is_labelled).map(|t| t.value).collect();
+        let words: Vec<f64> = axis.ticks(0.09).iter().filter(|t| t.is_labelled).map(|t| t.value).collect();
         assert_eq!(words, [0.001, 0.01, 0.1, 1.0, 10.0, 100.0]);
-        let first: Vec<f64> = axis.ticks().iter().take(3).map(|t| t.value).collect();
+        let first: Vec<f64> = axis.ticks(0.09).iter().take(3).map(|t| t.value).collect();
         assert_eq!(first, [0.001, 0.002, 0.003]);
     }
 
     #[test]
-    fn a_short_axis_has_words_at_two_and_five() {
-        let ticks = LogAxis::around(&[3.0, 30.0]).ticks();
+    fn a_short_axis_has_words_at_more_and_never_nearer_than_there_is_room() {
+        let ticks = LogAxis::around(&[3.0, 30.0]).ticks(0.09);
         let words: Vec<f64> = ticks.iter().filter(|t| t.is_labelled).map(|t| t.value).collect();
-        assert_eq!(words, [2.0, 5.0, 10.0, 20.0]);
-        let ticks = LogAxis::around(&[0.35, 0.5]).ticks();
+        assert_eq!(words, [2.0, 3.0, 5.0, 7.0, 10.0, 20.0, 30.0]);
+        let ticks = LogAxis::around(&[0.35, 0.5]).ticks(0.09);
         assert_eq!(ticks.iter().filter(|t| t.is_labelled).count(), ticks.len());
     }
 

@@ -25,6 +25,8 @@ pub fn write(measured: Vec<Measured>, repeat: u32, mut batch: Batch) -> Result<R
 fn stage(report: &Report, exhibits: Vec<Vec<Exhibit>>, batch: &mut Batch) -> Result<()> {
     let names = file_names(report);
     for (scene, plots) in report.scenes.iter().zip(&names) {
+        // Where nothing was scored there is nothing to plot.
+        let plots = if scene.feature_pixels > 0 { &plots[..] } else { &[] };
         for (view, name) in View::all().zip(plots) {
             batch.stage(name, |to| to.write_all(plot::svg(scene, view).as_bytes()))?;
         }
@@ -67,6 +69,7 @@ mod tests {
             height: 1,
             notes: Vec::new(),
             reference_width_max: 0.0,
+            feature_pixels: 0,
             runs: Vec::new(),
         }
     }
@@ -77,11 +80,11 @@ mod tests {
         let report = Report { schema: REPORT_SCHEMA, repeat: 1, scenes };
         let first: Vec<String> = file_names(&report).into_iter().map(|names| names[0].clone()).collect();
         let expected = [
-            "valley-rmse.svg",
-            "---up-rmse.svg",
-            "valley-2-rmse.svg",
-            "valley-2-2-rmse.svg",
-            "valley-3-rmse.svg",
+            "valley-feature-rmse-techniques.svg",
+            "---up-feature-rmse-techniques.svg",
+            "valley-2-feature-rmse-techniques.svg",
+            "valley-2-2-feature-rmse-techniques.svg",
+            "valley-3-feature-rmse-techniques.svg",
         ];
         assert_eq!(first, expected);
     }

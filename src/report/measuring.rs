@@ -7,7 +7,7 @@ use crate::buffer::Buffer;
 use crate::compare::{Difference, Expected, Image};
 use crate::error::{Error, Result};
 use crate::measure::{self, Certified, Drawn, Times, Watch};
-use crate::measure::{applicable, device_words, scene_result, supersampled};
+use crate::measure::{applicable, device_words, scene_result, supersampled, touched};
 use crate::open::Opened;
 use crate::output::ByName;
 use crate::resolve::code_values;
@@ -22,6 +22,10 @@ const SAMPLES: [usize; 7] = [1, 2, 4, 8, 16, 32, 64];
 /// The most samples of a picture, so that a report of a large one comes to its end. (A limit of time would make the rows depend on
 /// the machine.)
 const MOST_SAMPLES: usize = 1 << 28;
+
+/// What is told of a scene in whose view no feature is.
+const NOTHING_TO_SCORE: &str =
+    "no feature of a layer is in view: there is nothing to score, and no technique was measured";
 
 /// Widths of the truth that are tried besides the reference's own, where they are narrower.
 const WIDTHS: [f64; 2] = [1e-4, 1e-6];
@@ -42,9 +46,13 @@ pub struct Measured {
 /// When the camera shows nothing; internal errors. A technique that refuses a setting is left out, and the watch is told.
 pub fn measure(scene: Opened, budget: &Budget, repeat: u32, watch: &dyn Watch) -> Result<Measured> {
     let mut measuring = Measuring::new(scene, budget, repeat, watch)?;
-    measuring.truth()?;
-    measuring.techniques()?;
-    measuring.supersampling()?;
+    if measuring.has_features() {
+        measuring.truth()?;
+        measuring.techniques()?;
+        measuring.supersampling()?;
+    } else {
+        measuring.refuse_to_score()?;
+    }
     Ok(measuring.finish())
 }
 
@@ -53,6 +61,9 @@ struct Measuring<'a> {
     scene: Opened,
     view: ViewFrame,
     certified: Certified,
+    /// For each pixel, whether features touch it.
+    touched: Vec<bool>,
+    notes: Vec<String>,
     repeat: u32,
     watch: &'a dyn Watch,
     runs: Vec<Run>,
@@ -64,12 +75,35 @@ impl<'a> Measuring<'a> {
     fn new(scene: Opened, budget: &Budget, repeat: u32, watch: &'a dyn Watch) -> Result<Self> {
         let view = scene.view()?;
         let certified = Certified::of((&scene.stage, &view), budget, repeat, watch)?;
-        Ok(Self { scene, view, certified, repeat, watch, runs: Vec::new(), exhibits: Vec::new() })
+        let touched = touched(&scene.stage, &view, watch);
+        let notes = scene.notes().to_vec();
+        let (runs, exhibits) = (Vec::new(), Vec::new());
+        Ok(Self { scene, view, certified, touched, notes, repeat, watch, runs, exhibits })
+    }
+
+    fn has_features(&self) -> bool {
+        self.touched.contains(&true)
+    }
+
+    /// Where no feature is in view every technique draws the same ground: scores would tell nothing of it.
+    fn refuse_to_score(&mut self) -> Result<()> {
+        self.notes.push(NOTHING_TO_SCORE.into());
+        let (_, doubt) = self.truth_run(&self.certified, Vec::new())?;
+        let caption = "the right picture · its heat map: half the width of each interval".to_owned();
+        self.exhibits.push(Exhibit::new((TRUTH.to_owned(), caption), &self.certified.truth.image(), &doubt)?);
+        Ok(())
+    }
+
+    /// The errors of a run: of all pixels, and of those that features touch.
+    fn errors_of(&self, difference: &Difference, flip: Option<f64>) -> [Errors; 2] {
+        let of = |difference: &Difference, flip| Errors::of(&difference.metrics(0.0), flip);
+        let whole = of(difference, flip);
+        [whole, difference.among(&self.touched).map_or(whole, |some| of(&some, None))]
     }
 
     /// The truth as a run, and narrower ones: what certainty costs.
     fn truth(&mut self) -> Result<()> {
-        let (run, doubt) = truth_run(&self.certified, Vec::new())?;
+        let (run, doubt) = self.truth_run(&self.certified, Vec::new())?;
         let image = self.certified.truth.image();
         let caption = "the right picture · its heat map: half the width of each interval".to_owned();
         self.exhibits.push(Exhibit::new((TRUTH.to_owned(), caption), &image, &doubt)?);
@@ -79,7 +113,7 @@ impl<'a> Measuring<'a> {
             let narrower = Budget { width, ..budget };
             let certified =
                 Certified::of((&self.scene.stage, &self.view), &narrower, self.repeat, self.watch)?;
-            self.runs.push(truth_run(&certified, vec![format!("width={width}")])?.0);
+            self.runs.push(self.truth_run(&certified, vec![format!("width={width}")])?.0);
         }
         Ok(())
     }
@@ -117,6 +151,7 @@ impl<'a> Measuring<'a> {
         let drawn = Drawn::by(kind, (stage, &self.view), (self.repeat, &|_| false), self.watch)?;
         let image = &drawn.frame.image;
         let difference = self.certified.difference(&Image::from_rgba8(image)?)?;
+        let [error, error_on_features] = self.errors(&difference, image);
         let run = Run {
             technique: kind.name().into(),
             varied,
@@ -128,7 +163,8 @@ impl<'a> Measuring<'a> {
             frame_ms: drawn.draw,
             structure_bytes: drawn.structure_bytes,
             counts: ByName::from_pairs(drawn.frame.counts.iter().copied()),
-            error: self.errors(&difference, image),
+            error,
+            error_on_features,
             is_rounded: true,
             image_hash: image.hash(),
             on_front: false,
@@ -148,6 +184,7 @@ impl<'a> Measuring<'a> {
             let codes = sampled.colors.values().iter().map(|color| code_values(*color)).collect();
             let image = Buffer::from_values(sampled.colors.width(), sampled.colors.height(), codes);
             let difference = self.certified.difference(&measure::image(&sampled.colors)?)?;
+            let [error, error_on_features] = self.errors(&difference, &image);
             let run = Run {
                 technique: SUPERSAMPLING.into(),
                 varied: vec![format!("n={n}")],
@@ -159,7 +196,8 @@ impl<'a> Measuring<'a> {
                 frame_ms: times,
                 structure_bytes: sampled.structure_bytes,
                 counts: ByName::from_pairs([("samples", n * n * pixels)]),
-                error: self.errors(&difference, &image),
+                error,
+                error_on_features,
                 is_rounded: false,
                 image_hash: image.hash(),
                 on_front: false,
@@ -171,9 +209,35 @@ impl<'a> Measuring<'a> {
         Ok(())
     }
 
-    fn errors(&self, difference: &Difference, image: &Buffer<[u8; 4]>) -> Errors {
-        let flip = flip(&self.certified.truth.image(), image);
-        Errors::of(&difference.metrics(0.0), flip)
+    fn errors(&self, difference: &Difference, image: &Buffer<[u8; 4]>) -> [Errors; 2] {
+        self.errors_of(difference, flip(&self.certified.truth.image(), image))
+    }
+
+    /// A truth as a run: its error is what its estimate may be off, the half widths that are returned with it.
+    fn truth_run(&self, certified: &Certified, varied: Vec<String>) -> Result<(Run, Difference)> {
+        let halves = measure::half_widths(&certified.truth)?;
+        let nothing = Image::new(halves.width(), halves.height(), 4, vec![0.0; halves.values().len()])?;
+        let doubt = Difference::of(&Expected::exactly(nothing), &halves)
+            .map_err(|what| Error::internal(format!("the truth's widths: {what}")).caused_by(what))?;
+        let [error, error_on_features] = self.errors_of(&doubt, None);
+        let run = Run {
+            technique: TRUTH.into(),
+            varied,
+            is_own: false,
+            line: None,
+            parameters: certified.parameters(),
+            device: device_words(&Device::default()),
+            prepare_ms: Times::of(Vec::new()),
+            frame_ms: certified.times,
+            structure_bytes: certified.truth.structure_bytes,
+            counts: certified.counts(),
+            error,
+            error_on_features,
+            is_rounded: false,
+            image_hash: certified.truth.image().hash(),
+            on_front: false,
+        };
+        Ok((run, doubt))
     }
 
     /// The scene's part of the report.
@@ -182,8 +246,9 @@ impl<'a> Measuring<'a> {
             scene: scene_result(&self.scene.stage, &self.scene.text.file.hash),
             width: self.view.width(),
             height: self.view.height(),
-            notes: self.scene.notes().to_vec(),
+            notes: self.notes,
             reference_width_max: self.certified.truth.widest(),
+            feature_pixels: self.touched.iter().filter(|is_touched| **is_touched).count(),
             runs: self.runs,
         };
         report.mark_front();
@@ -220,29 +285,4 @@ fn tries(variations: Vec<Variation>, scene: &SceneText) -> Result<Vec<Try>> {
         all.push(one);
     }
     Ok(all)
-}
-
-/// A truth as a run: its error is what its estimate may be off, the half widths that are returned with it.
-fn truth_run(certified: &Certified, varied: Vec<String>) -> Result<(Run, Difference)> {
-    let halves = measure::half_widths(&certified.truth)?;
-    let nothing = Image::new(halves.width(), halves.height(), 4, vec![0.0; halves.values().len()])?;
-    let doubt = Difference::of(&Expected::exactly(nothing), &halves)
-        .map_err(|what| Error::internal(format!("the truth's widths: {what}")).caused_by(what))?;
-    let run = Run {
-        technique: TRUTH.into(),
-        varied,
-        is_own: false,
-        line: None,
-        parameters: certified.parameters(),
-        device: device_words(&Device::default()),
-        prepare_ms: Times::of(Vec::new()),
-        frame_ms: certified.times,
-        structure_bytes: certified.truth.structure_bytes,
-        counts: certified.counts(),
-        error: Errors::of(&doubt.metrics(0.0), None),
-        is_rounded: false,
-        image_hash: certified.truth.image().hash(),
-        on_front: false,
-    };
-    Ok((run, doubt))
 }

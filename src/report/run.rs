@@ -34,6 +34,8 @@ pub struct SceneReport {
     pub notes: Vec<String>,
     /// The width of the widest interval of the truth.
     pub reference_width_max: f64,
+    /// How many pixels features touch; none: nothing was scored.
+    pub feature_pixels: usize,
     /// The truth, each technique over its sweep, supersampling.
     pub runs: Vec<Run>,
 }
@@ -64,6 +66,8 @@ pub struct Run {
     pub counts: ByName,
     /// How far the picture is from the truth; for the truth itself, how far it may be from the right picture.
     pub error: Errors,
+    /// The same of the pixels alone that features touch: elsewhere only the ground's own edges are drawn.
+    pub error_on_features: Errors,
     /// Whether the picture that was measured has 8-bit code values, whose rounding alone makes an error of up to 1/510.
     pub is_rounded: bool,
     /// BLAKE3 over the pixel values (8-bit code values) in row order.
@@ -106,6 +110,8 @@ impl Errors {
 /// A number that tells how far a picture is from the truth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Metric {
+    /// The root of the mean square over the pixels that features touch.
+    FeatureRmse,
     /// The root of the mean square.
     Rmse,
     /// The mean.
@@ -120,11 +126,13 @@ pub enum Metric {
 
 impl Metric {
     /// All, the one that is shown first at the front.
-    pub const ALL: [Self; 5] = [Self::Rmse, Self::Mean, Self::P99, Self::Max, Self::OverOne];
+    pub const ALL: [Self; 6] =
+        [Self::FeatureRmse, Self::Rmse, Self::Mean, Self::P99, Self::Max, Self::OverOne];
 
     /// A short name, for files.
     pub fn name(self) -> &'static str {
         match self {
+            Self::FeatureRmse => "feature-rmse",
             Self::Rmse => "rmse",
             Self::Mean => "mean",
             Self::P99 => "p99",
@@ -136,6 +144,7 @@ impl Metric {
     /// A word for a button.
     pub(super) fn word(self) -> &'static str {
         match self {
+            Self::FeatureRmse => "root mean square on features",
             Self::Rmse => "root mean square",
             Self::Mean => "mean",
             Self::P99 => "99th percentile",
@@ -147,6 +156,7 @@ impl Metric {
     /// What an axis says.
     pub fn title(self) -> &'static str {
         match self {
+            Self::FeatureRmse => "error: root mean square over pixels that features touch",
             Self::Rmse => "error: root mean square",
             Self::Mean => "error: mean",
             Self::P99 => "error: 99th percentile",
@@ -156,8 +166,10 @@ impl Metric {
     }
 
     /// Its value.
-    pub fn of(self, errors: &Errors) -> f64 {
+    pub fn of(self, run: &Run) -> f64 {
+        let errors = &run.error;
         match self {
+            Self::FeatureRmse => run.error_on_features.rmse,
             Self::Rmse => errors.rmse,
             Self::Mean => errors.mean,
             Self::P99 => errors.p99,
@@ -187,7 +199,7 @@ impl SceneReport {
     /// Marks the runs that no other is both as fast and as right as.
     pub fn mark_front(&mut self) {
         let points: Vec<[f64; 2]> =
-            self.runs.iter().map(|run| [run.frame_ms.median, Metric::Rmse.of(&run.error)]).collect();
+            self.runs.iter().map(|run| [run.frame_ms.median, Metric::Rmse.of(run)]).collect();
         let front = super::front(&points);
         for (k, run) in self.runs.iter_mut().enumerate() {
             run.on_front = front.contains(&k);

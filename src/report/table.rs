@@ -62,7 +62,7 @@ fn columns(report: &Report) -> Vec<Column<'_>> {
     columns
 }
 
-const FIXED: [&str; 25] = [
+const FIXED: [&str; 31] = [
     "scene",
     "scene_hash",
     "width",
@@ -88,6 +88,12 @@ const FIXED: [&str; 25] = [
     "structure_bytes",
     "image_hash",
     "plan_space",
+    "feature_pixels",
+    "feature_rmse",
+    "feature_mean",
+    "feature_p99",
+    "feature_max",
+    "feature_over_one_code_value",
 ];
 
 fn fixed(scene: &SceneReport, run: &Run) -> [String; FIXED.len()] {
@@ -118,6 +124,12 @@ fn fixed(scene: &SceneReport, run: &Run) -> [String; FIXED.len()] {
         run.structure_bytes.to_string(),
         run.image_hash.clone(),
         scene.scene.plan_space.clone(),
+        scene.feature_pixels.to_string(),
+        run.error_on_features.rmse.to_string(),
+        run.error_on_features.mean.to_string(),
+        run.error_on_features.p99.to_string(),
+        run.error_on_features.max.to_string(),
+        run.error_on_features.over_one_code_value.to_string(),
     ]
 }
 

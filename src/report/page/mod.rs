@@ -91,9 +91,11 @@ impl Section<'_> {
             section.scene {
                 h2 { (scene.scene.name) }
                 (facts(scene))
-                (self.plots())
-                h3 { "Runs" }
-                (table(scene))
+                @if scene.feature_pixels > 0 {
+                    (self.plots())
+                    h3 { "Runs" }
+                    (table(scene))
+                }
                 @if !shown.is_empty() {
                     h3 { "Two pictures, one over the other" }
                     (slider())
@@ -113,7 +115,7 @@ impl Section<'_> {
         html! {
             div.plots {
                 (buttons("which error", &Metric::ALL.map(Metric::word)))
-                (buttons("which runs", &["all runs", "only techniques"]))
+                (buttons("which runs", &["only techniques", "all runs"]))
                 @for (k, (view, file)) in View::all().zip(self.plots).enumerate() {
                     figure.plotted hidden[k > 0] {
                         (PreEscaped(plot::svg(self.scene, view)))
@@ -143,7 +145,7 @@ fn facts(scene: &SceneReport) -> Markup {
     html! {
         p.facts {
             (scene.width) " × " (scene.height) " pixels · " (scene.scene.plan_space)
-            " · widest interval of the truth " (super::axis::short(scene.reference_width_max))
+            " · " (scene.feature_pixels) " of them touched by features · widest interval of the truth " (super::axis::short(scene.reference_width_max))
             " · scene " code { (scene.scene.hash.get(..12).unwrap_or(&scene.scene.hash)) }
         }
         @for note in &scene.notes { p.note { (note) } }
@@ -219,6 +221,8 @@ fn footer() -> Markup {
                 dd { "The certified intervals. As a run, its error is half the width of each interval: what its estimate may be off at most. Where it is wide, the errors of others are the least that they can be." }
                 dt { "supersampling" }
                 dd { "The mean of n × n point samples a pixel: the plain competitor of the truth. Its error, like the truth's, is of values before they are rounded." }
+                dt { "on features" }
+                dd { "The root mean square over the pixels that features touch. Over the whole picture it is the edges of the ground's own shading that may weigh most, of which a technique takes one sample a pixel." }
                 dt { "techniques" }
                 dd { "Their errors are of 8-bit code values; rounding alone moves a channel by up to half a code value (1/510)." }
                 dt { "Pareto front" }

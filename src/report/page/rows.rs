@@ -5,9 +5,10 @@ use super::super::{Run, SceneReport};
 use crate::measure::Times;
 use maud::{Markup, html};
 
-const HEADS: [(&str, &str); 12] = [
+const HEADS: [(&str, &str); 13] = [
     ("technique", ""),
     ("setting", "what differs from the scene's own settings"),
+    ("on features", "root of the mean square error over the pixels that features touch"),
     ("rmse", "root of the mean square error of all channels"),
     ("mean", "mean error of all channels"),
     ("p99", "what 99 of 100 channels do not exceed"),
@@ -45,7 +46,7 @@ fn row(run: &Run) -> Markup {
         tr class=[run.on_front.then_some("front")] {
             td data-v=(run.technique) { (run.technique) @if run.on_front { span.dot title="on the Pareto front" { " ●" } } }
             td data-v=(run.varied.join(" ")) { @if run.varied.is_empty() { "—" } @else { (run.varied.join(" ")) } }
-            @for value in [error.rmse, error.mean, error.p99, error.max] { (number(value, short(value))) }
+            @for value in [run.error_on_features.rmse, error.rmse, error.mean, error.p99, error.max] { (number(value, short(value))) }
             (number(error.over_one_code_value, format!("{} %", short(100.0 * error.over_one_code_value))))
             @match error.flip_mean {
                 Some(mean) => { (number(mean, short(mean))) }

@@ -23,7 +23,7 @@ impl Axes {
     }
 
     pub(super) fn at(&self, run: &Run) -> [f64; 2] {
-        [self.x(run.frame_ms.median), self.y(self.metric.of(&run.error))]
+        [self.x(run.frame_ms.median), self.y(self.metric.of(run))]
     }
 }
 

@@ -1,6 +1,5 @@
 //! The words beside points, and the legend.
 
-use super::super::Run;
 use super::axes::{Axes, FIELD, fixed, polyline};
 use super::series::{Mark, Series};
 use maud::{Markup, html};
@@ -8,22 +7,40 @@ use maud::{Markup, html};
 /// Where the legend begins.
 const LEGEND: [f64; 2] = [752.0, 40.0];
 
-/// The names of points, where there is room for them.
-pub(super) fn tags(axes: &Axes, all: &[Series], runs: &[&Run]) -> Markup {
-    let marks: Vec<[f64; 4]> =
-        runs.iter().map(|run| axes.at(run)).map(|[x, y]| [x - 5.0, y - 5.0, x + 5.0, y + 5.0]).collect();
-    let mut taken: Vec<[f64; 4]> = Vec::new();
+/// Where a tag may stand: from its point to its nearer lower corner, and whether it runs to the left.
+const PLACES: [([f64; 2], bool); 12] = [
+    ([9.0, -7.0], false),
+    ([9.0, 17.0], false),
+    ([-9.0, -7.0], true),
+    ([-9.0, 17.0], true),
+    ([11.0, 4.0], false),
+    ([-11.0, 4.0], true),
+    ([9.0, -22.0], false),
+    ([9.0, 32.0], false),
+    ([-9.0, -22.0], true),
+    ([-9.0, 32.0], true),
+    ([26.0, -14.0], false),
+    ([-26.0, -14.0], true),
+];
+
+/// The names of points, where there is room for them: on no mark, on no other words, in the field.
+pub(super) fn tags(axes: &Axes, all: &[Series], words_there: &[[f64; 4]]) -> Markup {
+    let points = all.iter().flat_map(|one| one.runs.iter()).map(|run| axes.at(run));
+    let mut taken: Vec<[f64; 4]> = points.map(|[x, y]| [x - 5.0, y - 5.0, x + 5.0, y + 5.0]).collect();
+    taken.extend(words_there);
     let mut tags = Vec::new();
     for (one, run) in all.iter().flat_map(|one| one.named().map(move |run| (one, run))) {
         let words = run.varied.first().map_or("", String::as_str);
         let (width, [x, y]) = (6.4 * words.len() as f64, axes.at(run));
-        let places = [[9.0, -7.0], [9.0, 17.0], [-9.0 - width, -7.0], [-9.0 - width, 17.0]];
-        let boxed = places.map(|[dx, dy]| [x + dx, y + dy - 11.0, x + dx + width, y + dy + 2.0]);
-        let is_free = |place: &[f64; 4], others: &[[f64; 4]]| !others.iter().any(|other| meets(place, other));
-        let inside = |place: &&[f64; 4]| place[0] > FIELD[0] && is_free(place, &taken);
-        let free: Vec<&[f64; 4]> = boxed.iter().filter(inside).collect();
-        let best = free.iter().find(|place| is_free(place, &marks)).or(free.first());
-        if let Some(place) = best.copied().copied() {
+        let boxed = PLACES.map(|([dx, dy], is_left)| {
+            let left = x + dx - if is_left { width } else { 0.0 };
+            [left, y + dy - 11.0, left + width, y + dy + 2.0]
+        });
+        let in_field = |[left, top, right, bottom]: &[f64; 4]| {
+            *left > FIELD[0] && *top > FIELD[1] && *right < FIELD[2] && *bottom < FIELD[3]
+        };
+        let is_free = |place: &&[f64; 4]| in_field(place) && !taken.iter().any(|other| meets(place, other));
+        if let Some(place) = boxed.iter().find(is_free).copied() {
             taken.push(place);
             tags.push((one.color.as_str(), words, place));
         }
@@ -59,9 +76,18 @@ fn lines_of(name: &str) -> Vec<String> {
     lines
 }
 
+/// The distance of the legend's rows.
+const ROW: f64 = 22.0;
+
+/// Below which height nothing of the legend lies: its series, and three rows that every plot has.
+pub(super) fn legend_bottom(series: &[Series]) -> f64 {
+    let rows: usize = series.iter().map(|one| lines_of(&one.name).len()).sum();
+    LEGEND[1] + ROW * (rows + 3) as f64
+}
+
 /// What the marks and lines stand for.
 pub(super) fn legend(series: &[Series]) -> Markup {
-    let row = |k: usize| LEGEND[1] + 22.0 * k as f64;
+    let row = |k: usize| LEGEND[1] + ROW * k as f64;
     let x = LEGEND[0];
     let names: Vec<Vec<String>> = series.iter().map(|one| lines_of(&one.name)).collect();
     // A name's further lines take rows of their own.

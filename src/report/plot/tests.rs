@@ -24,6 +24,7 @@ fn run(technique: &str, varied: &str, line: Option<&str>, (ms, error): (f64, f64
         structure_bytes: 0,
         counts: ByName::default(),
         error,
+        error_on_features: error,
         is_rounded: true,
         image_hash: String::new(),
         on_front: false,
@@ -38,7 +39,15 @@ fn scene(runs: Vec<Run>) -> SceneReport {
         origin: [0.0; 2],
         origin_height: 0.0,
     };
-    SceneReport { scene, width: 1, height: 1, notes: vec![], reference_width_max: 0.0, runs }
+    SceneReport {
+        scene,
+        width: 1,
+        height: 1,
+        notes: vec![],
+        reference_width_max: 0.0,
+        feature_pixels: 1,
+        runs,
+    }
 }
 
 #[test]
