@@ -34,7 +34,7 @@ pub(super) fn tags(axes: &Axes, all: &[Series], words_there: &[[f64; 4]]) -> Mar
         let (width, [x, y]) = (6.4 * words.len() as f64, axes.at(run));
         let boxed = PLACES.map(|([dx, dy], is_left)| {
             let left = x + dx - if is_left { width } else { 0.0 };
-            [left, y + dy - 11.0, left + width, y + dy + 2.0]
+            [left - 3.0, y + dy - 11.0, left + width + 3.0, y + dy + 2.0]
         });
         let in_field = |[left, top, right, bottom]: &[f64; 4]| {
             *left > FIELD[0] && *top > FIELD[1] && *right < FIELD[2] && *bottom < FIELD[3]
@@ -47,7 +47,7 @@ pub(super) fn tags(axes: &Axes, all: &[Series], words_there: &[[f64; 4]]) -> Mar
     }
     html! {
         @for (color, words, [x, _, _, bottom]) in tags {
-            text.tag.halo x=(fixed(x)) y=(fixed(bottom - 2.0)) style={ "fill:" (color) } { (words) }
+            text.tag.halo x=(fixed(x + 3.0)) y=(fixed(bottom - 2.0)) style={ "fill:" (color) } { (words) }
         }
     }
 }
