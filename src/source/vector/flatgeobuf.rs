@@ -3,7 +3,6 @@
 //! The flatbuffers are verified by the `flatgeobuf` crate's generated code; the walk over the file is ours, so that
 //! every size is held against the file's length before it is believed.
 
-use super::attributes::Wanted;
 use super::bytes::{Cursor, Endian};
 use super::collector::Collector;
 use super::curve::{append_piece, refusal_of_curves};
@@ -15,16 +14,13 @@ use ::flatgeobuf::{
     Column, ColumnType, Feature, Geometry, GeometryType, Header, size_prefixed_root_as_feature,
     size_prefixed_root_as_header,
 };
-use std::path::Path;
 
 const DEEPEST: usize = 16;
 const INDEX_NODE_BYTES: u64 = 40;
 
 /// Reads a FlatGeobuf file, and of its columns what is wanted.
-pub(super) fn read(path: &Path, wanted: Wanted) -> Result<Collector> {
-    let bytes = super::contents_of(path)?;
-    let mut found = Collector::new(wanted);
-    let mut cursor = Cursor::new(&bytes);
+pub(super) fn read(bytes: &[u8], mut found: Collector) -> Result<Collector> {
+    let mut cursor = Cursor::new(bytes);
     check_magic(&mut cursor)?;
     let header_bytes = sized(&mut cursor).ok_or_else(|| damaged("it ends within its header"))?;
     let header = size_prefixed_root_as_header(header_bytes)

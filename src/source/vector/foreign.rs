@@ -90,6 +90,11 @@ pub(super) fn by_content(start: &[u8]) -> Option<&'static Foreign> {
 }
 
 impl Foreign {
+    /// Whether such a file is one of features, and not a part of one.
+    pub(super) fn stands_alone(&self) -> bool {
+        !matches!(self.way, Way::Words(_))
+    }
+
     /// The refusal of a file of this kind.
     pub(super) fn refuse(&self, path: &Path) -> Error {
         let error = Error::unsupported(format!("this is {}, which is not read", self.name));

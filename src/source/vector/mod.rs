@@ -1,7 +1,8 @@
 //! Vector files -> features, in the file's own coordinates.
 //!
-//! Reads GeoJSON, shapefiles, FlatGeobuf and GeoPackage: polygons and lines, in file order (FlatGeobuf: the order of
-//! the file, which is its index's and not the source's; GeoPackage: by primary key). Points, empty geometries, heights and
+//! Reads GeoJSON, shapefiles, FlatGeobuf, GeoPackage and OpenStreetMap's PBF, all but GeoPackages from a zip archive too: polygons
+//! and lines, in file order (FlatGeobuf: the order of the file, which is its index's and not the source's; GeoPackage: by primary
+//! key; OpenStreetMap: ways, then relations). Points, empty geometries, heights and
 //! measures are left out and counted in the notes. Refuses what is damaged, not finite, or of no plan (multipatches),
 //! naming file and feature; never allocates by a count that the file's length does not bear out.
 //!
@@ -12,6 +13,7 @@
 //! Each feature of the file becomes one [`Feature`] with all its parts; a geometry collection becomes one for each
 //! member, with the same index. Rings lose their closing vertex.
 
+mod archive;
 mod attributes;
 mod bytes;
 mod code_page;
@@ -25,6 +27,7 @@ mod foreign;
 mod geojson;
 #[cfg(feature = "gpkg")]
 mod geopackage;
+mod osm;
 mod shapefile;
 mod summary;
 #[cfg(not(feature = "gpkg"))]
@@ -77,6 +80,8 @@ pub enum VectorFormat {
     FlatGeobuf,
     /// OGC GeoPackage.
     GeoPackage,
+    /// OpenStreetMap's PBF.
+    OpenStreetMap,
 }
 
 impl fmt::Display for VectorFormat {
@@ -86,6 +91,7 @@ impl fmt::Display for VectorFormat {
             Self::Shapefile => "shapefile",
             Self::FlatGeobuf => "FlatGeobuf",
             Self::GeoPackage => "GeoPackage",
+            Self::OpenStreetMap => "OpenStreetMap PBF",
         })
     }
 }
@@ -110,18 +116,35 @@ pub fn read_columns(path: &Path, layer: Option<&str>, columns: &[String]) -> Res
 }
 
 fn read_collected(path: &Path, layer: Option<&str>, wanted: Wanted) -> Result<(VectorFormat, Collector)> {
+    let no_layers = |what: &str, layer: &str| {
+        Error::new(format!("{what} has no layers, so none named '{layer}'"))
+            .help("leave the layer out; it is for GeoPackages")
+    };
+    if is_archive(path)? {
+        return match layer {
+            Some(layer) => Err(no_layers("a file in an archive", layer)),
+            None => archive::read(path, wanted),
+        };
+    }
     let format = format_of(path)?;
     if let (Some(layer), true) = (layer, format != VectorFormat::GeoPackage) {
-        return Err(Error::new(format!("a {format} has no layers, so none named '{layer}'"))
-            .help("leave the layer out; it is for GeoPackages"));
+        return Err(no_layers(&format!("a {format}"), layer));
     }
     let found = match format {
         VectorFormat::GeoJson => geojson::read(contents_of(path)?, Collector::new(wanted))?,
         VectorFormat::Shapefile => shapefile::read(&Parts::of(path)?, path, Collector::new(wanted))?,
-        VectorFormat::FlatGeobuf => flatgeobuf::read(path, wanted)?,
+        VectorFormat::FlatGeobuf => flatgeobuf::read(&contents_of(path)?, Collector::new(wanted))?,
+        VectorFormat::OpenStreetMap => {
+            osm::read(File::open(path).map_err(cannot_read)?, Collector::new(wanted))?
+        }
         VectorFormat::GeoPackage => geopackage::read(path, layer, wanted)?,
     };
     Ok((format, found))
+}
+
+/// Whether a file is an archive, and not of a kind of its own that is packed so.
+fn is_archive(path: &Path) -> Result<bool> {
+    Ok(!path.is_dir() && foreign::by_name(path).is_none() && archive::is_one(&beginning_of(path)?))
 }
 
 /// Whether a file is one of vectors: of a kind that is read here, or of one that is known and refused with the command which
@@ -129,7 +152,9 @@ fn read_collected(path: &Path, layer: Option<&str>, wanted: Wanted) -> Result<(V
 pub fn is_vector(path: &Path) -> bool {
     let by_content = || {
         let start = beginning_of(path).unwrap_or_default();
-        told_by_content(&start).is_some() || foreign::by_content(&start).is_some()
+        told_by_content(&start).is_some()
+            || foreign::by_content(&start).is_some()
+            || (archive::is_one(&start) && archive::holds_vectors(path))
     };
     match path.extension().and_then(|extension| extension.to_str()) {
         _ if promised_by_name(path).is_some() || foreign::by_name(path).is_some() => true,
@@ -179,7 +204,7 @@ fn format_of(path: &Path) -> Result<VectorFormat> {
 
 fn unknown() -> Error {
     Error::unsupported("this is no vector file of a kind known here")
-        .help("use .geojson, .json, .geojsonl, .shp, .fgb or .gpkg; heights go into [terrain]")
+        .help("use .geojson, .json, .geojsonl, .shp, .fgb, .gpkg, .osm.pbf or a .zip of one; heights go into [terrain]")
 }
 
 fn beginning_of(path: &Path) -> Result<Vec<u8>> {
@@ -213,6 +238,7 @@ fn promised_by_name(path: &Path) -> Option<VectorFormat> {
         "shp" => VectorFormat::Shapefile,
         "fgb" => VectorFormat::FlatGeobuf,
         "gpkg" => VectorFormat::GeoPackage,
+        "pbf" => VectorFormat::OpenStreetMap,
         _ => return None,
     })
 }
@@ -223,6 +249,8 @@ fn told_by_content(start: &[u8]) -> Option<VectorFormat> {
         Some(VectorFormat::GeoPackage)
     } else if start.starts_with(b"fgb") {
         Some(VectorFormat::FlatGeobuf)
+    } else if start.get(4..15) == Some(b"\x0a\x09OSMHeader") {
+        Some(VectorFormat::OpenStreetMap)
     } else if start.starts_with(&9994_u32.to_be_bytes()) {
         Some(VectorFormat::Shapefile)
     } else {

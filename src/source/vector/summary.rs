@@ -49,7 +49,7 @@ pub fn describe(path: &Path) -> Result<Vec<VectorSummary>> {
 }
 
 fn describe_layers(path: &Path) -> Result<Vec<VectorSummary>> {
-    if super::format_of(path)? != VectorFormat::GeoPackage {
+    if super::is_archive(path)? || super::format_of(path)? != VectorFormat::GeoPackage {
         let (format, found) = read_collected(path, None, Wanted::Summary)?;
         return Ok(vec![summary(format, None, &[], found)]);
     }

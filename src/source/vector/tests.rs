@@ -1,8 +1,10 @@
+mod archive;
 mod attributes;
 #[cfg(feature = "gpkg")]
 mod curves;
 mod geojson;
 mod kinds;
+mod osm;
 mod shapefile;
 
 use super::*;
@@ -480,6 +482,7 @@ fn samples() -> &'static [(&'static str, Vec<u8>)] {
             ("a.geojson", JSON.as_bytes().to_vec()),
             ("a.shp", shp(5, &[shp_parts(5, &[&SQUARE]), shp_parts(3, &[&SQUARE, &SQUARE])])),
             ("a.fgb", fgb()),
+            ("a.osm.pbf", osm::town_file(false)),
             #[cfg(feature = "gpkg")]
             ("a.gpkg", gpkg(&["lakes"], &wkb_polygon())),
         ]
@@ -517,7 +520,7 @@ proptest! {
     #[test]
     fn any_bytes_after_a_magic_give_features_or_words(sample in 0..samples().len(), tail in prop::collection::vec(any::<u8>(), 0..400)) {
         let (name, bytes) = &samples()[sample];
-        let magic = [1, 36, 12, 100][sample];
+        let magic = [1, 36, 12, 40, 100][sample];
         let _ = read_bytes(name, &[&bytes[..magic], &tail].concat());
     }
 }
