@@ -211,6 +211,22 @@ fn glaciers_of_the_alps_have_names_in_the_code_page_of_their_cpg() {
 }
 
 #[test]
+fn roads_of_openstreetmap_are_its_ways_with_tags() {
+    with_columns("porto_alegre/poa_osm.pbf", |path, columns| {
+        let summary = only(path);
+        // 15,984 of its 16,032 ways have tags, with 66,489 nodes; all of its 23 relations are multipolygons.
+        assert_eq!((summary.features, summary.polygons + summary.lines), (15_984 + 23, 16_007));
+        assert!(
+            summary.vertices > 66_489 && summary.notes.iter().any(|note| note.starts_with("6140 points"))
+        );
+        assert!(columns.iter().any(|column| column.name == "highway"));
+        let read = read_columns(path, None, &["highway".into()]).unwrap();
+        let primary = read.columns[0].values.iter().filter(|value| value.text() == Some("primary"));
+        assert_eq!(primary.count(), 529);
+    });
+}
+
+#[test]
 fn geopackages_have_columns_by_layer() {
     with_columns("zion/zion.gpkg", |_, columns| {
         assert_eq!((columns.len(), columns[0].name.as_str()), (12, "fid"));

@@ -211,11 +211,30 @@ fn of_layer(path: &Path, summary: &VectorSummary) -> Table {
         Some(crs) => table.row("CRS", crs.name()),
         None => table.row("CRS", "not stated: taken for the scene's"),
     }
-    for column in &summary.columns {
+    columns(summary, &mut table);
+    table.notes(&summary.notes);
+    if summary.polygons + summary.lines == 0 {
+        table.row("note", "nothing in it can be drawn: a scene that names it is refused");
+    }
+    table
+}
+
+/// The most columns that are told.
+const MOST_COLUMNS: usize = 40;
+
+/// All columns, or those that most features have a value in, in the file's order.
+fn columns(summary: &VectorSummary, table: &mut Table) {
+    let mut counts: Vec<usize> = summary.columns.iter().map(|column| column.values).collect();
+    counts.sort_unstable_by_key(|count| std::cmp::Reverse(*count));
+    let least = counts.get(MOST_COLUMNS).map_or(0, |beyond| beyond + 1);
+    let told_ones: Vec<_> = summary.columns.iter().filter(|column| column.values >= least).collect();
+    for column in &told_ones {
         table.row("column", told(column, summary.features));
     }
-    table.notes(&summary.notes);
-    table
+    match summary.columns.len() - told_ones.len() {
+        0 => {}
+        more => table.row("columns", format!("and {more} more, in fewer than {least} features each")),
+    }
 }
 
 fn of_scene(scene: &SceneFile) -> Table {
