@@ -47,11 +47,13 @@ impl GaussSphere {
         self.factor * self.ellipsoid.isometric(lat) + self.shift
     }
 
-    /// The direction of a longitude from the central meridian and a latitude, radians.
-    pub(crate) fn direction(&self, lam: f64, lat: f64) -> Direction {
+    /// The direction of a longitude from the central meridian and a latitude, radians; `None` where the sphere overlaps itself, next to the
+    /// opposite meridian.
+    pub(crate) fn direction(&self, lam: f64, lat: f64) -> Option<Direction> {
         let isometric = self.isometric(lat);
         let (cosine, l) = (1.0 / cosh(isometric), self.factor * lam);
-        Direction { x: cosine * cos(l), y: cosine * sin(l), z: tanh(isometric) }
+        let d = Direction { x: cosine * cos(l), y: cosine * sin(l), z: tanh(isometric) };
+        (l.abs() <= std::f64::consts::PI).then_some(d)
     }
 
     /// The longitude from the central meridian and the latitude (radians) of a direction; `None` where the sphere overlaps itself.
@@ -92,7 +94,7 @@ impl SwissMercator {
 
     /// Longitude from the central meridian and latitude (radians) to metres; `None` at the cylinder's ends.
     pub(crate) fn forward(&self, lam: f64, lat: f64) -> Option<DVec2> {
-        let seen = self.pole.seen(&self.sphere.direction(lam, lat));
+        let seen = self.pole.seen(&self.sphere.direction(lam, lat)?);
         let along = (seen.towards * seen.towards + seen.east * seen.east).sqrt();
         let p = DVec2::new(atan2(seen.east, seen.towards), asinh(seen.north / along));
         (along > 1e-9).then(|| p * (self.sphere.radius * self.k_0))
@@ -150,7 +152,7 @@ impl Krovak {
 
     /// Longitude from the central meridian and latitude (radians) to metres; `None` at the cone's open end.
     pub(crate) fn forward(&self, lam: f64, lat: f64) -> Option<DVec2> {
-        let seen = self.axis.seen(&self.sphere.direction(lam, lat));
+        let seen = self.axis.seen(&self.sphere.direction(lam, lat)?);
         // The latitude about the axis, and the longitude from its side that looks south.
         let along = (seen.east * seen.east + seen.north * seen.north).sqrt();
         let r = self.scale * exp(-self.cone * asinh(seen.towards / along));

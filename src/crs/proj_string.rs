@@ -258,7 +258,7 @@ const PRIME_MERIDIANS: [(&str, f64); 14] = [
     ("stockholm", 18.058_277_777_778),
     ("athens", 23.716_337_5),
     ("oslo", 10.722_916_666_667),
-    ("copenhagen", 12.577_88),
+    ("copenhagen", 12.577_875),
 ];
 
 const UNITS: [(&str, f64); 9] = [

@@ -91,7 +91,7 @@ impl ObliqueStereographic {
 
     /// Longitude from the central meridian and latitude (radians) to metres; `None` at the origin's antipode.
     pub(crate) fn forward(&self, lam: f64, lat: f64) -> Option<DVec2> {
-        let seen = self.pole.seen(&self.sphere.direction(lam, lat));
+        let seen = self.pole.seen(&self.sphere.direction(lam, lat)?);
         let p = DVec2::new(seen.east, seen.north) * (self.diameter / (1.0 + seen.towards));
         (seen.towards > -1.0 + 1e-12).then_some(p)
     }

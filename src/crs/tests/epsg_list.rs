@@ -63,3 +63,30 @@ fn a_crs_that_counts_west_or_south_is_no_plan() {
     let south = crs("EPSG:5513").native_from_geographic(DVec2::new(14.42, 50.09)).unwrap();
     assert_eq!((south.x, south.y), (-east.y, -east.x));
 }
+
+#[test]
+fn a_wkt_counts_where_its_code_does() {
+    for code in [2065, 5513, 5514] {
+        let listed = crs_definitions::from_code(code).unwrap().wkt;
+        let bare = listed.replace("AUTHORITY[\"EPSG\"", "AUTHORITY[\"NONE\"");
+        let (read, known) = (crs(&bare), Crs::from_epsg(u32::from(code)).unwrap());
+        assert!(read.is_same(&known), "{read:?}\n{known:?}");
+    }
+    // A transverse Mercator that counts west and south, under a name without a number.
+    let [east, west] = ["AXIS[\"X\",EAST],AXIS[\"Y\",NORTH]", "AXIS[\"Y\",WEST],AXIS[\"X\",SOUTH]"]
+        .map(|axes| crs(&UTM_33S.replace("UNIT[\"Meter\",1]", &format!("UNIT[\"Meter\",1],{axes}"))));
+    let place = DVec2::new(18.0, -30.0);
+    assert_eq!(west.project(place).unwrap(), -east.project(place).unwrap());
+}
+
+#[test]
+fn prime_meridians_are_those_of_proj() {
+    // reference: PROJ 9.5.1
+    for (name, degrees) in
+        [("copenhagen", 12.577_875), ("ferro", -17.666_666_666_7), ("madrid", -3.687_938_888_9)]
+    {
+        let meridian = crs(&format!("+proj=longlat +ellps=WGS84 +pm={name}"));
+        let there = meridian.geographic_from_native(DVec2::ZERO).unwrap();
+        assert!((there.x - degrees).abs() < 1e-9, "{name}: {there}");
+    }
+}
