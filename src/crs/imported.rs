@@ -57,6 +57,10 @@ impl Imported {
         matches!(self.definition.text("axis"), None | Some("enu"))
     }
 
+    pub(crate) fn central_meridian(&self) -> f64 {
+        self.definition.number_or("lon_0", 0.0).unwrap_or(0.0)
+    }
+
     pub(crate) fn forward(&self, p: DVec2) -> Option<DVec2> {
         let mut q = (p.x.to_radians(), p.y.to_radians(), 0.0);
         transform(&self.geographic, &self.projected, &mut q).ok()?;

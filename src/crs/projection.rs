@@ -147,6 +147,26 @@ impl Projection {
         }
     }
 
+    /// The central meridian, degrees from the CRS's prime meridian; 0 where that is not told.
+    pub(crate) fn central_meridian(&self) -> f64 {
+        match self {
+            Self::Geographic => 0.0,
+            Self::Own(origin, _) => origin.lon_0,
+            Self::Imported(imported) => imported.central_meridian(),
+        }
+    }
+
+    /// Of Mercator's cylinder, which goes on east and west for ever: the x of the central meridian and the length of a turn, metres.
+    pub(crate) fn cylinder(&self) -> Option<(f64, f64)> {
+        let Self::Own(origin, form) = self else { return None };
+        match **form {
+            Form::Mercator(m) if origin.axes == Axes::EAST_NORTH => {
+                Some((origin.offset.x, std::f64::consts::TAU * m.ellipsoid.a * m.k_0))
+            }
+            _ => None,
+        }
+    }
+
     /// The sphere of Web Mercator, which is not the ellipsoid of its datum.
     pub(crate) fn own_ellipsoid(&self) -> Option<Ellipsoid> {
         let Self::Own(_, form) = self else { return None };

@@ -124,6 +124,8 @@ impl<'a> Way<'a> {
             return Self { turn, near: near.filter(|_| turn.is_some()), ..plain };
         }
         let horizon = Region::horizon(from, &terrain, turn, reach + 0.1 * longest);
+        let seam = || turn.map(|turn| Region::between_seams(from.central_meridian(), turn));
+        let horizon = horizon.or_else(seam);
         let follow = (onto.edges == Edges::Projected).then(|| Follow {
             tolerance: onto.tolerance,
             near: terrain.grown(reach),
@@ -375,7 +377,7 @@ impl<'a> Way<'a> {
             return map.apply_unrolled(p.to_vec()).map(Plan::from);
         };
         let mut p = on_the_globe(p.to_vec(), Some(turn));
-        if let Some(horizon) = &self.horizon {
+        if let Some(horizon) = self.horizon.filter(|horizon| horizon.pole != 0.0) {
             // Both ends of a turn are one place.
             p.x -= turn * ((p.x - horizon.bounds.min.x) / turn).floor();
         }

@@ -4,7 +4,7 @@
 //! no box can be told there is none.
 
 use crate::crs::PlanFrom;
-use crate::math::cos;
+use crate::math::{cos, max, min};
 use crate::space::{Plan, PlanBox};
 use glam::DVec2;
 
@@ -33,8 +33,9 @@ impl Region {
     /// The image of a rectangle of the plan; `turn` is a whole turn of longitude in the file's unit, where that is an angle. `None` where
     /// a part of the rectangle has no place there.
     pub(super) fn of(map: &PlanFrom, rectangle: &PlanBox, turn: Option<f64>) -> Option<Self> {
-        // On the local plane nothing bends or meets again.
-        let turn = turn.filter(|_| map.affine().is_none());
+        let quarter = turn.map_or(f64::INFINITY, |turn| 0.25 * turn);
+        // Where turns are kept no two longitudes meet.
+        let turn = turn.filter(|_| !map.keeps_turns());
         let size = rectangle.max - rectangle.min;
         let share = |k: usize| k as f64 / SAMPLES as f64;
         let at = |i: usize, j: usize| {
@@ -68,7 +69,10 @@ impl Region {
         }
         let margin = (bounds.max - bounds.min) * if map.affine().is_none() { MARGIN } else { 0.0 };
         if pole == 0.0 {
-            bounds = PlanBox { min: bounds.min + -margin, max: bounds.max + margin };
+            // A pole that is not inside may have no place in the plan.
+            let (south, north) = (0.5 * (bounds.min.y + quarter), 0.5 * (quarter - bounds.max.y));
+            bounds.min = bounds.min + -DVec2::new(margin.x, min(margin.y, max(south, 0.0)));
+            bounds.max = bounds.max + DVec2::new(margin.x, min(margin.y, max(north, 0.0)));
         } else {
             bounds.min.y -= if pole > 0.0 { margin.y } else { 0.0 };
             bounds.max.y += if pole < 0.0 { margin.y } else { 0.0 };
@@ -76,6 +80,14 @@ impl Region {
         let is_whole = bounds.min.is_finite() && bounds.max.is_finite();
         let is_wound = turn.is_some_and(|turn| pole == 0.0 && bounds.max.x - bounds.min.x >= turn);
         (is_whole && !is_wound).then_some(Self { bounds, pole })
+    }
+
+    /// All of the globe between the two sides of a seam, opposite to a longitude.
+    pub(super) fn between_seams(longitude: f64, turn: f64) -> Self {
+        // A bit less, lest the eastern side becomes the western one.
+        let half = DVec2::new(0.5 * turn * (1.0 - 1e-9), 0.25 * turn);
+        let middle = Plan::new(longitude, 0.0);
+        Self { bounds: PlanBox { min: middle + -half, max: middle + half }, pole: 0.0 }
     }
 
     /// The largest region around a rectangle of the plan in which the map can be used, at least that of the rectangle grown by `least`.
@@ -106,8 +118,8 @@ impl Region {
         let mut placed = Vec::with_capacity((SAMPLES + 1) * (SAMPLES + 1));
         for (j, i) in (0..=SAMPLES).flat_map(|j| (0..=SAMPLES).map(move |i| (j, i))) {
             let p = on_the_globe(file(i, j), turn);
-            let Ok(q) = map.apply(p) else { return false };
-            let Ok(back) = map.invert(q) else { return false };
+            let Ok(q) = map.apply_unrolled(p) else { return false };
+            let Ok(back) = map.invert_unrolled(q) else { return false };
             let mut off = back - p;
             if let Some(turn) = turn {
                 off.x -= turn * (off.x / turn).round();
@@ -158,8 +170,10 @@ mod tests {
         let antarctic = horizon("EPSG:3031", (300_000.0, -500_000.0)).unwrap();
         assert_eq!(antarctic.pole, -1.0);
         assert!(antarctic.bounds.max.y > -70.0 && antarctic.bounds.max.y < 30.0, "{antarctic:?}");
-        // Near the seam of Mercator's map it ends before the seam.
+        // Mercator's map goes on over its seam, an equidistant one ends there.
         let mercator = horizon("EPSG:3857", (19_900_000.0, 0.0)).unwrap();
-        assert!(mercator.bounds.max.x < 180.0 && mercator.bounds.min.x < 178.6, "{mercator:?}");
+        assert!(mercator.bounds.max.x > 240.0 && mercator.bounds.min.x < 120.0, "{mercator:?}");
+        let equidistant = horizon("+proj=eqc +datum=WGS84", (19_900_000.0, 0.0)).unwrap();
+        assert!(equidistant.bounds.max.x < 180.0 && equidistant.bounds.min.x < 178.7, "{equidistant:?}");
     }
 }

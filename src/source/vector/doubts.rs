@@ -13,7 +13,8 @@ pub fn doubts(crs: &Crs, features: &[Feature]) -> Vec<String> {
 }
 
 fn metres_under_degrees(features: &[Feature]) -> Option<String> {
-    let off = |p: &Plan| p.x.abs() > 540.0 || p.y.abs() > 90.0;
+    // A degree beyond a pole is the outer edge of cells, or rounding.
+    let off = |p: &Plan| p.x.abs() > 540.0 || p.y.abs() > 91.0;
     let is_wrong = |feature: &&Feature| parts_of(&feature.shape).iter().flatten().any(off);
     let mut wrong = features.iter().filter(is_wrong).map(|feature| feature.index);
     let first = wrong.next()?;

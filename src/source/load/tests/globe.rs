@@ -52,7 +52,10 @@ impl Globe {
             true => PlanSpace::local_plane(self.middle.0, self.middle.1, crs).unwrap(),
             false => PlanSpace::projected(crs).unwrap(),
         };
-        let at = plan.plan_from_geographic(lon, lat).unwrap() - scene.origin.truncate();
+        let mut at = plan.plan_from_geographic(lon, lat).unwrap() - scene.origin.truncate();
+        if self.crs == "EPSG:3857" && self.cell < 1e6 && at.x.abs() > 2e7 {
+            at.x -= 40_075_016.685_578_49_f64.copysign(at.x);
+        }
         Plan::from(at)
     }
 
@@ -229,7 +232,9 @@ fn longitudes_may_be_written_on_any_turn_and_rings_cross_the_antimeridian() {
         rectangle(539.8, -17.2, 540.0, -16.8),
     ];
     let mercator = Globe::metres("EPSG:3832", 3_339_585.0, -1_900_000.0, 20_000.0);
-    for globe in [Globe::degrees(180.0, -17.0), Globe::degrees(-180.0, -17.0), mercator] {
+    let seam = Globe::metres("EPSG:3857", 20_037_508.0, -1_920_000.0, 20_000.0);
+    let western = Globe::metres("EPSG:3857", -20_037_508.0, -1_920_000.0, 20_000.0);
+    for globe in [Globe::degrees(180.0, -17.0), Globe::degrees(-180.0, -17.0), mercator, seam, western] {
         for island in &islands {
             let scene = globe.filled(&polygon(island));
             for (lon, covered) in [(179.7, false), (179.85, true), (-179.7, false), (179.99, true)] {
@@ -248,6 +253,36 @@ fn longitudes_may_be_written_on_any_turn_and_rings_cross_the_antimeridian() {
         let (first, last) = (parts[0][0], parts[0][parts[0].len() - 1]);
         assert!((first - ends[0]).length() < 1e-3 && (last - ends[1]).length() < 1e-3, "{}", globe.crs);
         assert_eq!(parts.len(), 1);
+    }
+}
+
+#[test]
+fn a_terrain_of_the_whole_world_has_oceans_poles_and_what_crosses_its_seam() {
+    let ocean = "[[-180,-60],[0,-70],[100,-45],[180,-60],[180,90.00000000000006],[-180,90],[-180,-60]]";
+    let land = "[[170,-20],[-170,-20],[-170,10],[170,10],[170,-20]]";
+    let world =
+        [Globe::metres("EPSG:3857", 0.0, 0.0, 1e7), Globe::metres("+proj=eqc +datum=WGS84", 0.0, 0.0, 1e7)];
+    for globe in &world {
+        let scene = globe.filled(&polygon(&format!("{ocean},{land}")));
+        for (lon, lat, covered) in [
+            (169.0, 0.0, true),
+            (171.0, 0.0, false),
+            (179.0, 0.0, false),
+            (-179.0, 0.0, false),
+            (-171.0, 0.0, false),
+            (-169.0, 0.0, true),
+            (0.0, 80.0, true),
+            (-90.0, -66.5, false),
+            (0.0, -71.0, false),
+        ] {
+            assert_eq!(
+                globe.covers(&scene, lon, lat),
+                covered,
+                "{}: {lon}, {lat} {:?}",
+                globe.crs,
+                scene.notes
+            );
+        }
     }
 }
 
