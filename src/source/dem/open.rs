@@ -87,6 +87,7 @@ fn open_site(site: &Site, options: &DemOptions, converts: bool) -> Result<DemFil
         return Err(Error::new(format!("`band` = {band}, but the file has one band")));
     }
     let beside = Sidecar::beside(site, options.band.unwrap_or(1))?;
+    beside.refuse_picture()?;
     let nodata = [beside.nodata, options.nodata];
     let file = site.open()?;
     let (grid, mut masks): (Box<dyn GridFile>, _) = match (magic.as_slice(), extension.as_str()) {

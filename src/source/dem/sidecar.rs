@@ -23,6 +23,8 @@ pub(super) struct Sidecar {
     pub(super) unit: Option<VerticalUnit>,
     /// Factor and offset from samples to heights.
     pub(super) scaling: Option<(f64, f64)>,
+    /// Whether the samples are indices into a table of colours.
+    pub(super) is_palette: bool,
 }
 
 impl Sidecar {
@@ -41,6 +43,15 @@ impl Sidecar {
                 .in_file(file.path())
                 .help("it says what GDAL knows of the terrain file: correct or remove it")
         })
+    }
+
+    /// Refuses a picture of palette indices: they are no heights.
+    pub(super) fn refuse_picture(&self) -> Result<()> {
+        if !self.is_palette {
+            return Ok(());
+        }
+        Err(Error::new("the file is a picture: its samples are indices into a palette, not heights")
+            .help("name the file of heights that belongs to it"))
     }
 
     /// What a dataset of GDAL's XML says of itself and of a band.
@@ -62,6 +73,7 @@ impl Sidecar {
             nodata: xml::text_of(band, "NoDataValue").map(nodata).transpose()?,
             unit: xml::text_of(band, "UnitType").and_then(VerticalUnit::of_word),
             scaling: (factor.is_some() || offset.is_some()).then_some(scaling),
+            is_palette: xml::text_of(band, "ColorInterp") == Some("Palette"),
             ..said
         })
     }

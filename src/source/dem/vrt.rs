@@ -29,6 +29,7 @@ pub(super) fn open(site: &Site, options: &DemOptions, beside: &Sidecar, open: Op
     }
     let wanted = options.band.unwrap_or(1);
     let said = Sidecar::of(root, "VRTRasterBand", wanted)?;
+    said.refuse_picture()?;
     let size = (whole_attribute(root, "rasterXSize")?, whole_attribute(root, "rasterYSize")?);
     let place = said.place.or(beside.place);
     let frame = match (place, options.bounds) {

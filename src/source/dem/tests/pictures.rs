@@ -1,8 +1,8 @@
 //! Pictures are no heights.
 
-use super::super::DemOptions;
+use super::super::{DemOptions, read};
 use super::tiff_writer::{Kind, Tiff, Values};
-use super::{png, posts, read_bytes, refusal};
+use super::{png, posts, read_bytes, refusal, with_file};
 use crate::source::dem::PngEncoding;
 use image::{ExtendedColorType, ImageEncoder};
 
@@ -24,6 +24,16 @@ fn a_palette_or_a_photograph_is_refused_as_heights() {
         let message = refusal("a.tif", &picture.bytes(), &DemOptions::default());
         assert!(message.contains(expected) && message.contains("not heights"), "{message}");
     }
+}
+
+#[test]
+fn a_palette_that_is_kept_beside_the_file_is_one_too() {
+    let aux = "<PAMDataset><PAMRasterBand band=\"1\"><ColorInterp>Palette</ColorInterp></PAMRasterBand></PAMDataset>";
+    let message = with_file("a.tif", &tiff(Kind::U8, 1, 1).bytes(), |path| {
+        std::fs::write(path.with_file_name("a.tif.aux.xml"), aux).unwrap();
+        read(&path, &DemOptions::default()).unwrap_err().to_string()
+    });
+    assert!(message.contains("palette"), "{message}");
 }
 
 #[test]
