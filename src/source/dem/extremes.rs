@@ -29,10 +29,10 @@ impl End {
     }
 }
 
-/// Values that programs write where they know nothing.
-const CUSTOMARY: [f64; 12] = [
-    -999.0, -9999.0, -99999.0, -999_999.0, -32767.0, -32768.0, 9999.0, 32767.0, 65535.0, 99999.0, 999_999.0,
-    1e20,
+/// Values that programs write where they know nothing, and the height of a black pixel of Mapbox's encoding.
+const CUSTOMARY: [f64; 13] = [
+    -999.0, -9999.0, -10000.0, -99999.0, -999_999.0, -32767.0, -32768.0, 9999.0, 32767.0, 65535.0, 99999.0,
+    999_999.0, 1e20,
 ];
 
 impl Extremes {
@@ -53,7 +53,7 @@ impl Extremes {
     }
 
     /// A customary value for "no data" that stands apart from all other heights, and how many posts have it.
-    pub(super) fn suspect(&self) -> Option<(f64, u64)> {
+    fn suspect(&self) -> Option<(f64, u64)> {
         let Self { low, high } = self;
         let apart = |end: &End, other: &End, value: f64| {
             // The gap to the other heights against what those span.
@@ -62,6 +62,17 @@ impl Extremes {
             (CUSTOMARY.contains(&value) && is_apart).then_some((value, end.count))
         };
         apart(low, high, -low.last).or_else(|| apart(high, low, high.last))
+    }
+}
+
+impl Extremes {
+    /// What to say of a suspect value.
+    pub(super) fn note(&self) -> Option<String> {
+        let (value, count) = self.suspect()?;
+        let posts = if count == 1 { "1 height is".to_owned() } else { format!("{count} heights are") };
+        Some(format!(
+            "{posts} {value}, far from all others: if that means no data, say so: `terrain.nodata = {value}`"
+        ))
     }
 }
 

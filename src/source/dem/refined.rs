@@ -73,11 +73,8 @@ impl Refined {
         let conversion = self.conversion();
         let [a, b] = range.map(|sample| conversion.height(sample));
         let (low, high) = if a < b { (a, b) } else { (b, a) };
-        if let Some((value, count)) = extremes.suspect() {
-            self.header.notes.push(format!(
-                "{count} posts have the height {value}, far from all others: if that means no data, say so: \
-                 `terrain.nodata = {value}`"
-            ));
+        if let Some(note) = extremes.note() {
+            self.header.notes.push(note);
         } else if low < DEEPEST || high > HIGHEST {
             self.header.notes.push(format!(
                 "heights run from {low} to {high}: if that is a nodata value, declare it (`terrain.nodata = VALUE`, or \

@@ -59,8 +59,12 @@ impl Sidecar {
         let number = band.to_string();
         let mut bands = dataset.children().filter(|n| n.has_tag_name(band_tag));
         let band = bands.find(|n| n.attribute("band").unwrap_or("1") == number);
+        let srs = xml::text_of(dataset, "SRS").unwrap_or_default();
+        let of_code =
+            srs.strip_prefix("EPSG:").and_then(|code| VerticalUnit::of_crs_code(code.parse().ok()?));
         let said = Self {
-            crs: xml::text_of(dataset, "SRS").filter(|t| !t.is_empty()).map(crs),
+            unit: of_code.or_else(|| VerticalUnit::of_wkt(srs)),
+            crs: Some(srs).filter(|t| !t.is_empty()).map(crs),
             place: xml::text_of(dataset, "GeoTransform").map(place).transpose()?,
             ..Self::default()
         };
@@ -71,7 +75,7 @@ impl Sidecar {
         let scaling = (factor.unwrap_or(1.0), offset.unwrap_or(0.0));
         Ok(Self {
             nodata: xml::text_of(band, "NoDataValue").map(nodata).transpose()?,
-            unit: xml::text_of(band, "UnitType").and_then(VerticalUnit::of_word),
+            unit: xml::text_of(band, "UnitType").and_then(VerticalUnit::of_word).or(said.unit),
             scaling: (factor.is_some() || offset.is_some()).then_some(scaling),
             is_palette: xml::text_of(band, "ColorInterp") == Some("Palette"),
             ..said

@@ -1,5 +1,6 @@
 //! What a terrain file holds, for `drapery info`: read block by block, without holding it.
 
+use super::extremes::Extremes;
 use super::grid::{GridFile, RowSink};
 use super::open::{self, DemFile};
 use super::xyz::{self, Xyz};
@@ -105,11 +106,13 @@ fn describe_grid(file: &mut dyn GridFile) -> Result<DemSummary> {
 
 fn describe_points<R: Read>(file: &mut Xyz<R>) -> Result<DemSummary> {
     let mut tally = Tally::new(1);
+    let mut extremes = Extremes::NONE;
     let mut bounds = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
     let mut count = 0;
     file.each(&mut |sighting| {
         bounds = xyz::include(bounds, sighting.point.x, sighting.point.y);
         tally.take(0, 0, &[sighting.point.z]);
+        extremes.take(sighting.point.z);
         count += 1;
         Ok(())
     })?;
@@ -127,7 +130,7 @@ fn describe_points<R: Read>(file: &mut Xyz<R>) -> Result<DemSummary> {
         nodata_count: 0,
         heights: tally.heights(),
         crs_hint: None,
-        notes: Vec::new(),
+        notes: extremes.note().into_iter().collect(),
     })
 }
 

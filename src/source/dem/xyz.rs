@@ -5,6 +5,7 @@
 //! terrain's is not ours to guess. Every other line that is not three finite numbers is refused by line and column.
 
 use super::content::{Dem, MAX_POINTS};
+use super::extremes::Extremes;
 use super::failure::unreadable;
 use super::frame::show_box;
 use super::text::{BYTE_ORDER_MARK, characters, number, number_help};
@@ -42,6 +43,7 @@ impl<R: Read> Xyz<R> {
         let [x0, y0, x1, y1] =
             window.unwrap_or([f64::NEG_INFINITY, f64::NEG_INFINITY, f64::INFINITY, f64::INFINITY]);
         let mut seen = Vec::new();
+        let mut extremes = Extremes::NONE;
         let mut all = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
         self.each(&mut |sighting| {
             let World { x, y, .. } = sighting.point;
@@ -50,6 +52,7 @@ impl<R: Read> Xyz<R> {
                 if seen.len() == MAX_POINTS {
                     return Err(too_many());
                 }
+                extremes.take(sighting.point.z);
                 seen.push(sighting);
             }
             Ok(())
@@ -59,6 +62,7 @@ impl<R: Read> Xyz<R> {
             return Err(too_few(points.len(), all));
         }
         let mut notes = vec!["points say nothing of their CRS".to_owned()];
+        notes.extend(extremes.note());
         if repeated > 0 {
             notes.push(format!("{repeated} points that repeat others are left out"));
         }

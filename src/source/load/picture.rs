@@ -170,8 +170,14 @@ mod tests {
     #[test]
     fn what_is_cut_or_no_picture_is_refused() {
         let jpeg = grey_jpeg(&[10, 200, 30, 90]);
-        for bytes in [&jpeg[..jpeg.len() / 2], &jpeg[..20], b"GIF89a", b"", &encoded(ImageFormat::WebP)[..20]]
-        {
+        for bytes in [
+            &jpeg[..jpeg.len() / 2],
+            &jpeg[..jpeg.len() - 6],
+            &jpeg[..20],
+            b"GIF89a",
+            b"",
+            &encoded(ImageFormat::WebP)[..20],
+        ] {
             assert!(!read(bytes).unwrap_err().is_internal());
         }
         // A header of 65,535 x 65,535 pixels is refused before memory is set aside.

@@ -72,26 +72,24 @@ impl Bands {
     }
 }
 
-/// Refuses a picture: its samples are no heights. Three bands of bytes may be heights to who says which of them.
+/// Refuses a picture: its samples are no heights. Three bands of bytes, and samples that a table of colours is kept for without their
+/// being called indices, may be heights to who says which band holds them.
 pub(super) fn refuse_picture<R: Read + Seek>(
     directory: &Directory,
     source: &mut Source<R>,
     is_bytes: bool,
     asked: Option<usize>,
 ) -> Result<()> {
-    let what = match directory.whole(source, tag::PHOTOMETRIC)?.unwrap_or(1) {
-        2 if is_bytes && asked.is_none() => {
-            return Err(Error::new("the file is a picture: its bands are red, green and blue, not heights")
-                .help(
-                    "name it as imagery = \"FILE\"; if one of its bands does hold heights, say `band` = 1",
-                ));
-        }
-        3 => "indices into a palette",
-        5 => "shares of printing inks",
-        6 => "brightness and colour differences",
-        8 => "colours of the CIE",
+    const HELP: &str = "name the file of heights that belongs to it";
+    const UNLESS: &str = "name the file of heights that belongs to it; if a band of this one does hold heights, say `band` = 1";
+    let (what, help) = match directory.whole(source, tag::PHOTOMETRIC)?.unwrap_or(1) {
+        2 if is_bytes && asked.is_none() => ("red, green and blue", UNLESS),
+        3 => ("indices into a palette", HELP),
+        5 => ("shares of printing inks", HELP),
+        6 => ("brightness and colour differences", HELP),
+        8 => ("colours of the CIE", HELP),
+        _ if directory.has(tag::COLOR_MAP) && asked.is_none() => ("indices into a palette", UNLESS),
         _ => return Ok(()),
     };
-    Err(Error::new(format!("the file is a picture: its samples are {what}, not heights"))
-        .help("name the file of heights that belongs to it"))
+    Err(Error::new(format!("the file is a picture: its samples are {what}, not heights")).help(help))
 }

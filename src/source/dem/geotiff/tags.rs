@@ -24,6 +24,7 @@ pub(super) mod tag {
     pub(in super::super) const STRIP_LENGTHS: u16 = 279;
     pub(in super::super) const PLANAR: u16 = 284;
     pub(in super::super) const PREDICTOR: u16 = 317;
+    pub(in super::super) const COLOR_MAP: u16 = 320;
     pub(in super::super) const TILE_WIDTH: u16 = 322;
     pub(in super::super) const TILE_HEIGHT: u16 = 323;
     pub(in super::super) const TILE_OFFSETS: u16 = 324;

@@ -32,7 +32,7 @@ fn a_geotiff_in_an_archive_reads_as_beside_it_and_so_does_its_window() {
 #[test]
 fn what_lies_beside_a_file_in_its_archive_is_found() {
     let wkt = br#"GEOGCS["x",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563]]]"#;
-    let archive = packed(&[("a/g.prj", wkt), ("a/g.asc", GRID), ("b/g.prj", b"no")]);
+    let archive = packed(&[("b/g.prj", b"no"), ("a/g.prj", wkt), ("a/g.asc", GRID)]);
     let dem = read_bytes("g.zip", &archive, &DemOptions::default()).unwrap();
     assert!(format!("{:?}", dem.crs_hint).contains("WGS_1984"), "{:?}", dem.crs_hint);
     let archive = packed(&[("a.png", &png::mapbox()), ("a.pgw", b"5\n0\n0\n-5\n100\n200\n")]);

@@ -219,6 +219,20 @@ fn a_customary_value_among_ordinary_heights_is_told_and_can_be_declared() {
     assert!(read_bytes("a.tif", &deep.bytes(), &DemOptions::default()).unwrap().notes.is_empty());
 }
 
+#[test]
+fn customary_values_among_scattered_points_and_in_pixels_are_told() {
+    let points = b"0 0 101\n1 0 102\n0 1 -9999\n1 1 104\n";
+    let dem = read_bytes("a.xyz", points, &DemOptions::default()).unwrap();
+    assert!(dem.notes.iter().any(|n| n.contains("1 height is -9999")), "{:?}", dem.notes);
+    let told = with_file("a.xyz", points, |path: std::path::PathBuf| summary_notes(&path));
+    assert!(told.iter().any(|n| n.contains("-9999")), "{told:?}");
+    let mut pixels = vec![1, 134, 160].repeat(6);
+    pixels[..3].fill(0);
+    let options = DemOptions { encoding: Some(PngEncoding::Mapbox), ..DemOptions::default() };
+    let dem = read_bytes("a.png", &png::rgb(&pixels, (3, 2)), &options).unwrap();
+    assert!(dem.notes.iter().any(|n| n.contains("-10000")), "{:?}", dem.notes);
+}
+
 fn summary_notes(path: &Path) -> Vec<String> {
     describe(path, &DemOptions::default()).unwrap().notes
 }

@@ -37,6 +37,15 @@ fn a_palette_that_is_kept_beside_the_file_is_one_too() {
 }
 
 #[test]
+fn a_table_of_colours_makes_a_palette_unless_a_band_is_called_heights() {
+    let mut keyed = tiff(Kind::U8, 1, 1);
+    keyed.tags.push((320, Values::Shorts(vec![0; 768])));
+    assert!(refusal("a.tif", &keyed.bytes(), &DemOptions::default()).contains("palette"));
+    let asked = DemOptions { band: Some(1), ..DemOptions::default() };
+    assert_eq!(posts(read_bytes("a.tif", &keyed.bytes(), &asked).unwrap()).world(6, 0).z, 10.0);
+}
+
+#[test]
 fn bands_of_heights_are_read_whatever_a_writer_calls_them() {
     for heights in [tiff(Kind::U8, 1, 1), tiff(Kind::U8, 1, 0), tiff(Kind::I16, 3, 2), tiff(Kind::F32, 3, 1)]
     {

@@ -15,6 +15,11 @@ pub(super) fn mapbox() -> Vec<u8> {
     encode(&pixels, (4, 3), ExtendedColorType::Rgb8)
 }
 
+/// A PNG of 8-bit colours.
+pub(super) fn rgb(pixels: &[u8], size: (u32, u32)) -> Vec<u8> {
+    encode(pixels, size, ExtendedColorType::Rgb8)
+}
+
 fn encode(pixels: &[u8], (columns, rows): (u32, u32), kind: ExtendedColorType) -> Vec<u8> {
     let mut bytes = Vec::new();
     image::codecs::png::PngEncoder::new(&mut bytes).write_image(pixels, columns, rows, kind).unwrap();

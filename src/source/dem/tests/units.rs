@@ -45,6 +45,21 @@ fn feet_and_depths_become_metres_however_they_are_declared() {
 }
 
 #[test]
+fn a_vertical_crs_that_is_kept_beside_the_file_counts() {
+    let bytes = Tiff::new((4, 4), Kind::F32, |_, _| 1000.0).bytes();
+    let wkt =
+        "COMPD_CS[&quot;x&quot;,PROJCS[&quot;y&quot;],VERT_CS[&quot;z&quot;,UNIT[&quot;foot&quot;,0.3048]]]";
+    for srs in [wkt, "EPSG:8701"] {
+        let aux = format!("<PAMDataset><SRS>{srs}</SRS></PAMDataset>");
+        let dem = with_file("a.tif", &bytes, |path| {
+            std::fs::write(path.with_file_name("a.tif.aux.xml"), &aux).unwrap();
+            read(&path, &DemOptions::default()).unwrap()
+        });
+        assert_eq!(posts(dem).heights()[0], 304.8, "{srs}");
+    }
+}
+
+#[test]
 fn the_unit_of_a_band_wins_over_that_of_the_crs_and_metres_stay() {
     let metre = r#"<Item name="UNITTYPE" sample="0" role="unittype">metre</Item>"#;
     let dem = read_bytes("a.tif", &with_items(metre), &DemOptions::default()).unwrap();
