@@ -4,6 +4,7 @@
 //! band meets it. Where files overlap (tiles share the posts on their seams) heights are averaged, or the later file's win. Where no
 //! file has data there are no posts. It refuses files of other grids, and files that do not say their place.
 
+use super::content::MAX_POSTS;
 use super::failure::too_many_posts;
 use super::frame::{Frame, PostRange};
 use super::grid::{GridFile, Header, RowSink};
@@ -13,6 +14,18 @@ use std::path::{Path, PathBuf};
 
 /// The most posts of a band of rows that are held.
 const MOST_HELD: usize = 1 << 23;
+
+/// The longest row that is held.
+const LONGEST_ROW: usize = 1 << 26;
+
+/// The most posts that are looked at: a few words can promise more than anyone waits for.
+const MOST_POSTS: usize = 1 << 36;
+
+/// Of a large mosaic, the most posts for each that a file has.
+const MOST_GAPS: usize = 64;
+
+/// How many files may lie on one another, in the mean.
+const MOST_ABOVE: usize = 64;
 
 /// The most notes of the files that are handed on.
 const MOST_NOTES: usize = 5;
@@ -117,10 +130,24 @@ impl GridFile for Mosaic {
     }
 
     fn check_promise(&mut self, part: &PostRange) -> Result<()> {
-        if self.pieces.iter().any(|piece| piece.meeting(part).is_some()) {
-            return Ok(());
+        let met = self.pieces.iter().filter_map(|piece| piece.meeting(part));
+        let covered = met.fold(0_usize, |sum, (wanted, _)| sum.saturating_add(wanted.count()));
+        if covered == 0 {
+            return Err(
+                Error::new("none of the files has posts in the wanted part").help("choose another window")
+            );
         }
-        Err(Error::new("none of the files has posts in the wanted part").help("choose another window"))
+        let is_mostly_gaps = part.count() > MAX_POSTS && part.count() / MOST_GAPS > covered;
+        if part.columns > LONGEST_ROW || part.count() > MOST_POSTS || is_mostly_gaps {
+            return Err(too_many_posts(part));
+        }
+        if covered / MOST_ABOVE > part.count() {
+            return Err(Error::unsupported(format!(
+                "its files lie on one another more than {MOST_ABOVE} times"
+            ))
+            .help("name those that are to be seen"));
+        }
+        Ok(())
     }
 
     fn scan(&mut self, part: &PostRange, sink: &mut dyn RowSink) -> Result<()> {

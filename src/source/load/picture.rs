@@ -62,6 +62,24 @@ fn check_size(width: usize, height: usize) -> Result<()> {
         .help(format!("at most {MOST_TEXELS} in all: make the image smaller")))
 }
 
+/// Whether a JPEG's end comes after its pixels begin. (The decoder fills in what is missing.)
+fn is_whole(bytes: &[u8]) -> bool {
+    let mut at = 2;
+    while let Some(&[0xff, marker]) = bytes.get(at..at + 2) {
+        let length = match (marker, bytes.get(at + 2..at + 4)) {
+            // Among pixels, 0xff is followed by 0 or by a marker.
+            (0xda, _) => return bytes[at..].windows(2).any(|pair| pair == [0xff, 0xd9]),
+            // A filling byte, and markers without a segment.
+            (0xff, _) => 1,
+            (0x01 | 0xd0..=0xd7, _) => 2,
+            (_, Some(&[high, low])) => 2 + usize::from(u16::from_be_bytes([high, low])),
+            (_, _) => return false,
+        };
+        at += length;
+    }
+    false
+}
+
 fn jpeg(file: File) -> Result<Buffer<Color>> {
     let mut bytes = Vec::new();
     let unreadable = |error: io::Error| Error::io("the image cannot be read", error);
@@ -69,6 +87,9 @@ fn jpeg(file: File) -> Result<Buffer<Color>> {
     if bytes.len() as u64 > LONGEST_JPEG {
         return Err(Error::unsupported(format!("the JPEG has more than {LONGEST_JPEG} bytes"))
             .help("make the image smaller"));
+    }
+    if !is_whole(&bytes) {
+        return Err(Error::new("the JPEG ends too early").help("it may be half a download: fetch it again"));
     }
     let options = DecoderOptions::default()
         .jpeg_set_out_colorspace(ColorSpace::RGB)

@@ -143,6 +143,26 @@ fn what_is_more_than_plain_files_is_refused_by_name() {
 }
 
 #[test]
+fn a_few_words_cannot_promise_more_posts_than_anyone_waits_for() {
+    let wide = |text: &str| dataset(&two()).replace("rasterXSize=\"8\"", text);
+    for xml in [
+        wide("rasterXSize=\"2000000000\""),
+        wide("rasterXSize=\"9000000\"").replace("rasterYSize=\"3\"", "rasterYSize=\"2000000000\""),
+        wide("rasterXSize=\"90000\"").replace("rasterYSize=\"3\"", "rasterYSize=\"90000\""),
+    ] {
+        let message = with_files(&xml, |path| {
+            let refused =
+                [read(path, &DemOptions::default()).err(), describe(path, &DemOptions::default()).err()];
+            refused.map(|error| error.unwrap().to_string())
+        });
+        assert!(message.iter().all(|m| m.contains("are more than")), "{message:?}");
+    }
+    let many = two().repeat(70);
+    let message = read_vrt(&dataset(&many), &DemOptions::default()).unwrap_err().to_string();
+    assert!(message.contains("lie on one another"), "{message}");
+}
+
+#[test]
 fn one_that_names_itself_by_another_name_ends() {
     let xml = dataset(&source("SimpleSource", "self.tif", WHOLE, WHOLE, ""));
     let message = with_files(&xml, |path| {
