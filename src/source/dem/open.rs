@@ -122,7 +122,7 @@ fn mask_beside(site: &Site, band: Option<usize>) -> Result<Option<Box<dyn GridFi
     let Some(file) = site.with_ending(".msk")? else {
         return Ok(None);
     };
-    let open = |band| Ok::<_, Error>(GeoTiff::open_mask(file.open()?, MaskPlace::Band(band))?);
+    let open = |band| GeoTiff::open_mask(file.open()?, MaskPlace::Band(band));
     let mask = match band {
         Some(band @ 2..) => open(band - 1).or_else(|_| open(0)),
         _ => open(0),

@@ -226,7 +226,7 @@ fn customary_values_among_scattered_points_and_in_pixels_are_told() {
     assert!(dem.notes.iter().any(|n| n.contains("1 height is -9999")), "{:?}", dem.notes);
     let told = with_file("a.xyz", points, |path: std::path::PathBuf| summary_notes(&path));
     assert!(told.iter().any(|n| n.contains("-9999")), "{told:?}");
-    let mut pixels = vec![1, 134, 160].repeat(6);
+    let mut pixels = [1, 134, 160].repeat(6);
     pixels[..3].fill(0);
     let options = DemOptions { encoding: Some(PngEncoding::Mapbox), ..DemOptions::default() };
     let dem = read_bytes("a.png", &png::rgb(&pixels, (3, 2)), &options).unwrap();

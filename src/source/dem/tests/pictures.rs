@@ -60,7 +60,7 @@ fn bands_of_heights_are_read_whatever_a_writer_calls_them() {
 #[test]
 fn a_transparent_pixel_of_a_png_is_no_post_by_its_alpha_or_by_a_transparent_colour() {
     let options = DemOptions { encoding: Some(PngEncoding::Mapbox), ..DemOptions::default() };
-    let mut pixels = vec![1, 134, 160, 255].repeat(6);
+    let mut pixels = [1, 134, 160, 255].repeat(6);
     pixels[7] = 0;
     let mut bytes = Vec::new();
     let encoder = image::codecs::png::PngEncoder::new(&mut bytes);
