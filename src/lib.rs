@@ -76,6 +76,8 @@ pub mod measure;
 pub mod open;
 pub mod output;
 #[cfg(feature = "render")]
+pub(crate) mod overlay;
+#[cfg(feature = "render")]
 pub mod parallel;
 #[cfg(feature = "render")]
 pub mod parameter;

@@ -5,7 +5,7 @@
 #![cfg(feature = "render")]
 
 use drapery::buffer::Plane;
-use drapery::scene::{Shape, Surface};
+use drapery::scene::Surface;
 use drapery::scene_file::{Override, SceneFile};
 use drapery::stage::Stage;
 use drapery::technique::{self, FrameOptions, Kind};
@@ -181,8 +181,7 @@ fn reprojected(plan: &str) -> String {
         hash.update(&number.to_le_bytes());
     };
     for feature in scene.layers.iter().flat_map(|layer| &layer.features) {
-        let (Shape::Polygon(parts) | Shape::Line(parts)) = &feature.shape;
-        parts.iter().flatten().for_each(|p| [p.x, p.y].into_iter().for_each(&mut add));
+        feature.shape.parts().flatten().for_each(|p| [p.x, p.y].into_iter().for_each(&mut add));
     }
     let Surface::Grid(posts) = surface else { panic!("a grid") };
     posts.heights().iter().copied().for_each(&mut add);

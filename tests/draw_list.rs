@@ -70,6 +70,8 @@ fn shapes() -> Vec<(Shape, Has)> {
         (vec![dot.clone(), vec![dot[0]; 3]], Has::Nothing),
     ];
     let polygons = polygons.into_iter().map(|(rings, has)| (Shape::Polygon(rings), has));
+    let twice = Shape::MultiPolygon(vec![vec![square()], vec![dot.clone(), square()], vec![two]]);
+    let polygons = polygons.chain([(twice, Has::Inside)]);
     polygons.chain(lines.into_iter().map(|(lines, has)| (Shape::Line(lines), has))).collect()
 }
 
@@ -97,9 +99,13 @@ fn styles() -> Vec<Style> {
 fn is_painted(shape: &Shape, has: Has, style: &Style) -> bool {
     match shape {
         Shape::Line(_) => style.line.is_some(),
-        Shape::Polygon(_) if has == Has::Inside => style.fill.is_some() || style.outline.is_some(),
+        Shape::Polygon(_) | Shape::MultiPolygon(_) if has == Has::Inside => {
+            style.fill.is_some() || style.outline.is_some()
+        }
         // Nothing is inside.
-        Shape::Polygon(_) => style.outline.is_some_and(|outline| outline.mode != OutlineMode::Inset),
+        Shape::Polygon(_) | Shape::MultiPolygon(_) => {
+            style.outline.is_some_and(|outline| outline.mode != OutlineMode::Inset)
+        }
     }
 }
 
@@ -119,8 +125,7 @@ fn truth_and_techniques_paint_the_same_items_of_every_shape_in_every_style_of_on
             let x = (column * CELL + CELL / 2) as f64 - width as f64 / 2.0;
             let y = height as f64 / 2.0 - (row * CELL + CELL / 2) as f64;
             let mut shape = shape.clone();
-            let (Shape::Polygon(parts) | Shape::Line(parts)) = &mut shape;
-            parts.iter_mut().flatten().for_each(|p| *p = Plan::new(p.x + x, p.y + y));
+            shape.parts_mut().flatten().for_each(|p| *p = Plan::new(p.x + x, p.y + y));
             expected.push((is_painted(&shape, *has, style), *has));
             features.push(Feature { index: features.len(), style: column as u32, shape });
         }

@@ -23,11 +23,12 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("space", &[]),
     ("predicate", &["space"]),
     ("index", &["space", "parallel", "tiling"]),
+    ("overlay", &["space", "predicate", "index", "parallel"]),
     ("crs", &["space"]),
     ("parameter", &[]),
     ("scene", &["space", "parameter", "buffer"]),
     ("terrain", &["scene", "space", "index", "parallel"]),
-    ("draw_list", &["scene", "space", "parallel"]),
+    ("draw_list", &["scene", "space", "overlay", "parallel"]),
     ("stage", &["draw_list", "terrain", "scene", "space"]),
     ("raster", &["terrain", "scene", "space", "predicate", "parallel"]),
     (
@@ -60,7 +61,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ),
     // The techniques for their declarations.
     ("scene_file", &["technique", "scene", "space", "parameter"]),
-    ("source", &["scene_file", "scene", "space", "crs", "buffer", "parallel"]),
+    ("source", &["scene_file", "scene", "space", "overlay", "crs", "buffer", "parallel"]),
     ("output", &["buffer"]),
     ("interval", &[]),
     ("footprint", &["draw_list", "terrain", "scene", "space", "interval", "predicate", "index", "parallel"]),

@@ -92,18 +92,14 @@ fn scene(terrain: &str, vectors: &[&str]) -> String {
 }
 
 fn vertices(layer: &Layer) -> usize {
-    let count = |shape: &Shape| match shape {
-        Shape::Polygon(parts) | Shape::Line(parts) => parts.iter().map(Vec::len).sum::<usize>(),
-    };
+    let count = |shape: &Shape| shape.parts().map(Vec::len).sum::<usize>();
     layer.features.iter().map(|f| count(&f.shape)).sum()
 }
 
 /// The first vertex of the feature with this number, absolute.
 fn start(scene: &Scene, layer: usize, index: usize) -> Plan {
     let feature = scene.layers[layer].features.iter().find(|f| f.index == index).unwrap();
-    match &feature.shape {
-        Shape::Polygon(parts) | Shape::Line(parts) => parts[0][0] + scene.origin.truncate(),
-    }
+    feature.shape.parts().next().unwrap()[0] + scene.origin.truncate()
 }
 
 fn near(a: Plan, b: (f64, f64), metres: f64) {
@@ -217,9 +213,7 @@ fn gredos_has_its_watersheds_on_cell_corners() {
         (off - off.round()).abs().max_element() < 1e-9
     };
     let features = &scene.layers[0].features;
-    let all = features.iter().flat_map(|f| match &f.shape {
-        Shape::Polygon(parts) | Shape::Line(parts) => parts.iter().flatten().copied(),
-    });
+    let all = features.iter().flat_map(|f| f.shape.parts().flatten().copied());
     let (on, count) = all.fold((0, 0), |(on, count), p| (on + usize::from(on_corner(p)), count + 1));
     assert!(on * 100 > count * 95, "{on} of {count} vertices");
 }
@@ -333,10 +327,9 @@ fn roads_of_two_types_are_drawn_the_longest_on_top() {
     let layer = &scene.layers[0];
     assert_eq!((layer.features.len(), layer.styles.len()), (23, 2));
     let length = |shape: &Shape| {
-        let (Shape::Polygon(parts) | Shape::Line(parts)) = shape;
         let of_part =
             |part: &Vec<Plan>| part.windows(2).map(|pair| (pair[1] - pair[0]).length()).sum::<f64>();
-        parts.iter().map(of_part).sum::<f64>()
+        shape.parts().map(of_part).sum::<f64>()
     };
     assert!(layer.features.iter().is_sorted_by_key(|feature| length(&feature.shape)));
 }

@@ -348,8 +348,14 @@ fn varied(k: usize) -> (Scene, Surface) {
         }),
         line: None,
     };
+    // The members of every other lake overlap, across a hole.
+    let cove: &[(f64, f64)] = &[(-16.0, -12.0), (12.0, -12.0), (12.0, 16.0), (-16.0, 16.0)];
+    let lake_shape = match k % 2 {
+        0 => Shape::Polygon(vec![plan(ring), plan(hole)]),
+        _ => Shape::MultiPolygon(vec![vec![plan(ring), plan(hole)], vec![plan(cove)]]),
+    };
     let layers = vec![
-        layer(Shape::Polygon(vec![plan(ring), plan(hole)]), lake),
+        layer(lake_shape, lake),
         line(road, road_line),
         line(&[(-40.0, -40.0), (40.0, 40.0)], Line { width: Width::Pixels(1.5), ..stroke(1.0) }),
     ];
@@ -548,10 +554,17 @@ mod brute_force {
                             paint = over(scene, paint, line.color);
                         }
                     }
-                    Shape::Polygon(rings) => {
+                    Shape::Polygon(_) | Shape::MultiPolygon(_) => {
                         let fill = style.fill.as_ref();
-                        let turns = winding(rings, seen.plan);
-                        let inside = fill.map_or(Rule::EvenOdd, |f| f.rule).contains(turns);
+                        let rule = fill.map_or(Rule::EvenOdd, |f| f.rule);
+                        let inside = match &feature.shape {
+                            Shape::MultiPolygon(members) => {
+                                members.iter().any(|rings| rule.contains(winding(rings, seen.plan)))
+                            }
+                            shape => {
+                                rule.contains(winding(&shape.parts().cloned().collect::<Vec<_>>(), seen.plan))
+                            }
+                        };
                         if let Some(fill) = fill.filter(|_| inside) {
                             paint = over(scene, paint, fill.color);
                         }
@@ -561,7 +574,8 @@ mod brute_force {
                                 OutlineMode::Normal => true,
                                 OutlineMode::Offset => !inside,
                             };
-                            if wanted && rings.iter().any(|r| in_stroke(r, true, &outline.line, &seen)) {
+                            let mut rings = feature.shape.parts();
+                            if wanted && rings.any(|r| in_stroke(r, true, &outline.line, &seen)) {
                                 paint = over(scene, paint, outline.line.color);
                             }
                         }

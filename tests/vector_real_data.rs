@@ -5,7 +5,7 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout)] // helpers of tests may stop a test and say what is skipped
 
 use drapery::crs::{Crs, PlanSpace};
-use drapery::scene::{Attribute, Shape};
+use drapery::scene::Attribute;
 use drapery::source::vector::{ColumnSummary, VectorSummary, describe, doubts, read, read_columns};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -127,8 +127,7 @@ fn vectors_in_degrees_meet_the_terrain_of_the_same_place_in_metres() {
         let plan = PlanSpace::projected(Crs::from_epsg(32733).unwrap()).unwrap();
         let map = plan.plan_from(&roads.crs.unwrap()).unwrap();
         for feature in &roads.features {
-            let (Shape::Line(parts) | Shape::Polygon(parts)) = &feature.shape;
-            for p in parts.iter().flatten() {
+            for p in feature.shape.parts().flatten() {
                 let q = map.apply(p.to_vec()).unwrap();
                 // The bounds of swellendam/srtm_41_19.tif.
                 assert!((969_491.3..1_038_119.8).contains(&q.x) && (6_196_099.3..6_250_297.0).contains(&q.y));

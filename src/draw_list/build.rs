@@ -4,6 +4,7 @@ use super::style::{StyleParts, StyleTable};
 use super::vertices::{Ends, add_distinct, are_distinct};
 use super::{Chain, DrawList, Item, ItemStyle};
 use crate::error::{Error, Result};
+use crate::overlay::union_border;
 use crate::parallel;
 use crate::scene::{Feature, Layer, Shape};
 use crate::space::Plan;
@@ -44,8 +45,8 @@ pub(super) fn of_layers(layers: &mut [Layer]) -> Result<DrawList> {
         if some.is_empty() {
             break;
         }
-        let made = parallel::map_owned(some, |block| made(&parts[block.layer], block));
-        made.into_iter().try_for_each(|block| all.append(block))?;
+        let made = parallel::map_owned(some, |block| made((&table.styles, &parts[block.layer]), block));
+        made.into_iter().try_for_each(|block| all.append(block?))?;
     }
     all.take_styles(&table.styles);
     Ok(all)
@@ -66,7 +67,7 @@ fn blocks(layers: &mut [Layer]) -> Vec<Block> {
 }
 
 /// What a block becomes.
-fn made(parts: &[StyleParts], block: Block) -> DrawList {
+fn made((styles, parts): (&[ItemStyle], &[StyleParts]), block: Block) -> Result<DrawList> {
     let mut list = DrawList::default();
     list.vertices.reserve_exact(block.features.iter().map(|feature| vertices_of(&feature.shape)).sum());
     for (k, feature) in block.features.into_iter().enumerate() {
@@ -76,21 +77,28 @@ fn made(parts: &[StyleParts], block: Block) -> DrawList {
             number: feature.index as u32,
             style: 0,
             area: 0..0,
+            border: 0..0,
             strokes: 0..0,
         };
         let style = &parts[feature.style as usize];
         match feature.shape {
-            Shape::Polygon(rings) => list.add_polygon(item, style, &rings),
+            Shape::Polygon(rings) => list.add_polygon(item, style, &[rings], None),
+            Shape::MultiPolygon(members) => {
+                let border = style
+                    .area_rule(styles)
+                    .map_or(Ok(None), |rule| union_border(&members, &|turns| rule.contains(turns)));
+                let border = border.map_err(|error| error.in_feature(feature.index))?;
+                list.add_polygon(item, style, &members, border.as_deref());
+            }
             Shape::Line(lines) => list.add_line(item, style, &lines),
         }
     }
-    list
+    Ok(list)
 }
 
 /// How many vertices of a shape are held, if none is left out or held twice.
 fn vertices_of(shape: &Shape) -> usize {
-    let (Shape::Polygon(parts) | Shape::Line(parts)) = shape;
-    parts.iter().map(|part| part.len() + 1).sum()
+    shape.parts().map(|part| part.len() + 1).sum()
 }
 
 /// Whether so many can be numbered.
@@ -106,48 +114,68 @@ impl DrawList {
     fn add_line(&mut self, item: Item, style: &StyleParts, lines: &[Vec<Plan>]) {
         let Some(style) = style.line else { return };
         let first = self.chains.len();
-        for (part, line) in lines.iter().enumerate() {
-            self.add_stroke(part, line, Ends::AsWritten);
+        for (part, line) in (0..).zip(lines) {
+            self.add_stroke((part, 0), line, Ends::AsWritten);
         }
         self.items.push(Item { style, strokes: self.chains_from(first), ..item });
     }
 
-    fn add_polygon(&mut self, item: Item, style: &StyleParts, rings: &[Vec<Plan>]) {
+    /// Adds the items of polygons, given by their members, and by the border of their union where members overlap.
+    fn add_polygon(
+        &mut self,
+        item: Item,
+        style: &StyleParts,
+        members: &[Vec<Vec<Plan>>],
+        union: Option<&[Vec<Plan>]>,
+    ) {
         let first = self.chains.len();
-        if style.fill.is_some() || style.is_cut {
-            self.add_borders(rings);
+        if style.has_area() {
+            let mut part = 0;
+            for (member, rings) in (0..).zip(members) {
+                self.add_rings(rings, member, part);
+                part += rings.len() as u32;
+            }
         }
         let area = self.chains_from(first);
+        let border = union.map_or_else(
+            || area.clone(),
+            |rings| {
+                let first = self.chains.len();
+                self.add_rings(rings, 0, 0);
+                self.chains_from(first)
+            },
+        );
+        let with_area = Item { area: area.clone(), border, ..item.clone() };
         if let Some(style) = style.fill {
-            self.items.push(Item { style, area: area.clone(), ..item.clone() });
+            self.items.push(Item { style, ..with_area.clone() });
         }
         let is_cut = style.is_cut;
         let Some(style) = style.outline else { return };
-        let strokes = self.add_outline(rings, &area);
-        let area = if is_cut { area } else { 0..0 };
-        self.items.push(Item { style, area, strokes, ..item });
+        let strokes = self.add_outline(members, &area);
+        self.items.push(Item { style, strokes, ..if is_cut { with_area } else { item } });
     }
 
-    fn add_borders(&mut self, rings: &[Vec<Plan>]) {
-        let rings = rings.iter().enumerate().filter(|(_, ring)| ring.len() >= FEWEST_OF_A_BORDER);
-        for (part, ring) in rings {
+    /// Adds rings that can bound something, numbered from `part` on.
+    fn add_rings(&mut self, rings: &[Vec<Plan>], member: u32, part: u32) {
+        for (part, ring) in (part..).zip(rings).filter(|(_, ring)| ring.len() >= FEWEST_OF_A_BORDER) {
             let first = self.vertices.len() as u32;
             self.vertices.extend(ring);
             self.vertices.push(ring[0]);
-            let (count, part) = (ring.len() as u32, part as u32);
-            self.chains.push(Chain { first, count, part, is_closed: true });
+            self.chains.push(Chain { first, count: ring.len() as u32, part, member, is_closed: true });
         }
     }
 
-    /// Adds the strokes along rings: along those of the area where their vertices are distinct.
-    fn add_outline(&mut self, rings: &[Vec<Plan>], area: &Range<u32>) -> Range<u32> {
+    /// Adds the strokes along the rings of all members: along those of the area where their vertices are distinct.
+    fn add_outline(&mut self, members: &[Vec<Vec<Plan>>], area: &Range<u32>) -> Range<u32> {
         let first = self.chains.len();
         let mut borders = area.clone();
-        for (part, ring) in rings.iter().enumerate() {
+        let rings =
+            (0..).zip(members).flat_map(|(member, rings)| rings.iter().map(move |ring| (member, ring)));
+        for (part, (member, ring)) in (0..).zip(rings) {
             let own = if ring.len() >= FEWEST_OF_A_BORDER { borders.next() } else { None };
             match own.filter(|_| are_distinct(ring)) {
                 Some(border) => self.chains.push(self.chains[border as usize]),
-                None => self.add_stroke(part, ring, Ends::Joined),
+                None => self.add_stroke((part, member), ring, Ends::Joined),
             }
         }
         if self.chains[first..] == self.chains[area.start as usize..area.end as usize] {
@@ -157,11 +185,11 @@ impl DrawList {
         self.chains_from(first)
     }
 
-    fn add_stroke(&mut self, part: usize, points: &[Plan], ends: Ends) {
+    fn add_stroke(&mut self, (part, member): (u32, u32), points: &[Plan], ends: Ends) {
         if !points.is_empty() {
             let first = self.vertices.len() as u32;
             let (count, is_closed) = add_distinct(points, ends, &mut self.vertices);
-            self.chains.push(Chain { first, count, part: part as u32, is_closed });
+            self.chains.push(Chain { first, count, part, member, is_closed });
         }
     }
 
@@ -191,6 +219,7 @@ impl DrawList {
         let items = block.items.into_iter();
         self.items.extend(items.map(|item| Item {
             area: moved(&item.area),
+            border: moved(&item.border),
             strokes: moved(&item.strokes),
             ..item
         }));

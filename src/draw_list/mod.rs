@@ -5,7 +5,10 @@
 //! about coverage, so that the truth may stand on it and yet share no decision with what it judges. What it does decide:
 //! - *Items.* A polygon makes a fill, if its style has one, and over it an outline, if it has one; a line makes a line. A feature whose
 //!   style has nothing for it makes nothing. An item's number is its place in the list.
-//! - *Borders.* An area is bounded by its feature's rings as they are, without those of fewer than three vertices, which enclose nothing.
+//! - *Areas.* An area has its feature's rings as they are, member by member, without those of fewer than three vertices, which enclose
+//!   nothing. What is inside of any member is inside.
+//! - *Borders.* Techniques know no members: where some overlap they draw what one border bounds ([`crate::overlay`]), else the rings as they
+//!   are. Who judges them reads the members.
 //! - *Strokes.* Consecutive vertices that are [the same](SAME_VERTEX) are one. A line that ends where it begins and has three distinct vertices
 //!   is a ring: joined there, without caps; with fewer it runs there and back. A ring of an outline is closed, one of two vertices there
 //!   and back; one of a single vertex is a dot, and so is a line of one.
@@ -36,8 +39,10 @@ pub struct Item {
     pub number: u32,
     /// Its style, among [`DrawList::styles`].
     pub style: u32,
-    /// The chains that bound its area; none where no area does.
+    /// The rings of its area, one member after the other; none where it has none.
     pub area: Range<u32>,
+    /// The rings that bound its area, taken together: those of the area, but where members overlap.
+    pub border: Range<u32>,
     /// The chains that its stroke follows; none of a fill.
     pub strokes: Range<u32>,
 }
@@ -49,8 +54,10 @@ pub struct Chain {
     pub first: u32,
     /// How many there are, each counted once: at least one.
     pub count: u32,
-    /// Which ring or polyline of its feature it is, from 0.
+    /// Which ring or polyline of its feature it is, from 0; of a border that is not its area's own, which ring of the border.
     pub part: u32,
+    /// Which member of its feature's polygons it is a ring of, from 0.
+    pub member: u32,
     /// Whether the last vertex is joined to the first, which then stands once more after it.
     pub is_closed: bool,
 }
@@ -106,9 +113,14 @@ impl DrawList {
         &self.styles[self.items[item as usize].style as usize]
     }
 
-    /// The rings that bound an item's area.
+    /// The rings of an item's area as they are: what its style's rule has inside of those of any member is inside.
     pub fn area(&self, item: &Item) -> &[Chain] {
         &self.chains[item.area.start as usize..item.area.end as usize]
+    }
+
+    /// The rings that bound an item's area, for who knows no members: inside is what its style's rule says of all of them.
+    pub fn border(&self, item: &Item) -> &[Chain] {
+        &self.chains[item.border.start as usize..item.border.end as usize]
     }
 
     /// The chains that an item's stroke follows.

@@ -78,6 +78,19 @@ pub(super) struct StyleParts {
     pub(super) line: Option<u32>,
 }
 
+impl StyleParts {
+    /// Whether its polygons' area counts: it is filled, or an outline is cut to it.
+    pub(super) fn has_area(&self) -> bool {
+        self.fill.is_some() || self.is_cut
+    }
+
+    /// Which windings are inside of its polygons, if their area counts.
+    pub(super) fn area_rule(&self, styles: &[ItemStyle]) -> Option<Rule> {
+        let style = self.fill.or(self.outline).filter(|_| self.has_area())?;
+        Some(styles[style as usize].rule)
+    }
+}
+
 /// Styles of items, each once.
 #[derive(Debug, Default)]
 pub(super) struct StyleTable {

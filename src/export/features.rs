@@ -90,11 +90,37 @@ fn hex(color: Color) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
+/// Lines, or rings: those of a multi-polygon by its members where these overlap, else all in one polygon.
 fn write_geometry(list: &DrawList, items: &[Item], origin: DVec2, to: &mut dyn Write) -> io::Result<()> {
     let is_line = items.iter().any(|item| list.styles()[item.style as usize].role == Role::Line);
-    let kind = if is_line { "MultiLineString" } else { "Polygon" };
+    let is_united = items.iter().any(|item| item.border != item.area);
+    let kind = match (is_line, is_united) {
+        (true, _) => "MultiLineString",
+        (false, true) => "MultiPolygon",
+        (false, false) => "Polygon",
+    };
     write!(to, "{{\"type\":\"{kind}\",\"coordinates\":[")?;
-    for (k, part) in parts(list, items).iter().enumerate() {
+    let parts = parts(list, items);
+    if is_united {
+        for (k, rings) in parts.chunk_by(|a, b| a.member == b.member).enumerate() {
+            write!(to, "{}[", if k == 0 { "" } else { "," })?;
+            write_parts(list, rings, is_line, origin, to)?;
+            write!(to, "]")?;
+        }
+    } else {
+        write_parts(list, &parts, is_line, origin, to)?;
+    }
+    write!(to, "]}}")
+}
+
+fn write_parts(
+    list: &DrawList,
+    parts: &[Chain],
+    is_line: bool,
+    origin: DVec2,
+    to: &mut dyn Write,
+) -> io::Result<()> {
+    for (k, part) in parts.iter().enumerate() {
         write!(to, "{}[", if k == 0 { "" } else { "," })?;
         // Rings of a polygon are closed, even those of a single vertex.
         let path = list.path_of(part);
@@ -105,7 +131,7 @@ fn write_geometry(list: &DrawList, items: &[Item], origin: DVec2, to: &mut dyn W
         }
         write!(to, "]")?;
     }
-    write!(to, "]}}")
+    Ok(())
 }
 
 /// The lines or rings of a feature in their order: borders where it has an area; what only its outline has by the outline's stroke.
@@ -158,6 +184,20 @@ mod tests {
         assert_eq!(rings(style(OutlineMode::Inset, false)), as_is);
         let distinct = with("[[100.0,0.0],[104.0,0.0],[100.0,4.0],[100.0,0.0]]");
         assert_eq!(rings(style(OutlineMode::Normal, false)), distinct, "nothing but the stroke is drawn");
+    }
+
+    #[test]
+    fn members_that_overlap_are_a_multi_polygon_and_others_one_polygon() {
+        let triangle = |x: f64| vec![plan(&[(x, 0.0), (x + 4.0, 0.0), (x, 4.0)])];
+        let geometry = |x: f64| {
+            let shape = Shape::MultiPolygon(vec![triangle(0.0), triangle(x)]);
+            written(style(OutlineMode::Normal, true), vec![shape])["features"][0]["geometry"].clone()
+        };
+        let (over, beside) = (geometry(1.0), geometry(4.0));
+        assert_eq!((over["type"].as_str(), beside["type"].as_str()), (Some("MultiPolygon"), Some("Polygon")));
+        let second = "[[[101.0,0.0],[105.0,0.0],[101.0,4.0],[101.0,0.0]]]";
+        assert_eq!(over["coordinates"][1].to_string(), second);
+        assert_eq!(beside["coordinates"].as_array().map(Vec::len), Some(2));
     }
 
     #[test]

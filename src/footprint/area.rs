@@ -1,8 +1,9 @@
-//! Exact winding numbers of a polygon, by buckets of its height.
+//! Whether a point lies in a polygon, by exact winding numbers and buckets of its height.
 
 use crate::draw_list::{DrawList, Item};
 use crate::index::CellLists;
 use crate::predicate::orient2d;
+use crate::scene::Rule;
 use crate::space::{Plan, PlanBox};
 use std::ops::Range;
 
@@ -16,6 +17,8 @@ pub(super) struct Area {
     bounds: PlanBox,
     /// The first points of edges, by bucket.
     edges: CellLists<u32>,
+    /// Behind which points each member's edges end.
+    member_ends: Vec<u32>,
 }
 
 /// A range of y cut into buckets.
@@ -60,7 +63,9 @@ impl Area {
                 heights.buckets_of(points, k).for_each(|bucket| edges.put(bucket, k));
             }
         });
-        Self { heights, bounds, edges }
+        let chains = list.area(item).chunk_by(|a, b| a.member == b.member);
+        let ends = chains.filter_map(|rings| rings.last()).map(|ring| ring.first + ring.count);
+        Self { heights, bounds, edges, member_ends: ends.collect() }
     }
 
     /// The box around it.
@@ -69,18 +74,26 @@ impl Area {
     }
 
     pub(super) fn bytes(&self) -> usize {
-        size_of::<Self>() + self.edges.bytes()
+        size_of::<Self>() + self.edges.bytes() + size_of_val(&self.member_ends[..])
     }
 
-    /// How often the rings turn around a point that lies on none of them: a ray to the east counts the edges that it crosses,
-    /// half-open, each side decided exactly.
-    pub(super) fn winding(&self, points: &[Plan], at: Plan) -> i32 {
+    /// Whether the rule has a point that lies on no ring inside of any member: a ray to the east counts the edges of each that it
+    /// crosses, half-open, each side decided exactly.
+    pub(super) fn holds(&self, points: &[Plan], rule: Rule, at: Plan) -> bool {
         let inside = self.bounds.min.y <= at.y && at.y <= self.bounds.max.y;
         if !inside || at.x > self.bounds.max.x || at.x < self.bounds.min.x {
-            return 0;
+            return false;
         }
-        let mut turns = 0;
+        let (mut turns, mut member) = (0, 0);
         for &k in self.edges.of(self.heights.bucket(at.y)) {
+            // A cell has its edges in the order of their members.
+            if self.member_ends.get(member).is_some_and(|end| *end <= k) {
+                if rule.contains(turns) {
+                    return true;
+                }
+                turns = 0;
+                member += self.member_ends[member..].partition_point(|end| *end <= k);
+            }
             let (from, to) = (points[k as usize], points[k as usize + 1]);
             if (from.y <= at.y) != (to.y <= at.y) {
                 let side = orient2d(from, to, at);
@@ -91,6 +104,6 @@ impl Area {
                 }
             }
         }
-        turns
+        rule.contains(turns)
     }
 }

@@ -149,8 +149,8 @@ impl<'l> Footprints<'l> {
     /// Whether an item's polygon holds a point that lies on none of its edges, exactly; false for an item without one.
     pub fn polygon_holds(&self, item: u32, at: Plan) -> bool {
         let area = self.areas.get(self.area_of[item as usize] as usize);
-        let turns = |area: &Area| area.winding(self.list.vertices(), at);
-        area.is_some_and(|area| self.list.style_of(item).rule.contains(turns(area)))
+        let rule = self.list.style_of(item).rule;
+        area.is_some_and(|area| area.holds(self.list.vertices(), rule, at))
     }
 
     /// What a part is made of.

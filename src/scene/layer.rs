@@ -66,10 +66,37 @@ pub struct Feature {
 /// point, segments of no length, overlaps.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Shape {
-    /// The rings of a polygon or of all parts of a multi-polygon; the layer's rule says what is inside.
+    /// The rings of a polygon; the layer's rule says what is inside.
     Polygon(Vec<Vec<Plan>>),
+    /// The rings of each member of a multi-polygon: the rule says what is inside a member, and what is inside any of them is inside.
+    MultiPolygon(Vec<Vec<Vec<Plan>>>),
     /// The polylines of a (multi-)line.
     Line(Vec<Vec<Plan>>),
+}
+
+impl Shape {
+    /// Whether it bounds an area.
+    pub fn is_area(&self) -> bool {
+        matches!(self, Self::Polygon(_) | Self::MultiPolygon(_))
+    }
+
+    /// Its rings or polylines, those of all members one after the other.
+    pub fn parts(&self) -> impl Iterator<Item = &Vec<Plan>> + Clone {
+        let (own, members): (&[Vec<Plan>], &[Vec<Vec<Plan>>]) = match self {
+            Self::Polygon(parts) | Self::Line(parts) => (parts, &[]),
+            Self::MultiPolygon(members) => (&[], members),
+        };
+        own.iter().chain(members.iter().flatten())
+    }
+
+    /// The same to be changed in place.
+    pub fn parts_mut(&mut self) -> impl Iterator<Item = &mut Vec<Plan>> {
+        let (own, members): (&mut [Vec<Plan>], &mut [Vec<Vec<Plan>>]) = match self {
+            Self::Polygon(parts) | Self::Line(parts) => (parts, &mut []),
+            Self::MultiPolygon(members) => (&mut [], members),
+        };
+        own.iter_mut().chain(members.iter_mut().flatten())
+    }
 }
 
 /// How a layer's features look. Polygons take `fill` and `outline`, lines take `line`.

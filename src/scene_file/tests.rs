@@ -4,7 +4,7 @@ mod by_column;
 
 use super::*;
 use crate::parameter::{Shape as KeyShape, TableShape};
-use crate::scene::{Attribute, Color, Join, Projection, Shape};
+use crate::scene::{Attribute, Color, Join, Projection};
 use crate::technique::{inverse_projection, stencil_volume};
 use glam::DVec3;
 use proptest::prelude::*;
@@ -337,10 +337,7 @@ fn a_polygon_is_one_ring_or_several_by_depth_and_loses_its_closing_vertex() {
     let LayerSource::Inline(features) = parse(&text).unwrap().layers.remove(0).source else {
         panic!("not inline")
     };
-    let lengths = |feature: &InlineFeature| {
-        let (Shape::Polygon(paths) | Shape::Line(paths)) = &feature.shape;
-        paths.iter().map(Vec::len).collect()
-    };
+    let lengths = |feature: &InlineFeature| feature.shape.parts().map(Vec::len).collect();
     let lengths: Vec<Vec<usize>> = features.iter().map(lengths).collect();
     assert_eq!(lengths, [vec![3], vec![3, 3], vec![2, 2]]);
 }

@@ -1,7 +1,7 @@
 //! A camera for a first picture: from the south, the terrain (or what the layers show of it) as large as the picture.
 
 use drapery::math::{atan, max, min, tan};
-use drapery::scene::{Feature, Scene, Shape, Surface};
+use drapery::scene::{Feature, Scene, Surface};
 use drapery::space::{Plan, PlanBox, World};
 use glam::DVec3;
 
@@ -170,8 +170,7 @@ fn subject<'a>(whole: &PlanBox, features: impl Iterator<Item = &'a Feature>) -> 
     let (low, high) = (whole.min.to_vec(), whole.max.to_vec());
     let mut seen = PlanBox::EMPTY;
     for feature in features {
-        let (Shape::Polygon(parts) | Shape::Line(parts)) = &feature.shape;
-        let of = PlanBox::around(parts.iter().flatten().copied());
+        let of = PlanBox::around(feature.shape.parts().flatten().copied());
         if of.meets(whole) {
             seen.include(Plan::from(of.min.to_vec().clamp(low, high)));
             seen.include(Plan::from(of.max.to_vec().clamp(low, high)));

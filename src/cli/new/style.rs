@@ -5,7 +5,7 @@ use super::framing::{Framing, two_digits};
 use super::theme::{Look, Theme, shaded, written};
 use crate::cli::written::{key, quoted_text};
 use drapery::math::{max, min};
-use drapery::scene::{Feature, Shape};
+use drapery::scene::Feature;
 use drapery::space::{Plan, PlanBox};
 
 /// Borders are so many pixels wide.
@@ -54,13 +54,12 @@ impl Measures {
         let mut measures = Self::default();
         let mut extents = Vec::new();
         for feature in features {
-            let (Shape::Polygon(parts) | Shape::Line(parts)) = &feature.shape;
-            let bounds = PlanBox::around(parts.iter().flatten().copied());
+            let bounds = PlanBox::around(feature.shape.parts().flatten().copied());
             if !bounds.meets(plan) {
                 continue;
             }
-            let length: f64 = parts.iter().map(|part| length_within(part, plan)).sum();
-            if matches!(feature.shape, Shape::Line(_)) {
+            let length: f64 = feature.shape.parts().map(|part| length_within(part, plan)).sum();
+            if !feature.shape.is_area() {
                 measures.lines += length;
             } else {
                 let size = bounds.max - bounds.min;

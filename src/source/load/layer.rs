@@ -15,7 +15,7 @@ use crate::scene::{Feature, Layer, Shape};
 use crate::scene_file::{DataFile, InlineFeature, LayerSource, LayerSpec, SceneFile, VectorGenerator};
 use crate::source::vector::is_drawable;
 use crate::source::{generate, vector};
-use crate::space::{Plan, PlanBox};
+use crate::space::PlanBox;
 use glam::DVec2;
 
 /// A chord may be off the curve that it stands for by this share of the terrain's cell.
@@ -88,7 +88,7 @@ fn inline<'a>(
     written: &[InlineFeature],
     terrain: &Terrain,
 ) -> Result<Found<'a>> {
-    let is_broken = |InlineFeature { shape, .. }: &_| !parts(shape).all(|part| is_drawable(shape, part));
+    let is_broken = |InlineFeature { shape, .. }: &_| !shape.parts().all(|part| is_drawable(shape, part));
     if let Some(index) = written.iter().position(is_broken) {
         let what = "a ring of fewer than 3 points or a line of fewer than 2 can not be drawn";
         let error = Error::new(what).help("write all corners of the ring, all points of the line");
@@ -128,7 +128,7 @@ fn from_file<'a>(
     named.require()?;
     let blame = |error| named.blame(error);
     let mut file = vector::read_columns(named.path(), layer, &spec.columns()).map_err(blame)?;
-    if !file.features.iter().any(|f| parts(&f.shape).any(|part| is_drawable(&f.shape, part))) {
+    if !file.features.iter().any(|f| f.shape.parts().any(|part| is_drawable(&f.shape, part))) {
         let told = if file.notes.is_empty() { "it is empty".into() } else { file.notes.join("; ") };
         let error = Error::new(format!("nothing in this layer can be drawn: {told}"));
         return Err(blame(error.help("leave the layer out, or give a file with polygons or lines")));
@@ -145,12 +145,6 @@ fn from_file<'a>(
 fn stated_crs(scene: &SceneFile, spec: &LayerSpec) -> Result<Option<Crs>> {
     let stated = spec.crs.as_ref().map(|text| Crs::parse(text)).transpose();
     stated.map_err(|error| of_key(scene, &format!("layer.{}.crs", spec.name), error))
-}
-
-/// The rings or polylines of a shape.
-fn parts(shape: &Shape) -> impl Iterator<Item = &Vec<Plan>> {
-    let (Shape::Polygon(parts) | Shape::Line(parts)) = shape;
-    parts.iter()
 }
 
 /// How the layer's coordinates become plan coordinates, with a note where that is worth one.
@@ -183,6 +177,5 @@ fn map(own: Option<Crs>, terrain: &Terrain, file: &DataFile, notes: &mut Vec<Str
 
 /// The box around a shape.
 pub(super) fn bounds(shape: &Shape) -> PlanBox {
-    let (Shape::Polygon(parts) | Shape::Line(parts)) = shape;
-    PlanBox::around(parts.iter().flatten().copied())
+    PlanBox::around(shape.parts().flatten().copied())
 }

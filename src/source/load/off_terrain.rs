@@ -39,18 +39,19 @@ fn reach(line: Line) -> Option<f64> {
 
 fn can_touch(feature: &Feature, style: &Style, terrain: &PlanBox) -> bool {
     let stroke = match &feature.shape {
-        Shape::Polygon(_) => style.outline.map(|outline| outline.line),
+        Shape::Polygon(_) | Shape::MultiPolygon(_) => style.outline.map(|outline| outline.line),
         Shape::Line(_) => style.line,
     };
     let Some(reach) = stroke.map_or(Some(0.0), reach) else { return true };
     let around = terrain.grown(reach);
-    match &feature.shape {
-        Shape::Line(parts) => parts.iter().any(|part| edges(part, false).any(|edge| meets(edge, &around))),
-        Shape::Polygon(rings) => {
-            rings.iter().any(|ring| edges(ring, true).any(|edge| meets(edge, &around)))
-                || style.fill.is_some_and(|fill| holds(rings, fill.rule, around.min))
+    let is_area = feature.shape.is_area();
+    let encloses = |rings: &[Vec<Plan>]| style.fill.is_some_and(|fill| holds(rings, fill.rule, around.min));
+    feature.shape.parts().any(|part| edges(part, is_area).any(|edge| meets(edge, &around)))
+        || match &feature.shape {
+            Shape::Polygon(rings) => encloses(rings),
+            Shape::MultiPolygon(members) => members.iter().any(|rings| encloses(rings)),
+            Shape::Line(_) => false,
         }
-    }
 }
 
 /// The segments of a part; a lone point is one.
@@ -123,6 +124,7 @@ mod tests {
         let square = |r: f64| plan(&[(-r, -r), (r, -r), (r, r), (-r, r)]);
         assert!(touches(Shape::Polygon(vec![square(100.0)]), &filled()));
         assert!(!touches(Shape::Polygon(vec![square(100.0), square(50.0)]), &filled()));
+        assert!(touches(Shape::MultiPolygon(vec![vec![square(100.0)], vec![square(50.0)]]), &filled()));
         let outlined = |width: f64| {
             let line = stroke(Width::Metres(width), Join::Miter { limit: 4.0 });
             Style { outline: Some(Outline { line, mode: OutlineMode::Normal }), ..Style::default() }

@@ -1,7 +1,7 @@
 //! The draw order of a layer's features.
 
 use super::columns::Columns;
-use super::size::{area, length};
+use super::size::{area, area_of_members, length};
 use crate::parallel;
 use crate::scene::{Attribute, Feature, Rule, Shape};
 use crate::scene_file::{LayerSpec, Order, OrderKey};
@@ -36,6 +36,7 @@ impl Key {
 fn key(order: &Order, feature: &Feature, rule: Rule, columns: &Columns<'_>) -> Key {
     let own_area = || match &feature.shape {
         Shape::Polygon(rings) => area(rings, rule),
+        Shape::MultiPolygon(members) => area_of_members(members, rule),
         Shape::Line(_) => 0.0,
     };
     let own_length = || length(&feature.shape);
@@ -43,7 +44,7 @@ fn key(order: &Order, feature: &Feature, rule: Rule, columns: &Columns<'_>) -> K
         (Order::File, _) => (0, Attribute::Null),
         // Zechmeister 2020, 3.2.1, Bounding Volume Hierarchies: by default the line lengths and polygon areas are used as
         // sorting criteria, because long lines and large polygons are usually more important (and important ones on top).
-        (Order::Size, Shape::Polygon(_)) => (0, Attribute::of_number(own_area())),
+        (Order::Size, Shape::Polygon(_) | Shape::MultiPolygon(_)) => (0, Attribute::of_number(own_area())),
         (Order::Size, Shape::Line(_)) => (1, Attribute::of_number(own_length())),
         (Order::By { key: OrderKey::Area, .. }, _) => (0, Attribute::of_number(own_area())),
         (Order::By { key: OrderKey::Length, .. }, _) => (0, Attribute::of_number(own_length())),

@@ -140,13 +140,18 @@ impl<'a> Way<'a> {
         let beyond = self.checked(&shape).map_err(|error| error.in_feature(index))?;
         let shape = match shape {
             Shape::Polygon(rings) => self.rings(rings, &mut changes).map(Shape::Polygon),
+            Shape::MultiPolygon(members) => {
+                let moved = members.into_iter().map(|rings| self.rings(rings, &mut changes));
+                let near = moved.filter(|rings| !matches!(rings, Ok(rings) if rings.is_empty()));
+                near.collect::<Result<_>>().map(Shape::MultiPolygon)
+            }
             Shape::Line(lines) => self.lines(lines, &mut changes).map(Shape::Line),
         };
         changes.cut = changes.cut.min(1);
         changes.beyond = usize::from(beyond);
         Ok(match shape {
             Err(error) => Taken::Nowhere(error.in_feature(index)),
-            Ok(Shape::Polygon(parts) | Shape::Line(parts)) if parts.is_empty() => Taken::Away(changes),
+            Ok(shape) if shape.parts().next().is_none() => Taken::Away(changes),
             Ok(shape) => Taken::Near(Feature { index, style, shape }, changes),
         })
     }
@@ -154,9 +159,8 @@ impl<'a> Way<'a> {
     /// Refuses what is no place in degrees; tells whether a vertex lies beyond a pole.
     fn checked(&self, shape: &Shape) -> Result<bool> {
         let (Some(turn), Map::From(map)) = (self.turn, self.map) else { return Ok(false) };
-        let (Shape::Polygon(parts) | Shape::Line(parts)) = shape;
         let mut beyond = false;
-        for p in parts.iter().flatten() {
+        for p in shape.parts().flatten() {
             let quarters = p.y.abs() / (0.25 * turn);
             if !(quarters <= MOST_QUARTERS && p.x.abs() <= MOST_TURNS * turn) {
                 map.apply(p.to_vec())?;

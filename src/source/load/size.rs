@@ -1,20 +1,27 @@
 //! How large a feature is in the plan: a number to order by, the same bits on every machine.
 
+use crate::overlay::union_border;
 use crate::scene::{Rule, Shape};
 use crate::space::{Plan, PlanBox};
 
 /// The length of a shape's polylines, or of its rings: the sum over the segments in their order.
 pub(super) fn length(shape: &Shape) -> f64 {
-    let (parts, is_closed) = match shape {
-        Shape::Polygon(rings) => (rings, true),
-        Shape::Line(parts) => (parts, false),
-    };
+    let is_closed = shape.is_area();
     let of_part = |part: &Vec<Plan>| {
         let closing = part.last().zip(part.first()).filter(|_| is_closed);
         let segments = part.windows(2).map(|pair| (pair[0], pair[1])).chain(closing.map(|(a, b)| (*a, *b)));
         segments.map(|(a, b)| (b - a).length()).sum::<f64>()
     };
-    parts.iter().map(of_part).sum()
+    shape.parts().map(of_part).sum()
+}
+
+/// The area of polygons, given by their members: of their union, where members overlap.
+pub(super) fn area_of_members(members: &[Vec<Vec<Plan>>], rule: Rule) -> f64 {
+    match union_border(members, &|turns| rule.contains(turns)) {
+        Ok(Some(border)) => area(&border, rule),
+        // What can not be united can not be drawn: whoever draws says so.
+        Ok(None) | Err(_) => area(&members.concat(), rule),
+    }
 }
 
 /// The area that rings enclose by a rule, where they do not cross themselves or one another.

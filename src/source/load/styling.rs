@@ -2,7 +2,7 @@
 
 use super::columns::Columns;
 use crate::error::{Error, Result};
-use crate::scene::{Attribute, Color, Feature, Fill, Line, Outline, Shape, Style, Width};
+use crate::scene::{Attribute, Color, Feature, Fill, Line, Outline, Style, Width};
 use crate::scene_file::{
     ByColumn, LayerSpec, LineSpec, PaintSpec, Scale, StyleSetting, WidthSpec, nearest_or_all,
 };
@@ -22,7 +22,7 @@ pub(super) fn styled(
     let mut styles: Vec<Style> = Vec::new();
     let mut numbers = BTreeMap::new();
     for feature in features {
-        let is_area = matches!(feature.shape, Shape::Polygon(_));
+        let is_area = feature.shape.is_area();
         let style = settings
             .style(Takes { areas: is_area, lines: !is_area }, feature.index)
             .map_err(|e| columns.blame(e.in_feature(feature.index)))?;

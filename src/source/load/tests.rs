@@ -9,7 +9,7 @@ mod terrains;
 use super::load;
 use crate::crs::{Crs, PlanSpace};
 use crate::error::{Error, Result};
-use crate::scene::{Feature, Posts, Scene, Shape, Surface};
+use crate::scene::{Feature, Posts, Scene, Surface};
 use crate::scene_file::SceneFile;
 use crate::space::Plan;
 use glam::{DVec2, DVec3};
@@ -73,10 +73,7 @@ fn posts(surface: Surface) -> Posts {
 }
 
 fn vertices(features: &[Feature]) -> Vec<Plan> {
-    let parts = |f: &Feature| match &f.shape {
-        Shape::Polygon(parts) | Shape::Line(parts) => parts.concat(),
-    };
-    features.iter().flat_map(parts).collect()
+    features.iter().flat_map(|f| f.shape.parts().flatten().copied()).collect()
 }
 
 /// All that a picture depends on, in words.

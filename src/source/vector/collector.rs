@@ -57,16 +57,29 @@ impl Collector {
         self.deleted += 1;
     }
 
-    /// Adds a (multi-)polygon of the current feature; closing vertices are taken off.
-    pub(super) fn add_polygon(&mut self, mut rings: Vec<Vec<Plan>>) -> Result<()> {
-        self.admit(&mut rings)?;
-        for ring in &mut rings {
-            if ring.len() > 1 && ring.first() == ring.last() {
-                ring.pop();
+    /// Adds a polygon of the current feature; closing vertices are taken off.
+    pub(super) fn add_polygon(&mut self, rings: Vec<Vec<Plan>>) -> Result<()> {
+        self.add_polygons(vec![rings])
+    }
+
+    /// Adds a multi-polygon of the current feature, by its members.
+    pub(super) fn add_polygons(&mut self, mut members: Vec<Vec<Vec<Plan>>>) -> Result<()> {
+        for rings in &mut members {
+            self.admit(rings)?;
+            for ring in rings.iter_mut() {
+                if ring.len() > 1 && ring.first() == ring.last() {
+                    ring.pop();
+                }
             }
+            self.thin_rings += rings.iter().filter(|ring| ring.len() < 3).count();
         }
-        self.thin_rings += rings.iter().filter(|ring| ring.len() < 3).count();
-        self.push(rings, Shape::Polygon);
+        members.retain(|rings| !rings.is_empty());
+        let shape = match members.len() {
+            0 => None,
+            1 => members.pop().map(Shape::Polygon),
+            _ => Some(Shape::MultiPolygon(members)),
+        };
+        self.push(shape);
         Ok(())
     }
 
@@ -77,7 +90,7 @@ impl Collector {
         parts.retain(|part| part.len() > 1);
         self.dots += all - parts.len();
         if !(parts.is_empty() && had_vertices) {
-            self.push(parts, Shape::Line);
+            self.push((!parts.is_empty()).then_some(Shape::Line(parts)));
         }
         Ok(())
     }
@@ -94,11 +107,17 @@ impl Collector {
         Ok(())
     }
 
-    fn push(&mut self, parts: Vec<Vec<Plan>>, shape: fn(Vec<Vec<Plan>>) -> Shape) {
-        if parts.is_empty() {
+    /// Adds a shape to the current feature: to what it has of the kind, polygons to polygons and lines to lines.
+    fn push(&mut self, shape: Option<Shape>) {
+        let Some(shape) = shape else {
             return self.leave_out_empty();
+        };
+        let index = self.current();
+        let mut own = self.features.iter_mut().rev().take_while(|feature| feature.index == index);
+        match own.find(|feature| feature.shape.is_area() == shape.is_area()) {
+            Some(feature) => join(&mut feature.shape, shape),
+            None => self.features.push(Feature { index, style: 0, shape }),
         }
-        self.features.push(Feature { index: self.current(), style: 0, shape: shape(parts) });
     }
 
     /// Says what was left out and what looks wrong.
@@ -131,14 +150,29 @@ impl Collector {
     }
 }
 
-/// The rings or polylines of a shape.
-pub(super) fn parts_of(shape: &Shape) -> &[Vec<Plan>] {
+/// Adds a shape to one of the same kind: the members of polygons stay apart.
+fn join(shape: &mut Shape, more: Shape) {
+    *shape = match (std::mem::replace(shape, Shape::Line(Vec::new())), more) {
+        (Shape::Line(mut parts), Shape::Line(mut more)) => {
+            parts.append(&mut more);
+            Shape::Line(parts)
+        }
+        (own, more) => {
+            let mut members = members_of(own);
+            members.append(&mut members_of(more));
+            Shape::MultiPolygon(members)
+        }
+    };
+}
+
+fn members_of(shape: Shape) -> Vec<Vec<Vec<Plan>>> {
     match shape {
-        Shape::Polygon(parts) | Shape::Line(parts) => parts,
+        Shape::MultiPolygon(members) => members,
+        Shape::Polygon(rings) | Shape::Line(rings) => vec![rings],
     }
 }
 
 /// Whether a part has enough points to cover anything: 3 of a ring, 2 of a line.
 pub(in crate::source) fn is_drawable(shape: &Shape, part: &[Plan]) -> bool {
-    part.len() >= if matches!(shape, Shape::Polygon(_)) { 3 } else { 2 }
+    part.len() >= if shape.is_area() { 3 } else { 2 }
 }

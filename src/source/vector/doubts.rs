@@ -1,6 +1,5 @@
 //! What looks wrong in a reference system for the features that are said to be in it.
 
-use super::collector::parts_of;
 use crate::crs::Crs;
 use crate::scene::Feature;
 use crate::space::Plan;
@@ -15,7 +14,7 @@ pub fn doubts(crs: &Crs, features: &[Feature]) -> Vec<String> {
 fn metres_under_degrees(features: &[Feature]) -> Option<String> {
     // A degree beyond a pole is the outer edge of cells, or rounding.
     let off = |p: &Plan| p.x.abs() > 540.0 || p.y.abs() > 91.0;
-    let is_wrong = |feature: &&Feature| parts_of(&feature.shape).iter().flatten().any(off);
+    let is_wrong = |feature: &&Feature| feature.shape.parts().flatten().any(off);
     let mut wrong = features.iter().filter(is_wrong).map(|feature| feature.index);
     let first = wrong.next()?;
     Some(format!(

@@ -223,9 +223,7 @@ fn add(geometry: &Geometry<'_>, stated: GeometryType, found: &mut Collector, dep
         }
         GeometryType::LineString | GeometryType::MultiLineString => found.add_line(paths(geometry)?)?,
         GeometryType::Polygon | GeometryType::Triangle => found.add_polygon(paths(geometry)?)?,
-        GeometryType::MultiPolygon | GeometryType::MultiSurface => {
-            found.add_polygon(rings_of_parts(geometry)?)?
-        }
+        GeometryType::MultiPolygon | GeometryType::MultiSurface => found.add_polygons(members(geometry)?)?,
         GeometryType::MultiCurve => found.add_line(straight_parts(geometry)?)?,
         GeometryType::CompoundCurve => found.add_line(vec![straight(geometry)?])?,
         GeometryType::CurvePolygon => found.add_polygon(straight_parts(geometry)?)?,
@@ -268,20 +266,17 @@ fn straight_parts(geometry: &Geometry<'_>) -> Result<Vec<Vec<Plan>>> {
 }
 
 /// A multi-polygon keeps its polygons as parts; writers may also put a single one flat.
-fn rings_of_parts(geometry: &Geometry<'_>) -> Result<Vec<Vec<Plan>>> {
+fn members(geometry: &Geometry<'_>) -> Result<Vec<Vec<Vec<Plan>>>> {
     let Some(parts) = geometry.parts().filter(|parts| !parts.is_empty()) else {
-        return paths(geometry);
+        return Ok(vec![paths(geometry)?]);
     };
-    let mut rings = Vec::new();
-    for part in parts {
-        rings.append(&mut match kind_of(&part, GeometryType::Polygon) {
-            // Some writers give the parts the type of the whole.
-            GeometryType::Polygon | GeometryType::MultiPolygon | GeometryType::Triangle => paths(&part)?,
-            GeometryType::CurvePolygon => straight_parts(&part)?,
-            other => return Err(no_plain_type(other)),
-        });
-    }
-    Ok(rings)
+    let member = |part: Geometry<'_>| match kind_of(&part, GeometryType::Polygon) {
+        // Some writers give the parts the type of the whole.
+        GeometryType::Polygon | GeometryType::MultiPolygon | GeometryType::Triangle => paths(&part),
+        GeometryType::CurvePolygon => straight_parts(&part),
+        other => Err(no_plain_type(other)),
+    };
+    parts.iter().map(member).collect()
 }
 
 /// The coordinates, cut at the ends (counted in vertices) where there are any.

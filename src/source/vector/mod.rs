@@ -10,8 +10,8 @@
 //! .dbf, of GeoJSON from `properties`, of the others from their tables. Refuses values that are not what their column says,
 //! naming file, feature and column.
 //!
-//! Each feature of the file becomes one [`Feature`] with all its parts; a geometry collection becomes one for each
-//! member, with the same index. Rings lose their closing vertex.
+//! Each feature of the file becomes one [`Feature`] with all its parts, polygons by members; a geometry collection becomes one for its
+//! polygons and one for its lines, with the same index. Rings lose their closing vertex.
 
 mod archive;
 mod attributes;
@@ -28,6 +28,7 @@ mod geojson;
 #[cfg(feature = "gpkg")]
 mod geopackage;
 mod osm;
+mod rings;
 mod shapefile;
 mod summary;
 #[cfg(not(feature = "gpkg"))]

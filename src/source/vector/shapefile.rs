@@ -10,6 +10,7 @@ use super::attributes::Attributes;
 use super::bytes::{Cursor, Endian, beside};
 use super::collector::Collector;
 use super::dbf::{self, Rows};
+use super::rings::members_by_turn;
 use crate::crs::Crs;
 use crate::error::{Error, Result};
 use crate::space::Plan;
@@ -92,7 +93,7 @@ fn read_record(mut record: Cursor<'_>, found: &mut Collector) -> Result<()> {
         1 | 11 | 21 => found.leave_out_points(1),
         8 | 18 | 28 => found.leave_out_points(points_of_multipoint(record)?),
         3 | 13 | 23 => found.add_line(parts_of_record(record)?)?,
-        5 | 15 | 25 => found.add_polygon(parts_of_record(record)?)?,
+        5 | 15 | 25 => found.add_polygons(members_by_turn(parts_of_record(record)?))?,
         31 => {
             return Err(Error::unsupported("a multipatch is a body, not a shape in the plan")
                 .help("export its footprint as polygons"));

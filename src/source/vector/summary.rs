@@ -1,12 +1,12 @@
 //! What a vector file holds, for people.
 
 use super::attributes::Wanted;
-use super::collector::{Collector, is_drawable, parts_of};
+use super::collector::{Collector, is_drawable};
 use super::column_summary::ColumnSummary;
 use super::{VectorFormat, geopackage, read_collected};
 use crate::crs::Crs;
 use crate::error::Result;
-use crate::scene::{Feature, Shape};
+use crate::scene::Feature;
 use crate::space::PlanBox;
 use std::path::Path;
 
@@ -67,12 +67,11 @@ fn summary(
     layers: &[String],
     found: Collector,
 ) -> VectorSummary {
-    let is_drawn = |f: &&Feature| parts_of(&f.shape).iter().any(|part| is_drawable(&f.shape, part));
+    let is_drawn = |f: &&Feature| f.shape.parts().any(|part| is_drawable(&f.shape, part));
     let drawn = found.features.iter().filter(is_drawn).count();
-    let polygons =
-        found.features.iter().filter(is_drawn).filter(|f| matches!(f.shape, Shape::Polygon(_))).count();
+    let polygons = found.features.iter().filter(is_drawn).filter(|f| f.shape.is_area()).count();
     let doubts = found.crs.as_ref().map(|crs| super::doubts(crs, &found.features));
-    let parts = || found.features.iter().flat_map(|f| parts_of(&f.shape));
+    let parts = || found.features.iter().flat_map(|f| f.shape.parts());
     VectorSummary {
         format,
         layer,

@@ -168,7 +168,18 @@ const JSON: &str = r#"{"bbox":[0,0,1,1],"type":"FeatureCollection","features":[
 fn polygon_of(file: &VectorFile, at: usize) -> &[Vec<Plan>] {
     match &file.features[at].shape {
         Shape::Polygon(rings) => rings,
+        Shape::MultiPolygon(_) => panic!("a multi-polygon"),
         Shape::Line(_) => panic!("a line"),
+    }
+}
+
+/// How many vertices each ring of each member of a feature has.
+fn members_of(file: &VectorFile, at: usize) -> Vec<Vec<usize>> {
+    match &file.features[at].shape {
+        Shape::MultiPolygon(members) => {
+            members.iter().map(|rings| rings.iter().map(Vec::len).collect()).collect()
+        }
+        other => panic!("no multi-polygon: {other:?}"),
     }
 }
 
@@ -178,7 +189,7 @@ fn geojson_keeps_order_and_indices_and_tells_what_it_leaves_out() {
     let indices: Vec<usize> = read.features.iter().map(|f| f.index).collect();
     assert_eq!(indices, [0, 3, 3]);
     assert_eq!(polygon_of(&read, 0).iter().map(Vec::len).collect::<Vec<_>>(), [3, 3]);
-    assert_eq!(polygon_of(&read, 2).len(), 2);
+    assert_eq!(members_of(&read, 2), [[3], [3]]);
     assert!(matches!(&read.features[1].shape, Shape::Line(parts) if parts[0].len() == 2));
     assert_eq!(
         read.notes,
@@ -252,6 +263,57 @@ fn json_nested_ten_thousand_deep_is_refused() {
     let _ = refusal("a.json", deep.as_bytes());
     let deep = r#"{"type":"GeometryCollection","geometries":["#.repeat(10_000);
     let _ = refusal("a.json", deep.as_bytes());
+}
+
+#[test]
+fn polygons_of_a_collection_are_members_of_one_feature_and_its_lines_one_line() {
+    let square = "[[[0,0],[4,0],[4,4],[0,0]]]";
+    let text = format!(
+        r#"{{"type":"GeometryCollection","geometries":[{{"type":"Polygon","coordinates":{square}}},
+        {{"type":"LineString","coordinates":[[0,0],[1,1]]}},{{"type":"MultiPolygon","coordinates":[{square},{square}]}},
+        {{"type":"GeometryCollection","geometries":[{{"type":"LineString","coordinates":[[2,2],[3,3],[4,4]]}}]}}]}}"#
+    );
+    let read = read_bytes("a.geojson", text.as_bytes()).unwrap();
+    assert_eq!(read.features.iter().map(|f| f.index).collect::<Vec<_>>(), [0, 0]);
+    assert_eq!(members_of(&read, 0), [[3], [3], [3]]);
+    assert!(matches!(&read.features[1].shape, Shape::Line(parts) if parts.len() == 2 && parts[1].len() == 3));
+}
+
+/// A square's ring, closed; `clockwise`: an outer one of a shapefile.
+fn square_ring(x: f64, half: f64, clockwise: bool) -> Vec<(f64, f64)> {
+    let mut ring =
+        vec![(x - half, -half), (x + half, -half), (x + half, half), (x - half, half), (x - half, -half)];
+    if clockwise {
+        ring.reverse();
+    }
+    ring
+}
+
+#[test]
+fn rings_of_a_shapefile_that_turn_clockwise_are_members_and_the_others_holes_in_the_smallest_around_them() {
+    let members = |rings: &[Vec<(f64, f64)>]| {
+        let rings: Vec<&[(f64, f64)]> = rings.iter().map(Vec::as_slice).collect();
+        let read = read_bytes("a.shp", &shp(5, &[shp_parts(5, &rings)])).unwrap();
+        match &read.features[0].shape {
+            Shape::MultiPolygon(members) => members.iter().map(Vec::len).collect(),
+            Shape::Polygon(rings) => vec![rings.len()],
+            Shape::Line(_) => panic!("a line"),
+        }
+    };
+    // A hole before its ring, an island in the hole with a hole of its own, and a ring beside them.
+    let rings = [
+        square_ring(0.0, 3.0, false),
+        square_ring(0.0, 4.0, true),
+        square_ring(0.0, 2.0, true),
+        square_ring(0.0, 1.0, false),
+        square_ring(9.0, 1.0, true),
+    ];
+    assert_eq!(members(&rings), [2, 2, 1]);
+    let overlapping = [square_ring(0.0, 2.0, true), square_ring(0.0, 1.0, true)];
+    assert_eq!(members(&overlapping), [1, 1]);
+    // Without a clockwise ring beside another nothing is told by turns.
+    assert_eq!(members(&[square_ring(0.0, 2.0, false), square_ring(0.0, 1.0, false)]), [2]);
+    assert_eq!(members(&[square_ring(0.0, 2.0, true), square_ring(5.0, 1.0, false)]), [2]);
 }
 
 #[test]
@@ -513,7 +575,7 @@ proptest! {
     fn any_damage_gives_features_or_words(sample in 0..samples().len(), (changes, cut) in changes()) {
         let (name, bytes) = &samples()[sample];
         if let Ok(read) = read_bytes(name, &mutated(bytes.clone(), &changes, cut)) {
-            prop_assert!(read.features.iter().flat_map(|f| collector::parts_of(&f.shape)).flatten().all(|p| p.is_finite()));
+            prop_assert!(read.features.iter().flat_map(|f| f.shape.parts()).flatten().all(|p| p.is_finite()));
         }
     }
 

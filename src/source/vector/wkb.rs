@@ -77,7 +77,7 @@ fn geometry(cursor: &mut Cursor<'_>, found: &mut Collector, depth: usize) -> Res
         6 | 12 => {
             let count = cursor.count(head.endian, 9).ok_or_else(cut_short)?;
             let kinds = if head.kind == 6 { POLYGONS } else { SURFACES };
-            found.add_polygon(members(cursor, count, kinds, surface)?.into_iter().flatten().collect())?;
+            found.add_polygons(members(cursor, count, kinds, surface)?)?;
         }
         9 => found.add_line(vec![curve(cursor, &head)?])?,
         10 | 17 => found.add_polygon(surface(cursor, &head)?)?,

@@ -82,7 +82,7 @@ struct Expansion<'l> {
 impl Expansion<'_> {
     fn add_item(&mut self, number: u32, item: &Item) {
         if self.list.area_owner(number) == number {
-            for ring in self.list.area(item) {
+            for ring in self.list.border(item) {
                 self.add_edges(AreaId::polygon_of(number), self.list.path_of(ring));
             }
         }

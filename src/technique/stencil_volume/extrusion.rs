@@ -109,7 +109,7 @@ impl<'l> Extrusion<'l> {
     pub fn rings_of(&self, volume: &Volume) -> impl Iterator<Item = &[Plan]> + Clone {
         let (piece, area) = match &volume.base {
             Base::Piece(corners) => (Some(&self.corners[corners.start as usize..corners.end as usize]), None),
-            Base::Area(item) => (None, Some(self.list.area(&self.list.items()[*item as usize]))),
+            Base::Area(item) => (None, Some(self.list.border(&self.list.items()[*item as usize]))),
         };
         let rings = area.unwrap_or(&[]).iter().map(|ring| self.list.vertices_of(ring));
         piece.into_iter().chain(rings)
@@ -130,8 +130,8 @@ impl<'l> Extrusion<'l> {
     fn add_object(&mut self, number: u32, item: &Item, joins: VolumeJoins) {
         let owner = self.list.area_owner(number);
         let first = self.volumes.len();
-        if owner == number && !item.area.is_empty() {
-            let rings = self.list.area(item).iter().map(|ring| self.list.vertices_of(ring));
+        if owner == number && !item.border.is_empty() {
+            let rings = self.list.border(item).iter().map(|ring| self.list.vertices_of(ring));
             let plan = PlanBox::around(rings.flatten().copied());
             self.push_volume(Base::Area(number), plan, false);
         }
@@ -139,7 +139,7 @@ impl<'l> Extrusion<'l> {
         let Some(line) = self.list.style_of(number).stroke else {
             return self.objects.push(Object { volumes: area, cutters: 0..0 });
         };
-        let cutters = match item.area.is_empty() || owner == number {
+        let cutters = match item.border.is_empty() || owner == number {
             true => area,
             false => self.objects[owner as usize].volumes.clone(),
         };

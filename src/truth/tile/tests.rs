@@ -79,6 +79,10 @@ fn points(dice: &mut Dice, count: u64) -> Vec<Plan> {
     (0..count).map(|_| Plan::new(dice.between(-28.0, 28.0), dice.between(-28.0, 28.0))).collect()
 }
 
+fn rings(dice: &mut Dice) -> Vec<Vec<Plan>> {
+    (0..1 + dice.below(2)).map(|_| points(dice, 5)).collect()
+}
+
 fn layer(dice: &mut Dice) -> Layer {
     let features = 1 + dice.below(2) as usize;
     let is_line = dice.below(2) == 0;
@@ -97,7 +101,10 @@ fn layer(dice: &mut Dice) -> Layer {
                 let count = 2 + dice.below(4);
                 points(dice, count)
             }]),
-            false => Shape::Polygon((0..1 + dice.below(2)).map(|_| points(dice, 5)).collect()),
+            false => match 1 + dice.below(4) {
+                2 => Shape::MultiPolygon((0..3).map(|_| rings(dice)).collect()),
+                _ => Shape::Polygon(rings(dice)),
+            },
         };
         Feature { index, style: 0, shape }
     });
@@ -398,9 +405,14 @@ fn items_at(layers: &[Layer], frame: &ViewFrame, seen: &Seen) -> Vec<bool> {
                     let line = style.line.as_ref().unwrap();
                     all.push(parts.iter().any(|part| in_stroke(part, false, line, frame, seen)));
                 }
-                Shape::Polygon(rings) => {
+                Shape::Polygon(_) | Shape::MultiPolygon(_) => {
                     let rule = style.fill.map_or(Rule::EvenOdd, |fill| fill.rule);
-                    let is_inside = in_rings(rings, rule, &seen.plan);
+                    let is_inside = match &feature.shape {
+                        Shape::MultiPolygon(members) => {
+                            members.iter().any(|rings| in_rings(rings, rule, &seen.plan))
+                        }
+                        shape => in_rings(&shape.parts().cloned().collect::<Vec<_>>(), rule, &seen.plan),
+                    };
                     if style.fill.is_some() {
                         all.push(is_inside);
                     }
@@ -411,7 +423,8 @@ fn items_at(layers: &[Layer], frame: &ViewFrame, seen: &Seen) -> Vec<bool> {
                             OutlineMode::Offset => !is_inside,
                         };
                         let line = &outline.line;
-                        all.push(counts && rings.iter().any(|ring| in_stroke(ring, true, line, frame, seen)));
+                        let mut rings = feature.shape.parts();
+                        all.push(counts && rings.any(|ring| in_stroke(ring, true, line, frame, seen)));
                     }
                 }
             }

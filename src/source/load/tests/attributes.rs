@@ -19,7 +19,7 @@ const SHORT: &str = r#"{"type":"LineString","coordinates":[[0,0],[0,50]]}"#;
 const SMALL: &str = r#"{"type":"Polygon","coordinates":[[[0,0],[10,0],[10,10],[0,10],[0,0]]]}"#;
 const LARGE: &str = r#"{"type":"Polygon","coordinates":[[[0,0],[90,0],[90,90],[0,90],[0,0]]]}"#;
 const RING: &str = r#"{"type":"Polygon","coordinates":[[[0,0],[90,0],[90,90],[0,90],[0,0]],[[0,0],[0,90],[90,90],[89,0],[0,0]]]}"#;
-const TWO: &str = r#"{"type":"GeometryCollection","geometries":[{"type":"LineString","coordinates":[[0,0],[9,9]]},{"type":"LineString","coordinates":[[9,0],[0,9]]}]}"#;
+const TWO: &str = r#"{"type":"GeometryCollection","geometries":[{"type":"LineString","coordinates":[[0,0],[9,9]]},{"type":"Polygon","coordinates":[[[0,0],[9,0],[9,9],[0,0]]]}]}"#;
 
 fn folder(features: &[(&str, &str)]) -> Folder {
     Folder::new().with("r.json", roads(features))
@@ -70,11 +70,11 @@ fn each_value_has_its_colour_and_equal_looks_are_one_style() {
     );
     let layer = &scene.layers[0];
     let styles: Vec<u32> = layer.features.iter().map(|feature| feature.style).collect();
-    assert_eq!((numbers(&scene), styles), (vec![0, 1, 2, 2, 3, 4, 5], vec![0, 1, 0, 0, 2, 2, 3]));
+    assert_eq!((numbers(&scene), styles), (vec![0, 1, 2, 2, 3, 4, 5], vec![0, 1, 0, 2, 3, 3, 2]));
     let colors: Vec<[f64; 4]> = layer.styles.iter().filter_map(|s| s.line.map(|line| line.color.0)).collect();
     assert_eq!(colors, [[0.0, 1.0, 0.0, 128.0 / 255.0 * 0.5], [1.0, 0.0, 0.0, 0.5], [0.0, 0.0, 1.0, 0.5]]);
     let fill = Fill { color: Color([0.0, 0.0, 0.0, 1.0]), rule: crate::scene::Rule::EvenOdd };
-    assert_eq!(layer.styles[3], Style { fill: Some(fill), ..Style::default() });
+    assert_eq!(layer.styles[2], Style { fill: Some(fill), ..Style::default() });
 }
 
 #[test]

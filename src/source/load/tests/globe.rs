@@ -67,13 +67,8 @@ impl Globe {
 }
 
 fn rings(features: &[Feature]) -> Vec<&Vec<Plan>> {
-    fn of(feature: &Feature) -> std::slice::Iter<'_, Vec<Plan>> {
-        match &feature.shape {
-            Shape::Polygon(rings) => rings.iter(),
-            Shape::Line(_) => panic!("a line"),
-        }
-    }
-    features.iter().flat_map(of).collect()
+    assert!(features.iter().all(|feature| feature.shape.is_area()), "a line");
+    features.iter().flat_map(|feature| feature.shape.parts()).collect()
 }
 
 fn encloses(ring: &[Plan], at: Plan) -> bool {
@@ -404,4 +399,22 @@ fn a_latitude_that_is_none_is_refused_with_its_feature() {
         .refused("terrain = { source = \"d.asc\", crs = \"EPSG:4326\" }\n[[layer]]\nsource = \"l.geojson\"\nline = { color = \"#000000\", width_m = 4.0 }")
         .to_string();
     assert!(said.contains("l.geojson: feature 0: (9.7, 446) is not a place in"), "{said}");
+}
+
+#[test]
+fn members_stay_members_in_any_plan_and_those_out_of_sight_go() {
+    let members = [
+        rectangle(10.2, 45.2, 10.8, 45.8),
+        rectangle(-120.0, 30.0, -110.0, 40.0),
+        rectangle(10.4, 45.4, 10.6, 45.6),
+    ];
+    let members = members.map(|ring| format!("[{ring}]")).join(",");
+    for globe in &PLANS {
+        let scene = globe.filled(&format!(r#"{{"type":"MultiPolygon","coordinates":[{members}]}}"#));
+        let [feature] = &scene.layers[0].features[..] else { panic!("{}", globe.crs) };
+        let Shape::MultiPolygon(members) = &feature.shape else { panic!("{}: {feature:?}", globe.crs) };
+        let at = globe.local(&scene, 10.5, 45.5);
+        let around = members.iter().filter(|rings| rings.iter().any(|ring| encloses(ring, at)));
+        assert_eq!(around.count(), 2, "{}", globe.crs);
+    }
 }

@@ -29,7 +29,7 @@ pub(super) fn add(geometry: Geometry, found: &mut Collector) -> Result<()> {
         "LineString" => found.add_line(paths(coordinates, 0)?)?,
         "MultiLineString" => found.add_line(paths(coordinates, 1)?)?,
         "Polygon" => found.add_polygon(paths(coordinates, 1)?)?,
-        "MultiPolygon" => found.add_polygon(paths(coordinates, 2)?)?,
+        "MultiPolygon" => found.add_polygons(members(coordinates)?)?,
         "GeometryCollection" if geometries.is_empty() => found.leave_out_empty(),
         "GeometryCollection" => {
             for part in geometries {
@@ -43,6 +43,14 @@ pub(super) fn add(geometry: Geometry, found: &mut Collector) -> Result<()> {
         }
     }
     Ok(())
+}
+
+/// The rings of each member of a multi-polygon.
+fn members(coordinates: Coordinates) -> Result<Vec<Vec<Vec<Plan>>>> {
+    match coordinates {
+        Coordinates::Nest(inner) => inner.into_iter().map(|member| paths(member, 1)).collect(),
+        _ => paths(coordinates, 2).map(|rings| vec![rings]),
+    }
 }
 
 /// The lists of positions `depth` arrays down; empty arrays may stand anywhere.

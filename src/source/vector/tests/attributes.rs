@@ -27,7 +27,7 @@ fn column_refused(path: &Path, name: &str) -> String {
 const MIXED: &str = r#"{"type":"FeatureCollection","properties":{"a":9},"features":[
  {"type":"Feature","properties":{"a":1,"b":"x","c":[1,{"z":2,"y":null}],"a":2},"geometry":null},
  {"type":"Feature","geometry":{"type":"GeometryCollection","geometries":[
-   {"type":"LineString","coordinates":[[0,0],[1,1]]},{"type":"LineString","coordinates":[[0,0],[1,1]]}]},"properties":{"a":"2","d":1e300}},
+   {"type":"LineString","coordinates":[[0,0],[1,1]]},{"type":"Polygon","coordinates":[[[0,0],[1,1],[0,1],[0,0]]]}]},"properties":{"a":"2","d":1e300}},
  {"type":"Feature","properties":[],"geometry":{"type":"LineString","coordinates":[[0,0],[1,1]]}},
  {"type":"Feature","properties":null,"geometry":null},
  {"type":"Feature","properties":{"a":2.5,"b":true,"d":18446744073709551615,"":null},"geometry":null}

@@ -162,7 +162,7 @@ fn ways_are_lines_closed_ones_areas_by_their_tags_and_multipolygons_rings() {
             .features
             .iter()
             .map(|f| {
-                let parts = collector::parts_of(&f.shape).iter().map(Vec::len).collect();
+                let parts = f.shape.parts().map(Vec::len).collect();
                 (f.index, matches!(f.shape, Shape::Polygon(_)), parts)
             })
             .collect();

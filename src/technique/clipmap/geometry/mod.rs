@@ -228,5 +228,5 @@ impl Block {
 
 /// The rings that bound an item's area.
 fn rings_of(list: &DrawList, item: &Item) -> Vec<Vec<Plan>> {
-    list.area(item).iter().map(|ring| list.vertices_of(ring).to_vec()).collect()
+    list.border(item).iter().map(|ring| list.vertices_of(ring).to_vec()).collect()
 }

@@ -1,0 +1,189 @@
+//! Members of a multi-polygon that overlap are united, whatever draws them.
+#![cfg(feature = "render")]
+
+mod drawing;
+
+use drapery::scene::{Cap, Join, TechniqueSettings, Width};
+use drapery::scene::{Color, Feature, Fill, Layer, Line, Outline, OutlineMode, Rule, Shape, Style};
+use drapery::space::Plan;
+use drapery::stage::Stage;
+use drapery::technique::Kind;
+use drapery::technique::clipmap::{self, Overlaps, PolygonRaster};
+use drapery::technique::inverse_projection::{self, PointInPolygon};
+use drapery::technique::stencil_volume::{self, Grouping};
+use drawing::{frame_of, loaded, truth_of};
+use proptest::prelude::*;
+
+const SIDE: usize = 40;
+
+/// A plane seen from above, ten metres a pixel.
+fn text() -> String {
+    format!(
+        "schema = 1\nimage = {{ width = {SIDE}, height = {SIDE} }}\n\
+         terrain = {{ generate = {{ kind = \"plane\", posts = [3, 3], cell_m = 300.0 }}, color = \"#ffffff\" }}\n\
+         camera = {{ eye = [0, 0, 100], target = [0, 0, 0], up = [0, 1, 0], projection = \"orthographic\", height_m = {} }}",
+        10 * SIDE
+    )
+}
+
+fn stage(layers: Vec<Layer>, technique: &TechniqueSettings) -> Stage {
+    let (mut scene, surface) = loaded(&text(), &[]);
+    scene.layers = layers;
+    scene.technique = technique.clone();
+    Stage::new(scene, surface).unwrap()
+}
+
+fn square(x: f64, y: f64, half: f64) -> Vec<Plan> {
+    [(-half, -half), (half, -half), (half, half), (-half, half)]
+        .map(|(a, b)| Plan::new(x + a, y + b))
+        .to_vec()
+}
+
+fn filled(rule: Rule, alpha: f64) -> Style {
+    Style { fill: Some(Fill { color: Color([0.0, 0.0, 0.0, alpha]), rule }), ..Style::default() }
+}
+
+fn layer(members: Vec<Vec<Vec<Plan>>>, style: Style) -> Layer {
+    let shape = Shape::MultiPolygon(members);
+    Layer::uniform("members", style, vec![Feature { index: 0, style: 0, shape }])
+}
+
+/// Settings of techniques under which all of them are tried.
+fn settings() -> Vec<TechniqueSettings> {
+    let mut all = Vec::new();
+    for (polygons, inside, grouping) in [
+        (PolygonRaster::Exact, PointInPolygon::EdgeNormals, Grouping::Object),
+        (PolygonRaster::Aliased, PointInPolygon::Winding, Grouping::Color),
+        (PolygonRaster::TinySkia, PointInPolygon::Winding, Grouping::Color),
+    ] {
+        let mut technique = TechniqueSettings::default();
+        let overlaps = Overlaps::Once;
+        technique.set(clipmap::Settings { virtual_size: 1024, polygons, overlaps, ..Default::default() });
+        technique.set(inverse_projection::Settings { point_in_polygon: inside, ..Default::default() });
+        technique.set(stencil_volume::Settings { grouping, ..Default::default() });
+        all.push(technique);
+    }
+    all
+}
+
+/// Whether any member holds a point.
+fn holds(members: &[Vec<Vec<Plan>>], rule: Rule, p: Plan) -> bool {
+    members.iter().any(|rings| {
+        let edges = rings.iter().filter(|ring| ring.len() > 2);
+        let edges = edges.flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)));
+        let turns = edges.filter(|(a, b)| (a.y <= p.y) != (b.y <= p.y)).map(|(a, b)| {
+            let is_east = a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x) > p.x;
+            i32::from(is_east) * if a.y < b.y { 1 } else { -1 }
+        });
+        rule.contains(turns.sum())
+    })
+}
+
+/// Whether no edge comes nearer to a point than `reach`.
+fn is_clear(members: &[Vec<Vec<Plan>>], p: Plan, reach: f64) -> bool {
+    let rings = members.iter().flatten();
+    rings.flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1))).all(|(a, b)| {
+        let (along, to) = (*b - *a, p - *a);
+        let share = to.dot(along) / along.length_squared();
+        let share = if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.0 };
+        (to - along * share).length() > reach
+    })
+}
+
+/// Checks pixels near no edge against the definition, in the truth and in every technique.
+fn check(members: &[Vec<Vec<Plan>>], rule: Rule, alpha: f64) -> Result<usize, TestCaseError> {
+    let mut checked = 0;
+    for technique in settings() {
+        let stage = stage(vec![layer(members.to_vec(), filled(rule, alpha))], &technique);
+        let truth = truth_of(&stage).image();
+        let images = Kind::ALL.map(|kind| (kind.name(), frame_of(kind, &stage, &[]).image));
+        for (name, image) in images.iter().map(|(name, image)| (*name, image)).chain([("truth", &truth)]) {
+            for (x, y) in (0..SIDE).flat_map(|y| (0..SIDE).map(move |x| (x, y))) {
+                let middle = Plan::new(
+                    10.0 * (x as f64 + 0.5 - SIDE as f64 / 2.0),
+                    10.0 * (SIDE as f64 / 2.0 - y as f64 - 0.5),
+                );
+                // As far as the filters of the clipmap reach.
+                if !is_clear(members, middle, if name == "clipmap" { 45.0 } else { 15.0 }) {
+                    continue;
+                }
+                let right = if holds(members, rule, middle) { 1.0 - alpha } else { 1.0 };
+                let seen = image.at(x, y)[0];
+                prop_assert!(
+                    (f64::from(seen) / 255.0 - right).abs() < 0.003,
+                    "{}: {} at {:?}",
+                    name,
+                    seen,
+                    middle
+                );
+                checked += 1;
+            }
+        }
+    }
+    Ok(checked)
+}
+
+#[test]
+fn a_square_in_a_square_as_two_members_has_the_larger_one_s_area_and_one_coat_of_paint() {
+    let members = vec![vec![square(0.0, 0.0, 200.0)], vec![square(0.0, 0.0, 100.0)]];
+    for rule in [Rule::EvenOdd, Rule::NonZero] {
+        check(&members, rule, 0.5).unwrap();
+        let stage = stage(vec![layer(members.clone(), filled(rule, 0.5))], &TechniqueSettings::default());
+        let truth = truth_of(&stage);
+        let dark: f64 = truth.estimate.values().iter().map(|pixel| 1.0 - pixel[0]).sum();
+        assert!((dark * 100.0 / 0.5 - 160_000.0).abs() < 1e-6, "{dark}");
+    }
+}
+
+#[test]
+fn an_outline_follows_all_rings_and_is_cut_to_the_union() {
+    let members = vec![vec![square(0.0, 0.0, 147.0)], vec![square(147.0, 0.0, 48.0)]];
+    let line = Line {
+        color: Color([0.0, 0.0, 0.0, 1.0]),
+        width: Width::Metres(40.0),
+        join: Join::Miter { limit: 4.0 },
+        cap: Cap::Butt,
+    };
+    // On the small square's side in the large one, inside and outside of the union's border, and across the large one's side in the small one.
+    let places = [(95.0, 5.0), (-145.0, 5.0), (-155.0, 5.0), (145.0, 5.0), (155.0, 5.0)];
+    for (mode, dark) in [
+        (OutlineMode::Inset, [true, true, false, true, true]),
+        (OutlineMode::Normal, [true, true, true, true, true]),
+        (OutlineMode::Offset, [false, false, true, false, false]),
+    ] {
+        let style = Style { outline: Some(Outline { line, mode }), ..Style::default() };
+        for technique in settings() {
+            let stage = stage(vec![layer(members.clone(), style)], &technique);
+            let truth = truth_of(&stage).image();
+            let images = Kind::ALL.map(|kind| (kind.name(), frame_of(kind, &stage, &[]).image));
+            for (name, image) in images.iter().map(|(name, image)| (*name, image)).chain([("truth", &truth)])
+            {
+                let seen = places.map(|(x, y)| {
+                    let at = |v: f64| ((v + 10.0 * SIDE as f64 / 2.0) / 10.0) as usize;
+                    image.at(at(x), SIDE - 1 - at(y))[0] < 128
+                });
+                assert_eq!(seen, dark, "{name}, {mode:?}");
+            }
+        }
+    }
+}
+
+fn ring() -> impl Strategy<Value = Vec<Plan>> {
+    let coordinate = || prop_oneof![-190.0..190.0f64, (-4..5i32).prop_map(|k| f64::from(k) * 45.0)];
+    let point = (coordinate(), coordinate()).prop_map(|(x, y)| Plan::new(x, y));
+    let square = (-90.0..90.0f64, -90.0..90.0f64, 20.0..100.0f64).prop_map(|(x, y, half)| square(x, y, half));
+    prop_oneof![prop::collection::vec(point, 3..6), square.clone(), square]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(12))]
+    #[test]
+    fn a_point_is_painted_once_where_any_member_holds_it(
+        members in prop::collection::vec(prop::collection::vec(ring(), 1..3), 2..5),
+        is_even_odd in any::<bool>(),
+        alpha in 0.2..1.0f64,
+    ) {
+        let rule = if is_even_odd { Rule::EvenOdd } else { Rule::NonZero };
+        check(&members, rule, alpha)?;
+    }
+}
