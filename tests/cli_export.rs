@@ -24,7 +24,7 @@ outline = { color = "#113355", width_px = 2.0, mode = "inset" }
 [[layer]]
 name = "road"
 offset = [5000000, 4000000]
-features = [{ line = [[-800, -500], [0, 0], [800, -300]] }]
+features = [{ line = [[-800, -500], [0, 0], [800, -300]], properties = { TYPE = "primary", number = 3 } }]
 line = { color = "#ff7f00", width_m = 60.0, join = "bevel" }
 [technique.clipmap]
 virtual_size = 1024
@@ -128,7 +128,11 @@ fn the_bundle_of_the_clipmap_has_its_sequences_tiles_and_what_is_right() {
         let picture = image::open(folder.path().join(&name)).unwrap();
         assert_eq!(picture.width(), size.min(256) as u32, "{name}");
     }
+    for left_out in ["clipmap.tiles.npy", "clipmap.tiles.png"] {
+        assert!(!folder.path().join(left_out).exists(), "{left_out}: the pyramid has them");
+    }
     let features = json(&folder, "features.geojson");
+    assert_eq!((&features["crs"], &features["plan_space"]), (&Value::Null, &"metres without a CRS".into()));
     let lake = &features["features"][0];
     assert_eq!(lake["geometry"]["coordinates"][0][1].to_string(), "[5000300.0,3999600.0]");
     assert_eq!(lake["geometry"]["coordinates"][0].as_array().unwrap().len(), 5, "rings are closed");
@@ -139,7 +143,7 @@ fn the_bundle_of_the_clipmap_has_its_sequences_tiles_and_what_is_right() {
     );
     assert_eq!(
         road,
-        r##"{"cap":"butt","join":"bevel","layer":"road","number":0,"stroke":"#ff7f00","stroke-opacity":1.0,"stroke-width-m":60.0}"##
+        r##"{"TYPE":"primary","attribute.number":3,"cap":"butt","join":"bevel","layer":"road","number":0,"stroke":"#ff7f00","stroke-opacity":1.0,"stroke-width-m":60.0}"##
     );
 }
 

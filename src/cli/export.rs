@@ -6,7 +6,9 @@ use super::scene_input;
 use super::stop::{Outcome, Status};
 use super::truth_arguments::TruthArguments;
 use drapery::export::Bundle;
+use drapery::measure::Watch;
 use drapery::output::Batch;
+use drapery::source::load;
 use drapery::{Error, parallel};
 use std::path::PathBuf;
 
@@ -52,7 +54,9 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
     let bar = Bar::new();
     let export = || {
         let scene = scene_input::open(&text, &bar)?;
-        Bundle { stage: &scene.stage, hash: &text.file.hash, technique, budget }.write(batch, &bar)
+        let attributes = load::attributes(&text.file, &|told| bar.note(told));
+        let hash = &text.file.hash;
+        Bundle { stage: &scene.stage, hash, attributes: &attributes, technique, budget }.write(batch, &bar)
     };
     let done = parallel::with_threads(arguments.threads, export)?;
     done.map_err(|error| scene_input::blame(&text, error))?;

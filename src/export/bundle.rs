@@ -2,13 +2,14 @@
 
 use super::run_files::RunFiles;
 use super::{
-    Buffers, LAYOUT, Parameters, TilePicture, plan_points, tiles, triangles, vertices, write_features,
+    Buffers, FeatureTable, LAYOUT, Parameters, TilePicture, plan_points, tiles, triangles, vertices,
+    write_features,
 };
 use crate::buffer::Buffer;
 use crate::error::Result;
 use crate::measure::{Certified, Unwatched, Watch, scene_result};
 use crate::output::{Batch, Npy, RESULT_SCHEMA, RenderResult, write_png};
-use crate::scene::{GroundColors, Imagery};
+use crate::scene::{Column, GroundColors, Imagery};
 use crate::stage::Stage;
 use crate::technique::clipmap::{self, TILE_TEXELS};
 use crate::technique::{self, Frame, Kind};
@@ -34,6 +35,8 @@ pub struct Bundle<'a> {
     pub stage: &'a Stage,
     /// The hash of its scene file (`SceneFile::hash`), for `result.json`.
     pub hash: &'a str,
+    /// The columns of attributes of each layer, which a stage does not keep ([`load::attributes`](crate::source::load::attributes)); may be empty.
+    pub attributes: &'a [Vec<Column>],
     /// What the client draws by.
     pub technique: Kind,
     /// How exact the truth is.
@@ -43,7 +46,7 @@ pub struct Bundle<'a> {
 impl<'a> Bundle<'a> {
     /// A bundle with the default truth, of a scene that no file says.
     pub fn of(stage: &'a Stage, technique: Kind) -> Self {
-        Self { stage, hash: "", technique, budget: Budget::default() }
+        Self { stage, hash: "", attributes: &[], technique, budget: Budget::default() }
     }
 
     /// Writes the bundle into a folder, which is made where it is missing; times are not measured.
@@ -64,8 +67,16 @@ impl<'a> Bundle<'a> {
         technique::applies(self.technique, stage)?;
         let certified = Certified::of((stage, &view), &self.budget, 1, watch)?;
         let (buffers, view) = (&Buffers::All, &view);
-        let mut files =
-            RunFiles { stage, view, certified: Some(&certified), buffers, batch: &mut batch, watch };
+        let mut files = RunFiles {
+            stage,
+            view,
+            certified: Some(&certified),
+            buffers,
+            // They are in the pyramid of tiles.
+            is_elsewhere: &|name| name == "tiles",
+            batch: &mut batch,
+            watch,
+        };
         let truth = files.truth(&certified)?;
         let (run, frame) = files.technique(self.technique, 1)?;
         watch.start("tiles and mesh");
@@ -73,7 +84,7 @@ impl<'a> Bundle<'a> {
             batch.stage(&format!("tiles/{name}.png"), |to| write_png(&picture, to))?;
         }
         let mesh = stage.mesh_for(view);
-        stage_scene(stage, &mesh, &mut batch)?;
+        self.stage_scene(&mesh, &mut batch)?;
         let settings = (self.technique.name(), run.parameters.clone(), run.device.clone());
         let parameters = Parameters::new((&stage.scene, &mesh, view), settings).to_json()?;
         let (scene, notes) = (scene_result(stage, self.hash), stage.scene.notes.clone());
@@ -85,25 +96,26 @@ impl<'a> Bundle<'a> {
         }
         batch.commit()
     }
-}
 
-/// What is drawn: mesh, features, imagery.
-fn stage_scene(stage: &Stage, mesh: &Mesh, batch: &mut Batch) -> Result<()> {
-    let Stage { scene, draw_list, .. } = stage;
-    for table in [vertices(mesh), triangles(mesh)].into_iter().chain(plan_points(mesh)) {
-        let name = format!("mesh.{}.npy", table.name);
-        let table = Npy::new(&table)?;
-        batch.stage(&name, |to| table.write(to))?;
+    /// What is drawn: mesh, features, imagery.
+    fn stage_scene(&self, mesh: &Mesh, batch: &mut Batch) -> Result<()> {
+        let Stage { scene, draw_list, .. } = self.stage;
+        for table in [vertices(mesh), triangles(mesh)].into_iter().chain(plan_points(mesh)) {
+            let name = format!("mesh.{}.npy", table.name);
+            let table = Npy::new(&table)?;
+            batch.stage(&name, |to| table.write(to))?;
+        }
+        let (layers, list, plan_space) = (&scene.layers[..], draw_list, &scene.plan_space[..]);
+        let origin = scene.origin.truncate();
+        let features = FeatureTable { layers, list, attributes: self.attributes, plan_space, origin };
+        batch.stage("features.geojson", |to| write_features(&features, to))?;
+        if let GroundColors::Imagery(Imagery { texels, .. }) = &scene.ground.colors {
+            let codes = texels.values().iter().map(|color| color.0.map(|v| (v * 255.0 + 0.5) as u8));
+            let picture = Buffer::from_values(texels.width(), texels.height(), codes.collect());
+            batch.stage("imagery.png", |to| write_png(&picture, to))?;
+        }
+        Ok(())
     }
-    batch.stage("features.geojson", |to| {
-        write_features((&scene.layers, draw_list), scene.origin.truncate(), to)
-    })?;
-    if let GroundColors::Imagery(Imagery { texels, .. }) = &scene.ground.colors {
-        let codes = texels.values().iter().map(|color| color.0.map(|v| (v * 255.0 + 0.5) as u8));
-        let picture = Buffer::from_values(texels.width(), texels.height(), codes.collect());
-        batch.stage("imagery.png", |to| write_png(&picture, to))?;
-    }
-    Ok(())
 }
 
 /// The tiles of a frame that has such.

@@ -3,39 +3,102 @@
 
 use crate::draw_list::{Chain, DrawList, Item, ItemStyle, Role, Side};
 use crate::parameter::Named;
-use crate::scene::{Color, Join, Layer, Line, OutlineMode, Width};
+use crate::scene::{Attribute, Color, Column, Join, Layer, Line, OutlineMode, Width};
 use crate::space::Plan;
 use glam::DVec2;
 use serde_json::{Map, Value, json};
 use std::io::{self, Write};
 
-/// Writes all features that are painted, in draw order, each in a line, in absolute plan coordinates.
+/// What features are written from.
+#[derive(Debug, Clone, Copy)]
+pub struct FeatureTable<'a> {
+    /// The layers, for their names.
+    pub layers: &'a [Layer],
+    /// The features that are painted.
+    pub list: &'a DrawList,
+    /// The columns of attributes of each layer; a layer may have none.
+    pub attributes: &'a [Vec<Column>],
+    /// What the plan space is (`EPSG:32733`, or words).
+    pub plan_space: &'a str,
+    /// Absolute plan coordinates of the local zero point.
+    pub origin: DVec2,
+}
+
+/// Writes all features that are painted, in draw order, each in a line, in absolute plan coordinates. RFC 7946 knows longitude and latitude
+/// alone: the `crs` member of its predecessor of 2008, which GIS programs read, names the plan's code, and is null where it has none.
 ///
 /// # Errors
 /// Those of the writer.
-pub fn write_features(
-    (layers, list): (&[Layer], &DrawList),
-    origin: DVec2,
-    to: &mut dyn Write,
-) -> io::Result<()> {
-    write!(to, "{{\"type\":\"FeatureCollection\",\"features\":[")?;
+pub fn write_features(table: &FeatureTable, to: &mut dyn Write) -> io::Result<()> {
+    let list = table.list;
+    let (crs, plan_space) = (crs_member(table.plan_space), Value::from(table.plan_space));
+    write!(to, "{{\"type\":\"FeatureCollection\",\"crs\":{crs},\"plan_space\":{plan_space},\"features\":[")?;
     let mut separator = "\n";
     for items in list.items().chunk_by(|a, b| (a.layer, a.feature) == (b.layer, b.feature)) {
         to.write_all(separator.as_bytes())?;
         separator = ",\n";
-        let properties = Value::Object(properties((layers, list), items));
+        let properties = Value::Object(properties(table, items));
         write!(to, "{{\"type\":\"Feature\",\"properties\":{properties},\"geometry\":")?;
-        write_geometry(list, items, origin, to)?;
+        write_geometry(list, items, table.origin, to)?;
         write!(to, "}}")?;
     }
     write!(to, "\n]}}\n")
 }
 
-/// The properties of a feature, by its items.
-fn properties((layers, list): (&[Layer], &DrawList), items: &[Item]) -> Map<String, Value> {
+/// The plan's CRS as the format's predecessor names it; null where it has no code of EPSG's.
+fn crs_member(plan_space: &str) -> Value {
+    let code = plan_space.strip_prefix("EPSG:").filter(|code| code.bytes().all(|b| b.is_ascii_digit()));
+    code.map_or(
+        Value::Null,
+        |code| json!({ "type": "name", "properties": { "name": format!("urn:ogc:def:crs:EPSG::{code}") } }),
+    )
+}
+
+/// The properties of a feature: its style by its items, and its attributes. One that is called as a part of the style has `attribute.` before
+/// its name.
+fn properties(table: &FeatureTable, items: &[Item]) -> Map<String, Value> {
+    let mut all = styled(table, items);
+    let Some(item) = items.first() else { return all };
+    for column in table.attributes.get(item.layer as usize).into_iter().flatten() {
+        let value = match column.value(item.number as usize) {
+            Attribute::Null => Value::Null,
+            Attribute::Boolean(flag) => (*flag).into(),
+            Attribute::Integer(number) => (*number).into(),
+            Attribute::Number(number) => (*number).into(),
+            Attribute::Text(text) => text.as_str().into(),
+        };
+        let is_taken = STYLE_KEYS.contains(&column.name.as_str());
+        let name = if is_taken { format!("attribute.{}", column.name) } else { column.name.clone() };
+        all.insert(name, value);
+    }
+    all
+}
+
+/// What a style may write.
+const STYLE_KEYS: [&str; 15] = [
+    "layer",
+    "number",
+    "layer-opacity",
+    "fill",
+    "fill-opacity",
+    "fill-rule",
+    "stroke",
+    "stroke-opacity",
+    "stroke-width-m",
+    "stroke-width-px",
+    "join",
+    "miter-limit",
+    "cap",
+    "outline-mode",
+    "attribute",
+];
+
+/// How a feature looks, by its items.
+fn styled(table: &FeatureTable, items: &[Item]) -> Map<String, Value> {
+    let list = table.list;
     let mut all = Map::new();
     for item in items {
-        all.insert("layer".into(), layers[item.layer as usize].name.clone().into());
+        all.insert("layer".into(), table.layers[item.layer as usize].name.clone().into());
         all.insert("number".into(), item.number.into());
         let style = &list.styles()[item.style as usize];
         if let Some(group) = style.group {
@@ -151,12 +214,22 @@ mod tests {
     use crate::scene::{Cap, Feature, Fill, Outline, Rule, Shape, Style};
 
     fn written(style: Style, shapes: Vec<Shape>) -> Value {
+        written_with(style, shapes, (&[], "metres without a CRS"))
+    }
+
+    fn written_with(
+        style: Style,
+        shapes: Vec<Shape>,
+        (attributes, plan_space): (&[Vec<Column>], &str),
+    ) -> Value {
         let features = shapes.into_iter().enumerate();
         let features = features.map(|(index, shape)| Feature { index, style: 0, shape }).collect();
         let mut layers = [Layer::uniform("layer", style, features)];
         let list = DrawList::new(&mut layers).unwrap();
         let mut text = Vec::new();
-        write_features((&layers, &list), DVec2::new(100.0, 0.0), &mut text).unwrap();
+        let origin = DVec2::new(100.0, 0.0);
+        let table = FeatureTable { layers: &layers, list: &list, attributes, plan_space, origin };
+        write_features(&table, &mut text).unwrap();
         serde_json::from_slice(&text).unwrap()
     }
 
@@ -198,6 +271,30 @@ mod tests {
         let second = "[[[101.0,0.0],[105.0,0.0],[101.0,4.0],[101.0,0.0]]]";
         assert_eq!(over["coordinates"][1].to_string(), second);
         assert_eq!(beside["coordinates"].as_array().map(Vec::len), Some(2));
+    }
+
+    #[test]
+    fn the_plan_is_named_as_gis_programs_read_it_and_attributes_stay_beside_the_style() {
+        let polygon = || Shape::Polygon(vec![plan(&[(0.0, 0.0), (4.0, 0.0), (0.0, 4.0)])]);
+        let column = |name: &str, values: Vec<Attribute>| Column { name: name.into(), values };
+        let text = |text: &str| Attribute::Text(text.into());
+        let attributes = [vec![
+            column("NAME", vec![text("first"), text("second")]),
+            column("fill", vec![Attribute::Integer(7)]),
+        ]];
+        let both = || vec![polygon(), polygon()];
+        let all = written_with(style(OutlineMode::Normal, true), both(), (&attributes, "EPSG:32733"));
+        assert_eq!(all["crs"]["properties"]["name"], "urn:ogc:def:crs:EPSG::32733");
+        let [first, second] = [0, 1].map(|k| all["features"][k]["properties"].clone());
+        assert_eq!((&first["NAME"], &second["NAME"]), (&"first".into(), &"second".into()));
+        assert_eq!((&first["fill"], &first["attribute.fill"]), (&"#000000".into(), &7.into()));
+        assert!(second["attribute.fill"].is_null());
+        let local = written(style(OutlineMode::Normal, true), both());
+        assert!(
+            local["crs"].is_null()
+                && local.get("crs").is_some()
+                && local["plan_space"] == "metres without a CRS"
+        );
     }
 
     #[test]

@@ -16,7 +16,7 @@ mod tiles;
 
 pub use buffers::Buffers;
 pub use bundle::Bundle;
-pub use features::write_features;
+pub use features::{FeatureTable, write_features};
 pub use mesh::{plan_points, triangles, vertices};
 pub use parameters::{Camera, Canvas, GroundParameters, Parameters};
 pub use pictures::Pictures;

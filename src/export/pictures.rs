@@ -45,6 +45,7 @@ impl Pictures<'_> {
             view: &view,
             certified: certified.as_ref(),
             buffers: self.buffers,
+            is_elsewhere: &|_| false,
             batch: &mut batch,
             watch,
         };

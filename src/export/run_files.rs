@@ -19,6 +19,8 @@ pub(super) struct RunFiles<'a> {
     /// The truth, where distances from it are to be told.
     pub(super) certified: Option<&'a Certified>,
     pub(super) buffers: &'a Buffers,
+    /// Whether a buffer is written by others, in another way.
+    pub(super) is_elsewhere: &'a dyn Fn(&str) -> bool,
     pub(super) batch: &'a mut Batch,
     pub(super) watch: &'a dyn Watch,
 }
@@ -93,11 +95,12 @@ impl RunFiles<'_> {
         planes: &[Plane],
     ) -> Result<Vec<BufferResult>> {
         let undeclared = |plane: &Plane| Error::internal(format!("{technique} declares no `{}`", plane.name));
+        let is_elsewhere = self.is_elsewhere;
         let stage = |plane: &Plane| {
             let kind = kinds.iter().find(|kind| kind.name == plane.name);
             self.stage_plane(technique, kind.ok_or_else(|| undeclared(plane))?, plane)
         };
-        planes.iter().map(stage).collect()
+        planes.iter().filter(|plane| !is_elsewhere(plane.name)).map(stage).collect()
     }
 
     /// Stages a buffer's values and, where it has one, its picture.

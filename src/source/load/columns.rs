@@ -58,6 +58,11 @@ impl<'a> Columns<'a> {
         Self { columns, names, source: Source::Scene(scene.path.as_deref()) }
     }
 
+    /// The columns themselves.
+    pub(super) fn into_columns(self) -> Vec<Column> {
+        self.columns
+    }
+
     /// Refuses a layer that asks for a column which there is not.
     pub(super) fn require(&self, spec: &LayerSpec) -> Result<()> {
         let has = |name: &String| self.columns.iter().any(|column| column.name == *name);

@@ -21,6 +21,7 @@
 //!   `-terrain offset - anchor`: exact where the numbers are;
 //! - heights are local too: those of the data stay as they are, what raises the terrain is taken from the camera's.
 
+mod attributes;
 mod blame;
 mod camera;
 mod changes;
@@ -46,6 +47,7 @@ mod window;
 #[cfg(test)]
 mod tests;
 
+pub use attributes::attributes;
 pub use place::{crs_of, default_plan_space, scale_error};
 
 use crate::error::Result;

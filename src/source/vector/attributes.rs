@@ -13,6 +13,8 @@ pub(super) enum Wanted {
     Nothing,
     /// The values of the columns with these names.
     Columns(Vec<String>),
+    /// The values of all columns, as far as they are of kinds that are read.
+    All,
     /// What each column holds, in short.
     Summary,
 }
@@ -62,6 +64,7 @@ impl Attributes {
         }
         let kept = match &self.wanted {
             Wanted::Columns(names) if names.iter().any(|wanted| wanted == name) => Kept::Values(Vec::new()),
+            Wanted::All => Kept::Values(Vec::new()),
             Wanted::Summary => Kept::Summary(Tally::default()),
             Wanted::Nothing | Wanted::Columns(_) => Kept::Name,
         };
@@ -90,9 +93,9 @@ impl Attributes {
 
     /// A feature's value in a column that is not read, and why not: refused where it is wanted.
     pub(super) fn put_unread(&self, column: usize, why: &str) -> Result<()> {
-        match self.columns[column].kept {
-            Kept::Values(_) => Err(self.error(column, why)),
-            Kept::Name | Kept::Summary(_) => Ok(()),
+        match (&self.wanted, &self.columns[column].kept) {
+            (Wanted::Columns(_), Kept::Values(_)) => Err(self.error(column, why)),
+            _ => Ok(()),
         }
     }
 

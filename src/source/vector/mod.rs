@@ -116,6 +116,15 @@ pub fn read_columns(path: &Path, layer: Option<&str>, columns: &[String]) -> Res
     read_collected(path, layer, wanted).map(|(_, found)| found.into_file()).map_err(|e| e.in_file(path))
 }
 
+/// Reads all attributes of a vector file. A value of a kind that is not read is no value.
+///
+/// # Errors
+/// As [`read_columns`].
+pub fn read_attributes(path: &Path, layer: Option<&str>) -> Result<Vec<Column>> {
+    let read = read_collected(path, layer, Wanted::All);
+    read.map(|(_, found)| found.into_file().columns).map_err(|e| e.in_file(path))
+}
+
 fn read_collected(path: &Path, layer: Option<&str>, wanted: Wanted) -> Result<(VectorFormat, Collector)> {
     let no_layers = |what: &str, layer: &str| {
         Error::new(format!("{what} has no layers, so none named '{layer}'"))
