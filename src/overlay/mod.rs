@@ -1,7 +1,7 @@
 //! Polygons that lie over one another made one: the border of their union.
 //!
-//! Input: the members of a multi-polygon as rings, and which windings are inside one. Output: [`union_border`]: rings around what any
-//! member holds, its inside on their left; `None` where no point is in two members, so that the rings as they are already tell. Refuses:
+//! Input: the members of a multi-polygon as rings, and which windings are inside one. Output: [`union_border`]: rings of which the same
+//! windings are inside what any member holds; `None` where no point is in two members, so that the rings as they are already tell. Refuses:
 //! members that cross more often than can be held.
 //!
 //! Whether members overlap is decided exactly. Where edges cross, the border has a corner at the crossing, rounded to doubles: the edges
@@ -17,7 +17,8 @@ use crate::error::Result;
 use edges::{Edges, Rings};
 
 /// The border of the union of some polygons, each given as rings (closed, the first vertex once) of which `is_inside` tells what windings
-/// are inside; `None` where no two of them overlap.
+/// are inside; `None` where no two of them overlap. Where members overlap the union is on the left of its rings; members away from them
+/// keep theirs.
 ///
 /// # Errors
 /// When they cross too often.
