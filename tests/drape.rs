@@ -369,6 +369,7 @@ mod brute_force {
         let Some((_, world, plan)) = met.min_by(|a, b| a.0.total_cmp(&b.0)) else { return false };
         scene.layers.iter().any(|layer| match &layer.features[0].shape {
             Shape::Polygon(rings) => is_inside(rings, plan),
+            Shape::Points(_) => false,
             Shape::MultiPolygon(members) => members.iter().any(|rings| is_inside(rings, plan)),
             Shape::Line(lines) => {
                 let width = match layer.styles[0].line.unwrap().width {

@@ -4,6 +4,7 @@
 mod drawing;
 
 use drapery::buffer::{Buffer, Plane, Values};
+use drapery::measure::{Drawn, Unwatched};
 use drapery::scene::TechniqueSettings;
 use drapery::scene::{
     Cap, Color, Feature, Fill, Join, Layer, Line, Outline, OutlineMode, Rule, Shape, Style, Width,
@@ -70,9 +71,11 @@ fn shapes() -> Vec<(Shape, Has)> {
         (vec![dot.clone(), vec![dot[0]; 3]], Has::Nothing),
     ];
     let polygons = polygons.into_iter().map(|(rings, has)| (Shape::Polygon(rings), has));
+    let points = Shape::Points(two.clone());
     let twice = Shape::MultiPolygon(vec![vec![square()], vec![dot.clone(), square()], vec![two]]);
-    let polygons = polygons.chain([(twice, Has::Inside)]);
-    polygons.chain(lines.into_iter().map(|(lines, has)| (Shape::Line(lines), has))).collect()
+    let others = [(twice, Has::Inside), (points, Has::Length)];
+    let lines = lines.into_iter().map(|(lines, has)| (Shape::Line(lines), has));
+    polygons.chain(lines).chain(others).collect()
 }
 
 /// Every style there is, but for colours and widths.
@@ -89,7 +92,7 @@ fn styles() -> Vec<Style> {
     let mut all = Vec::new();
     for fill in [None, Some(fill)] {
         for outline in outlines.into_iter().chain([None]) {
-            all.extend([None, Some(line)].map(|line| Style { fill, outline, line }));
+            all.extend([None, Some(line)].map(|line| Style { fill, outline, line, point: line }));
         }
     }
     all
@@ -99,6 +102,7 @@ fn styles() -> Vec<Style> {
 fn is_painted(shape: &Shape, has: Has, style: &Style) -> bool {
     match shape {
         Shape::Line(_) => style.line.is_some(),
+        Shape::Points(_) => style.point.is_some(),
         Shape::Polygon(_) | Shape::MultiPolygon(_) if has == Has::Inside => {
             style.fill.is_some() || style.outline.is_some()
         }
@@ -286,7 +290,7 @@ fn style(has_pixels: bool, width: Range<f64>) -> impl Strategy<Value = Style> {
     let fill = (color(), rule).prop_map(|(color, rule)| Fill { color, rule });
     let outline = (line(has_pixels, width.clone()), mode).prop_map(|(line, mode)| Outline { line, mode });
     (prop::option::of(fill), prop::option::of(outline), prop::option::of(line(has_pixels, width)))
-        .prop_map(|(fill, outline, line)| Style { fill, outline, line })
+        .prop_map(|(fill, outline, line)| Style { fill, outline, line, point: line })
 }
 
 fn points() -> impl Strategy<Value = Vec<Plan>> {
@@ -298,6 +302,7 @@ fn mixed(has_pixels: bool) -> impl Strategy<Value = Layer> {
     let shape = prop_oneof![
         prop::collection::vec(points(), 1..3).prop_map(Shape::Polygon),
         prop::collection::vec(points(), 1..3).prop_map(Shape::Line),
+        points().prop_map(Shape::Points),
     ];
     let features = prop::collection::vec((shape, 0..5u32), 3..9);
     (prop::collection::vec(style(has_pixels, 2.0..40.0), 5), features).prop_map(|(styles, features)| {
@@ -438,5 +443,55 @@ proptest! {
     #[test]
     fn so_does_every_solution_of_the_clipmap_with_widths_in_pixels_among_them(layer in scattered(true)) {
         clipmaps().for_each(|technique| assert_each_as_alone(&layer, &technique, &[Kind::Clipmap]));
+    }
+}
+
+// ---- Points ----
+
+/// How much of the ground two points cover, in pixels: one alone, and one that shares a feature with another.
+fn covered(kind: Option<Kind>, changes: &str, point: &str) -> f64 {
+    let text = format!(
+        "schema = 1\nimage = {{ width = 60, height = 60 }}\ncamera = {{ eye = [0, 0, 100], target = [0, 0, 0], up = [0, 1, 0], \
+         projection = \"orthographic\", height_m = 60.0 }}\n{changes}\nterrain = {{ color = \"#ffffff\", generate = {{ kind = \"plane\", posts = [3, 3], \
+         cell_m = 40.0 }} }}\n[[layer]]\nfeatures = [{{ points = [[-15.3, 4.1], [14.2, 3.9]] }}, {{ points = [[2.0, -14.0]] }}]\n\
+         point = {{ color = \"#000000\", {point} }}\n"
+    );
+    let scene = drapery::Opened::parse(&text).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    let view = scene.view().unwrap();
+    let image = match kind {
+        Some(kind) => {
+            let drawn = Drawn::by(kind, (&scene.stage, &view), (1, &|_| false), &Unwatched).unwrap();
+            drawn.frame.image
+        }
+        None => truth::certify(&scene.stage, &view, &Budget::default(), &|_| {}).image(),
+    };
+    image.values().iter().map(|pixel| 1.0 - f64::from(pixel[0]) / 255.0).sum()
+}
+
+#[test]
+fn points_are_discs_in_the_truth_and_by_every_technique_whatever_lines_are() {
+    let area = 3.0 * std::f64::consts::PI * 4.0 * 4.0;
+    let near = |found: f64, share: f64, what: &str| {
+        assert!((found - area).abs() < share * area, "{what}: {found} of {area} pixels");
+    };
+    for point in ["width_m = 8.0", "width_px = 8.0"] {
+        near(covered(None, "", point), 0.002, "the truth");
+    }
+    for kind in Kind::ALL {
+        near(covered(Some(kind), "", "width_m = 8.0"), 0.06, kind.name());
+    }
+    for solution in ["1-lines", "2-polygons", "3a-both", "3b-wireframe", "4a-adjacency", "4b-offsets"] {
+        for threshold in ["0.0", "1e9"] {
+            let changes = format!(
+                "technique.clipmap = {{ solution = \"{solution}\", threshold_texels = {threshold} }}"
+            );
+            for point in ["width_m = 8.0", "width_px = 8.0"] {
+                near(covered(Some(Kind::Clipmap), &changes, point), 0.06, &format!("{changes}, {point}"));
+            }
+        }
+    }
+    for joins in ["none", "style"] {
+        let changes = format!("technique.stencil-volume = {{ joins = \"{joins}\", samples = 4 }}");
+        near(covered(Some(Kind::StencilVolume), &changes, "width_m = 8.0"), 0.02, &changes);
     }
 }

@@ -346,7 +346,7 @@ fn varied(k: usize) -> (Scene, Surface) {
             line: Line { color: color(0.0, 0.0, 0.2, 1.0), ..stroke(3.0) },
             mode: [OutlineMode::Inset, OutlineMode::Normal, OutlineMode::Offset][k % 3],
         }),
-        line: None,
+        ..Style::default()
     };
     // The members of every other lake overlap, across a hole.
     let cove: &[(f64, f64)] = &[(-16.0, -12.0), (12.0, -12.0), (12.0, 16.0), (-16.0, 16.0)];
@@ -554,6 +554,7 @@ mod brute_force {
                             paint = over(scene, paint, line.color);
                         }
                     }
+                    Shape::Points(_) => unreachable!("these scenes have none"),
                     Shape::Polygon(_) | Shape::MultiPolygon(_) => {
                         let fill = style.fill.as_ref();
                         let rule = fill.map_or(Rule::EvenOdd, |f| f.rule);

@@ -138,11 +138,13 @@ fn vectors_in_degrees_meet_the_terrain_of_the_same_place_in_metres() {
 }
 
 #[test]
-fn points_are_left_out_with_a_count() {
+fn towns_are_points() {
     with_data("swellendam/places_33S.shp", |path| {
         let found = read(path, None).unwrap();
-        assert!(found.features.is_empty());
-        assert_eq!(found.notes, ["11 points left out: points are not drawn"]);
+        assert!(
+            found.features.iter().all(|f| matches!(&f.shape, Shape::Points(points) if points.len() == 1))
+        );
+        assert_eq!((found.features.len(), found.notes.len()), (11, 0));
     });
 }
 

@@ -196,7 +196,7 @@ fn of_vectors(path: &Path) -> Result<Vec<Table>> {
 fn of_layer(path: &Path, summary: &VectorSummary) -> Table {
     let layer = summary.layer.as_ref().map_or(String::new(), |name| format!(", layer `{name}`"));
     let mut table = Table::new(format!("{}: vectors, {}{layer}", path.display(), summary.format));
-    let counts = [(summary.polygons, "polygon"), (summary.lines, "line")];
+    let counts = [(summary.polygons, "polygon"), (summary.lines, "line"), (summary.points, "point")];
     let counts = counts.iter().filter(|(count, _)| *count > 0);
     let kinds: Vec<String> = counts.map(|(count, kind)| counted(*count, kind)).collect();
     let kinds = if kinds.is_empty() { "none that is drawn".into() } else { kinds.join(", ") };

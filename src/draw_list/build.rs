@@ -91,6 +91,7 @@ fn made((styles, parts): (&[ItemStyle], &[StyleParts]), block: Block) -> Result<
                 list.add_polygon(item, style, &members, border.as_deref());
             }
             Shape::Line(lines) => list.add_line(item, style, &lines),
+            Shape::Points(points) => list.add_points(item, style, &points),
         }
     }
     Ok(list)
@@ -116,6 +117,15 @@ impl DrawList {
         let first = self.chains.len();
         for (part, line) in (0..).zip(lines) {
             self.add_stroke((part, 0), line, Ends::AsWritten);
+        }
+        self.items.push(Item { style, strokes: self.chains_from(first), ..item });
+    }
+
+    fn add_points(&mut self, item: Item, style: &StyleParts, points: &[Plan]) {
+        let Some(style) = style.point else { return };
+        let first = self.chains.len();
+        for (part, point) in (0..).zip(points) {
+            self.add_stroke((part, 0), std::slice::from_ref(point), Ends::AsWritten);
         }
         self.items.push(Item { style, strokes: self.chains_from(first), ..item });
     }

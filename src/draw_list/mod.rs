@@ -3,7 +3,8 @@
 //! Input: the layers of a scene, whose features it takes. Output: a [`DrawList`]: items in draw order, the chains of vertices that they are
 //! made of, the styles that they share. Refuses: more items, chains or vertices than can be numbered. It holds data and decides nothing
 //! about coverage, so that the truth may stand on it and yet share no decision with what it judges. What it does decide:
-//! - *Items.* A polygon makes a fill, if its style has one, and over it an outline, if it has one; a line makes a line. A feature whose
+//! - *Items.* A polygon makes a fill, if its style has one, and over it an outline, if it has one; a line makes a line; points make one item, a dot of
+//!   round caps for each. A feature whose
 //!   style has nothing for it makes nothing. An item's number is its place in the list.
 //! - *Areas.* An area has its feature's rings as they are, member by member, without those of fewer than three vertices, which enclose
 //!   nothing. What is inside of any member is inside.

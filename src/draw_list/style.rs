@@ -12,6 +12,8 @@ pub enum Role {
     Outline,
     /// A line.
     Line,
+    /// Points: a disc around each.
+    Point,
 }
 
 /// A side of a polygon's border.
@@ -76,6 +78,7 @@ pub(super) struct StyleParts {
     /// Whether the outline is cut to its polygon.
     pub(super) is_cut: bool,
     pub(super) line: Option<u32>,
+    pub(super) point: Option<u32>,
 }
 
 impl StyleParts {
@@ -129,11 +132,14 @@ impl StyleTable {
             stroked(Role::Outline, outline.line, cut)
         });
         let line = style.line.map(|line| stroked(Role::Line, line, None));
+        let dot = |line: Line| Line { join: Join::Round, cap: Cap::Round, ..line };
+        let point = style.point.map(|line| stroked(Role::Point, dot(line), None));
         StyleParts {
             is_cut: outline.is_some_and(|outline| outline.cut.is_some()),
             fill: fill.map(|style| self.number(style)),
             outline: outline.map(|style| self.number(style)),
             line: line.map(|style| self.number(style)),
+            point: point.map(|style| self.number(style)),
         }
     }
 

@@ -155,7 +155,14 @@ fn hex(color: Color) -> String {
 
 /// Lines, or rings: those of a multi-polygon by its members where these overlap, else all in one polygon.
 fn write_geometry(list: &DrawList, items: &[Item], origin: DVec2, to: &mut dyn Write) -> io::Result<()> {
-    let is_line = items.iter().any(|item| list.styles()[item.style as usize].role == Role::Line);
+    let has = |role: Role| items.iter().any(|item| list.styles()[item.style as usize].role == role);
+    if has(Role::Point) {
+        let points =
+            items.iter().flat_map(|item| list.strokes(item)).flat_map(|chain| list.vertices_of(chain));
+        let places: Vec<_> = points.map(|p| [origin.x + p.x, origin.y + p.y]).collect();
+        return write!(to, "{}", json!({ "type": "MultiPoint", "coordinates": places }));
+    }
+    let is_line = has(Role::Line);
     let is_united = items.iter().any(|item| item.border != item.area);
     let kind = match (is_line, is_united) {
         (true, _) => "MultiLineString",
@@ -241,7 +248,7 @@ mod tests {
         let color = Color([0.0, 0.0, 0.0, 1.0]);
         let line = Line { color, width: Width::Metres(1.0), join: Join::Round, cap: Cap::Butt };
         let fill = has_fill.then_some(Fill { color, rule: Rule::EvenOdd });
-        Style { fill, outline: Some(Outline { line, mode }), line: None }
+        Style { fill, outline: Some(Outline { line, mode }), ..Style::default() }
     }
 
     #[test]

@@ -136,7 +136,7 @@ impl<'l> Footprints<'l> {
         match (style.role, style.cut) {
             (Role::Fill, _) | (_, Some(Side::Inside)) => Some(true),
             (_, Some(Side::Outside)) => Some(false),
-            (Role::Outline | Role::Line, None) => None,
+            (Role::Outline | Role::Line | Role::Point, None) => None,
         }
     }
 

@@ -117,7 +117,7 @@ fn a_cut_outline_is_bounded_by_the_polygon_of_its_fill_which_is_there_once() {
     let style = Style {
         fill: Some(Fill { color, rule: Rule::EvenOdd }),
         outline: Some(Outline { line, mode: OutlineMode::Inset }),
-        line: None,
+        ..Style::default()
     };
     let list = list(style, Shape::Polygon(vec![ring]));
     let all = footprints(&list);

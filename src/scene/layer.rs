@@ -34,7 +34,7 @@ impl Layer {
 
     /// Whether a line or an outline is so many pixels wide: its footprint then depends on the view.
     pub fn has_width_in_pixels(&self) -> bool {
-        let lines = |style: &Style| [style.line, style.outline.map(|outline| outline.line)];
+        let lines = |style: &Style| [style.line, style.point, style.outline.map(|outline| outline.line)];
         let mut lines = self.styles.iter().flat_map(lines).flatten();
         lines.any(|line| matches!(line.width, Width::Pixels(_)))
     }
@@ -72,6 +72,8 @@ pub enum Shape {
     MultiPolygon(Vec<Vec<Vec<Plan>>>),
     /// The polylines of a (multi-)line.
     Line(Vec<Vec<Plan>>),
+    /// The points of a (multi-)point.
+    Points(Vec<Plan>),
 }
 
 impl Shape {
@@ -80,10 +82,11 @@ impl Shape {
         matches!(self, Self::Polygon(_) | Self::MultiPolygon(_))
     }
 
-    /// Its rings or polylines, those of all members one after the other.
+    /// Its rings or polylines, those of all members one after the other; all points of points.
     pub fn parts(&self) -> impl Iterator<Item = &Vec<Plan>> + Clone {
         let (own, members): (&[Vec<Plan>], &[Vec<Vec<Plan>>]) = match self {
             Self::Polygon(parts) | Self::Line(parts) => (parts, &[]),
+            Self::Points(points) => (std::slice::from_ref(points), &[]),
             Self::MultiPolygon(members) => (&[], members),
         };
         own.iter().chain(members.iter().flatten())
@@ -93,13 +96,14 @@ impl Shape {
     pub fn parts_mut(&mut self) -> impl Iterator<Item = &mut Vec<Plan>> {
         let (own, members): (&mut [Vec<Plan>], &mut [Vec<Vec<Plan>>]) = match self {
             Self::Polygon(parts) | Self::Line(parts) => (parts, &mut []),
+            Self::Points(points) => (std::slice::from_mut(points), &mut []),
             Self::MultiPolygon(members) => (&mut [], members),
         };
         own.iter_mut().chain(members.iter_mut().flatten())
     }
 }
 
-/// How a layer's features look. Polygons take `fill` and `outline`, lines take `line`.
+/// How a layer's features look. Polygons take `fill` and `outline`, lines take `line`, points take `point`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Style {
     /// The inside of polygons.
@@ -108,6 +112,8 @@ pub struct Style {
     pub outline: Option<Outline>,
     /// Lines.
     pub line: Option<Line>,
+    /// Points: a disc around each, as wide as this line. (It is one of no length with round caps, whatever its join and cap.)
+    pub point: Option<Line>,
 }
 
 /// The inside of polygons.

@@ -50,12 +50,15 @@ pub struct StyleSpec {
     pub outline: Option<OutlineSpec>,
     /// Lines.
     pub line: Option<LineSpec>,
+    /// Points: discs as wide as this.
+    pub point: Option<LineSpec>,
 }
 
 impl StyleSpec {
     /// The columns that it asks for, possibly several times.
     pub fn columns(&self) -> impl Iterator<Item = &str> {
-        let lines = || self.line.iter().chain(self.outline.as_ref().map(|outline| &outline.line));
+        let outline = || self.outline.iter().map(|outline| &outline.line);
+        let lines = || self.line.iter().chain(outline()).chain(&self.point);
         let paints = self.fill.iter().map(|fill| &fill.paint).chain(lines().map(|line| &line.paint));
         let of_paints = paints.flat_map(|paint| [paint.color.column(), paint.opacity.column()]);
         of_paints.chain(lines().map(|line| line.width.setting().column())).flatten()

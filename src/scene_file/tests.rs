@@ -55,7 +55,7 @@ outline = { color = "#003366", opacity = 1, width_m = 4.0, mode = "inset", join 
 source = "roads.shp"
 line = { color = "#ff7f00", opacity = 1.0, width_m = 12.0, join = "miter", miter_limit = 3, cap = "round" }
 [[layer]]
-features = [{ polygon = [[0, 0], [4, 0], [0, 3]] }, { line = [[0, 0], [1, 1]] }]
+features = [{ polygon = [[0, 0], [4, 0], [0, 3]] }, { line = [[0, 0], [1, 1]] }, { points = [[1, 2]] }]
 outline = { color = "#003366", width_px = 2 }
 line = { color = "#ff7f00", width_px = 3 }
 [[layer]]
@@ -248,6 +248,8 @@ fn by_column() -> Vec<String> {
         ("outline", &pixels),
         ("line", &metres),
         ("line", &pixels),
+        ("point", &metres),
+        ("point", &pixels),
     ];
     let scene = |(part, settings): &(&str, &[(&str, &str)]), scale: &dyn Fn(&str) -> String| {
         let setting = |(key, value): &(&str, &str)| {

@@ -27,10 +27,12 @@
 //! ```
 
 mod clip;
+mod disc;
 mod small_box;
 mod view;
 
 pub use clip::Clip;
+pub use disc::{DISC_CORNERS, disc_corners};
 pub use small_box::SmallBox;
 pub use view::{Lens, Ray, ViewFrame, Viewpoint};
 

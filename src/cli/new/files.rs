@@ -4,6 +4,7 @@ use drapery::crs::PlanSpace;
 use drapery::source::dem::{self, DemOptions, DemSummary, PngEncoding};
 use drapery::source::load;
 use drapery::source::vector::{self, VectorSummary};
+use drapery::space::{Plan, PlanBox};
 use drapery::{Error, Result};
 use std::path::{Path, PathBuf};
 
@@ -16,8 +17,12 @@ pub(super) struct Files<'a> {
 
 /// What is known of the terrain's file.
 pub(super) struct Terrain<'a> {
-    pub(super) path: &'a Path,
+    /// Its files, in the order of the call.
+    pub(super) paths: Vec<&'a Path>,
+    /// What the first one holds.
     pub(super) summary: DemSummary,
+    /// The box around all posts, in the files' coordinates.
+    pub(super) bounds: PlanBox,
     pub(super) encoding: Option<PngEncoding>,
 }
 
@@ -45,7 +50,7 @@ impl<'a> Files<'a> {
                 terrains.push(Terrain::of(path)?);
             }
         }
-        Ok(Self { terrain: only(terrains)?, layers: layers(vectors) })
+        Ok(Self { terrain: joined(terrains)?, layers: layers(vectors) })
     }
 
     /// What to say of layers that a scene cannot have.
@@ -58,22 +63,22 @@ impl<'a> Files<'a> {
 /// What is said of a layer in which nothing can be drawn.
 pub(super) const NOT_DRAWN: &str = "it holds nothing that is drawn, and is left out";
 
-/// The one terrain.
-fn only(mut terrains: Vec<Terrain<'_>>) -> Result<Terrain<'_>> {
-    match (terrains.pop(), terrains.last()) {
-        (None, _) => Err(Error::usage("none of these files is a terrain, and vectors lie on one")
-            .help("name a .tif, .hgt, .asc, .xyz or .png of heights too")),
-        (Some(terrain), None) => Ok(terrain),
-        (Some(second), Some(first)) => Err(Error::usage(format!(
-            "{} and {} are terrains both, and a scene has one",
-            first.path.display(),
-            second.path.display()
-        ))
-        .help("merge them first, such as with: gdal_merge.py -o all.tif FILE...")),
+/// One terrain of all files.
+fn joined(terrains: Vec<Terrain<'_>>) -> Result<Terrain<'_>> {
+    let mut terrains = terrains.into_iter();
+    let mut all = terrains.next().ok_or_else(|| {
+        Error::usage("none of these files is a terrain, and vectors lie on one")
+            .help("name a .tif, .hgt, .asc, .xyz or .png of heights too")
+    })?;
+    for terrain in terrains {
+        all.paths.extend(terrain.paths);
+        all.bounds.include(terrain.bounds.min);
+        all.bounds.include(terrain.bounds.max);
     }
+    Ok(all)
 }
 
-/// Layers with names of their own: areas, then lines.
+/// Layers with names of their own: areas, then lines, then points.
 fn layers(vectors: Vec<(&Path, VectorSummary)>) -> Vec<Layer<'_>> {
     let mut names: Vec<String> = Vec::new();
     let mut layers = Vec::new();
@@ -82,14 +87,16 @@ fn layers(vectors: Vec<(&Path, VectorSummary)>) -> Vec<Layer<'_>> {
         names.push(name.clone());
         layers.push(Layer { name, path, summary });
     }
-    layers.sort_by_key(|layer| layer.summary.polygons == 0);
+    layers.sort_by_key(|layer| (layer.summary.polygons == 0, layer.summary.lines == 0));
     layers
 }
 
 impl<'a> Terrain<'a> {
     fn of(path: &'a Path) -> Result<Self> {
         let (summary, encoding) = dem::describe_guessing(path, &DemOptions::default())?;
-        Ok(Self { path, summary, encoding })
+        let [x0, y0, x1, y1] = summary.bounds;
+        let bounds = PlanBox { min: Plan::new(x0, y0), max: Plan::new(x1, y1) };
+        Ok(Self { paths: vec![path], summary, bounds, encoding })
     }
 
     /// The plan that the scene will have, where the file states a CRS.
@@ -97,16 +104,21 @@ impl<'a> Terrain<'a> {
         let crs = load::crs_of(self.summary.crs_hint.as_ref()?).ok()?;
         load::default_plan_space(crs, self.summary.bounds).ok()
     }
+
+    /// What the scene is called after.
+    pub(super) fn name(&self) -> String {
+        self.paths.first().map_or_else(String::new, |path| name_of(path))
+    }
 }
 
 impl Layer<'_> {
     /// Whether there is anything that can be drawn. (An empty file is not known to hold nothing: it is refused when it is loaded.)
     pub(super) fn is_drawn(&self) -> bool {
-        self.summary.polygons + self.summary.lines > 0
+        self.summary.polygons + self.summary.lines + self.summary.points > 0
     }
 }
 
-pub(super) fn name_of(path: &Path) -> String {
+fn name_of(path: &Path) -> String {
     path.file_stem().map_or_else(|| "layer".into(), |stem| stem.to_string_lossy().into_owned())
 }
 

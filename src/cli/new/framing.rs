@@ -26,7 +26,7 @@ const LEAST: f64 = 1.0 / 32.0;
 /// Samples of a grid a side.
 const SAMPLES: usize = 160;
 /// Relief of a smaller share of the terrain's longer side looks flat...
-const FLAT: f64 = 0.025;
+const FLAT: f64 = 0.02;
 /// ... and is raised to about this.
 const RAISED: f64 = 0.05;
 /// Heights are drawn so many times as high at most.

@@ -29,11 +29,11 @@ Examples:
   drapery render scene.toml
   drapery new roads.shp dem.tif | drapery render -
 
-Terrain and vector files are told apart by what they are. Areas are drawn first, then lines, then points, each in the order of the call.
+Terrain and vector files are told apart by what they are; several terrain files are one terrain. Areas are drawn first, then lines, then points, each in the order of the call.
 Without -o the scene goes to stdout, with paths as they are given: save it in the folder where you call this. With -o paths start at
 the folder of that file.")]
 pub(super) struct Arguments {
-    /// The terrain's file and vector files, in any order.
+    /// Terrain and vector files, in any order and number.
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
     /// Where the scene goes; `-`, and without it: stdout.
@@ -83,7 +83,7 @@ fn starter(files: &Files, output: Option<&Path>, progress: &dyn Fn(&str)) -> Res
     let text = Starter { files, place: &place, told: Some(told) }.text()?;
     let exaggerated = (framing.exaggeration != 1.0).then(|| {
         format!(
-            "terrain: it is flat, so heights are drawn {} times as high (vertical_scale)",
+            "terrain: heights are low beside its extent, and drawn {} times as high (vertical_scale; 1.0 is as they are)",
             framing.exaggeration
         )
     });

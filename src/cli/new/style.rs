@@ -5,11 +5,13 @@ use super::framing::{Framing, two_digits};
 use super::theme::{Look, Theme, shaded, written};
 use crate::cli::written::{key, quoted_text};
 use drapery::math::{max, min};
-use drapery::scene::Feature;
+use drapery::scene::{Feature, Shape};
 use drapery::space::{Plan, PlanBox};
 
 /// Borders are so many pixels wide.
 const OUTLINE: f64 = 1.4;
+/// Points are so many pixels wide.
+const POINT: f64 = 9.0;
 /// Lines and borders cover at most this share of the picture, as long as they are seen at all.
 const CROWD: f64 = 0.10;
 /// The share of a polygon's extent that its border takes at most.
@@ -45,6 +47,8 @@ pub(super) struct Measures {
     lines: f64,
     /// Metres of polygons' borders.
     borders: f64,
+    /// How many points there are.
+    points: usize,
     /// The middle one of the polygons' extents.
     extent: f64,
 }
@@ -56,6 +60,10 @@ impl Measures {
         for feature in features {
             let bounds = PlanBox::around(feature.shape.parts().flatten().copied());
             if !bounds.meets(plan) {
+                continue;
+            }
+            if let Shape::Points(points) = &feature.shape {
+                measures.points += points.len();
                 continue;
             }
             let length: f64 = feature.shape.parts().map(|part| length_within(part, plan)).sum();
@@ -83,6 +91,7 @@ fn length_within(part: &[Plan], plan: &PlanBox) -> f64 {
 pub(super) struct Widths {
     pub(super) line: f64,
     pub(super) outline: f64,
+    pub(super) point: f64,
 }
 
 impl Widths {
@@ -95,10 +104,14 @@ impl Widths {
             min(pixels * pixel, room)
         };
         let floor = LEAST * pixel;
+        // Where an area is hardly filled, its border is what shows it.
+        let outline = if look.opacity < 0.2 { look.width } else { OUTLINE };
         let border = if measures.extent > 0.0 { BORDER * measures.extent } else { f64::INFINITY };
+        let apart = (CROWD * size.x * size.y / max(measures.points as f64, 1.0)).sqrt();
         Self {
+            point: two_digits(max(min(POINT * pixel, apart), floor)),
             line: two_digits(max(crowded(look.width, measures.lines), floor)),
-            outline: two_digits(max(min(crowded(OUTLINE, measures.borders), border), floor)),
+            outline: two_digits(max(min(crowded(outline, measures.borders), border), floor)),
         }
     }
 }
@@ -119,6 +132,12 @@ pub(super) fn lines(layer: &Layer<'_>, look: &Look, widths: Widths) -> String {
             .unwrap_or_else(|| (quoted_text(&stroke), widths.line.to_string()));
         text += &format!(
             "line = {{ color = {color}, width_m = {width}, join = \"round\", cap = \"round\" }}   # or width_px = 3.0\n"
+        );
+    }
+    if layer.summary.points > 0 {
+        text += &format!(
+            "point = {{ color = \"{stroke}\", width_m = {} }}   # or width_px = 9.0\n",
+            widths.point
         );
     }
     text

@@ -75,10 +75,15 @@ fn files_are_told_apart_by_what_they_are_and_areas_lie_below_lines() {
 }
 
 #[test]
-fn a_scene_has_one_terrain() {
-    let folder = Folder::with(&[("a.asc", GRID), ("b.asc", GRID), ("way.json", BOTH)]);
-    let two = folder.starter(&["a.asc", "way.json", "b.asc"]).unwrap_err();
-    assert!(two.what().contains("a.asc") && two.what().contains("b.asc are terrains both"), "{two}");
+fn several_files_are_one_terrain_and_none_is_refused() {
+    let east =
+        GRID.replace("xllcenter 0", "xllcenter 200").replace("1 2 3", "3 2 1").replace("4 5 6", "6 5 4");
+    let folder = Folder::with(&[("a.asc", GRID), ("b.asc", &east), ("way.json", BOTH)]);
+    let (text, _) = folder.starter(&["a.asc", "way.json", "b.asc"]).unwrap();
+    assert!(text.contains("a.asc\", \""), "{text}");
+    let (scene, surface) = load::load(&parsed(&text), &|_| ()).unwrap();
+    let drapery::scene::Surface::Grid(posts) = surface else { panic!("points") };
+    assert_eq!((posts.columns(), posts.rows(), &scene.name[..]), (5, 2, "a"));
     let none = folder.starter(&["way.json"]).unwrap_err();
     assert!(none.what().contains("none of these files is a terrain"), "{none}");
 }
@@ -149,11 +154,11 @@ fn flat_land_is_exaggerated_with_a_word_and_mountains_are_not() {
         |rise: f64| Folder::with(&[("dem.asc", &slope(51, 100.0, rise))]).starter(&["dem.asc"]).unwrap();
     let (text, notes) = starter(0.5);
     assert!(parsed(&text).terrain.vertical_scale >= 5.0, "{text}");
-    assert!(notes.iter().any(|note| note.contains("heights are drawn")), "{notes:?}");
+    assert!(notes.iter().any(|note| note.contains("vertical_scale")), "{notes:?}");
     for rise in [20.0, 0.0] {
         let (text, notes) = starter(rise);
         assert_eq!(parsed(&text).terrain.vertical_scale, 1.0);
-        assert!(!notes.iter().any(|note| note.contains("heights are drawn")), "{notes:?}");
+        assert!(!notes.iter().any(|note| note.contains("vertical_scale")), "{notes:?}");
     }
 }
 
@@ -217,4 +222,15 @@ fn a_scene_in_another_folder_finds_its_files() {
     let files = ["dem.asc", "both.json"].map(|name| folder.0.path().join(name)).to_vec();
     run(&Arguments { files, output: Some(output.clone()) }).unwrap();
     drapery::open(output).unwrap();
+}
+
+#[test]
+fn points_are_discs_above_all_else() {
+    let towns = r#"{"type":"MultiPoint","coordinates":[[0,0],[100,50]]}"#;
+    let folder = Folder::with(&[("dem.asc", GRID), ("towns.json", towns), ("both.json", BOTH)]);
+    let (text, _) = folder.starter(&["towns.json", "dem.asc", "both.json"]).unwrap();
+    let scene = parsed(&text);
+    let names: Vec<&str> = scene.layers.iter().map(|layer| layer.name.as_str()).collect();
+    assert_eq!(names, ["both", "towns"]);
+    assert!(scene.layers[1].style.point.is_some() && scene.layers[1].style.line.is_none(), "{text}");
 }

@@ -1,6 +1,6 @@
 //! The text of a starter scene.
 
-use super::files::{Files, Layer, NOT_DRAWN, Terrain, name_of};
+use super::files::{Files, Layer, NOT_DRAWN, Terrain};
 use super::framing::{Framing, WIDTH};
 use super::place::Place;
 use super::style::{self, Measures, Widths};
@@ -11,9 +11,9 @@ use crate::cli::written::{harmless, quoted_text};
 use drapery::Result;
 use drapery::crs::Crs;
 use drapery::scene::Scene;
-use drapery::source::dem::DemSummary;
 use drapery::space::{Plan, PlanBox};
 use glam::DVec3;
+use std::path::Path;
 
 /// A scene to be written.
 pub(super) struct Starter<'a> {
@@ -79,16 +79,22 @@ source = {source}
 {scale}color = "#efe6d2"
 shade = "hillshade"
 {notes}"##,
-            name = quoted_text(&name_of(terrain.path)),
+            name = quoted_text(&terrain.name()),
             plan = self.plan(),
             height = self.told.map_or(800, |told| told.framing.height),
             camera = self.camera(),
-            source = self.place.quoted(terrain.path)?,
+            source = self.source(&terrain.paths)?,
             crs = self.crs()?,
             encoding = encoding(terrain),
             scale = self.scale(),
             notes = self.notes("terrain: "),
         ))
+    }
+
+    /// The terrain's file, or all of them.
+    fn source(&self, paths: &[&Path]) -> Result<String> {
+        let quoted: Vec<String> = paths.iter().map(|path| self.place.quoted(path)).collect::<Result<_>>()?;
+        Ok(if let [only] = &quoted[..] { only.clone() } else { format!("[{}]", quoted.join(", ")) })
     }
 
     /// What the plan is.
@@ -115,7 +121,7 @@ shade = "hillshade"
 
     fn scale(&self) -> String {
         let by = self.told.map_or(1.0, |told| told.framing.exaggeration);
-        let why = "the land is flat: heights are drawn so many times as high; 1.0 is as they are";
+        let why = "heights are low beside the extent: drawn so many times as high; 1.0 is as they are";
         match by == 1.0 {
             true => "vertical_scale = 1.0\n".into(),
             false => format!("{:<38} # {why}\n", format!("vertical_scale = {by:.1}")),
@@ -128,7 +134,7 @@ shade = "hillshade"
         if terrain.plan().is_some() {
             return Ok(String::new());
         }
-        let ground = bounds(&terrain.summary);
+        let ground = terrain.bounds;
         let guess = self.files.layers.iter().find_map(|layer| {
             let crs = layer.summary.crs.as_ref()?;
             let code = crs.epsg()?;
@@ -154,7 +160,7 @@ shade = "hillshade"
             let features = scene.layers.get(number).map_or(&[][..], |layer| &layer.features);
             Widths::of(&look, &Measures::of(features, &framing.plan), framing)
         });
-        let widths = widths.unwrap_or(Widths { line: 1.0, outline: 1.0 });
+        let widths = widths.unwrap_or(Widths { line: 1.0, outline: 1.0, point: 1.0 });
         let source = self.place.quoted(layer.path)?;
         let mut text = format!("\n[[layer]]\nname = {}\nsource = {source}\n", quoted_text(&layer.name));
         if let Some(layer) = &layer.summary.layer {
@@ -178,11 +184,6 @@ shade = "hillshade"
 fn can_hold(crs: &Crs, bounds: &PlanBox) -> bool {
     let on_globe = |p: Plan| p.x.abs() <= 360.0 && p.y.abs() <= 90.0;
     !crs.is_geographic() || (on_globe(bounds.min) && on_globe(bounds.max))
-}
-
-fn bounds(summary: &DemSummary) -> PlanBox {
-    let [x0, y0, x1, y1] = summary.bounds;
-    PlanBox { min: Plan::new(x0, y0), max: Plan::new(x1, y1) }
 }
 
 /// What a PNG does not say itself.

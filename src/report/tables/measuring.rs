@@ -47,6 +47,9 @@ fn counted(stage: &Stage) -> [usize; 3] {
     let (list, [mut features, mut segments, mut vertices]) = (&stage.draw_list, [0; 3]);
     for (number, item) in list.numbered() {
         let role = list.style_of(number).role;
+        if role == Role::Point {
+            continue;
+        }
         let path =
             |chain: &Chain| if role == Role::Line { list.path_of(chain) } else { list.vertices_of(chain) };
         features += usize::from(role != Role::Fill);

@@ -80,9 +80,11 @@ fn source(section: &mut Section<'_>) -> Result<LayerSource> {
 
 /// A feature that is written in the scene file.
 fn inline(section: &mut Section<'_>) -> Result<InlineFeature> {
-    let shape = match section.paths("polygon")? {
-        Some(rings) => Shape::Polygon(rings.into_iter().map(open).collect()),
-        None => Shape::Line(section.paths("line")?.unwrap_or_default()),
+    let (polygon, points) = (section.paths("polygon")?, section.paths("points")?);
+    let shape = match (polygon, points) {
+        (Some(rings), _) => Shape::Polygon(rings.into_iter().map(open).collect()),
+        (None, Some(points)) => Shape::Points(points.concat()),
+        (None, None) => Shape::Line(section.paths("line")?.unwrap_or_default()),
     };
     let value = |node: Node| as_scalar(node.value).ok_or_else(|| bug("properties"));
     Ok(InlineFeature { shape, properties: section.map("properties", value)?.unwrap_or_default() })

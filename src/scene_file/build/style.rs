@@ -15,6 +15,7 @@ pub(super) fn style(section: &mut Section<'_>) -> Result<StyleSpec> {
         fill: section.take("fill").map(|node| Section::read(origin, node, fill)).transpose()?,
         outline: section.take("outline").map(|node| Section::read(origin, node, outline)).transpose()?,
         line: section.take("line").map(|node| Section::read(origin, node, line)).transpose()?,
+        point: section.take("point").map(|node| Section::read(origin, node, point)).transpose()?,
     })
 }
 
@@ -30,6 +31,11 @@ fn outline(section: &mut Section<'_>) -> Result<OutlineSpec> {
 fn line(section: &mut Section<'_>) -> Result<LineSpec> {
     let cap = section.name("cap")?.unwrap_or_default();
     stroke(section, cap)
+}
+
+/// A point is a line of no length with round caps.
+fn point(section: &mut Section<'_>) -> Result<LineSpec> {
+    stroke(section, Cap::Round)
 }
 
 fn stroke(section: &mut Section<'_>, cap: Cap) -> Result<LineSpec> {

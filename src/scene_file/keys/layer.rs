@@ -32,6 +32,7 @@ pub(super) static LAYER: TableShape = TableShape {
         key("fill", Shape::Table(&FILL), "The inside of polygons."),
         key("outline", Shape::Table(&OUTLINE), "The border of polygons, over the fill."),
         key("line", Shape::Table(&LINE), "Lines."),
+        key("point", Shape::Table(&POINT), "Points, each a disc."),
         key(
             "opacity",
             SHARE,
@@ -48,7 +49,10 @@ pub(super) static LAYER: TableShape = TableShape {
             "The draw order: \"file\", \"size\" (larger polygons and longer lines on top, polygons below lines), or by a key. Default: \"file\".",
         ),
     ],
-    rules: &[Keys::One(&["source", "features", "generate"]), Keys::Some(&["fill", "outline", "line"])],
+    rules: &[
+        Keys::One(&["source", "features", "generate"]),
+        Keys::Some(&["fill", "outline", "line", "point"]),
+    ],
 };
 
 static FEATURE: TableShape = TableShape {
@@ -59,9 +63,10 @@ static FEATURE: TableShape = TableShape {
             "One ring [[x, y], ...] or several (the layer's rule says what is inside).",
         ),
         key("line", Shape::Paths, "One polyline [[x, y], ...] or several."),
+        key("points", Shape::Paths, "Points [[x, y], ...]."),
         key("properties", Shape::Map(&Shape::Scalar), "Its attributes: a value for each column."),
     ],
-    rules: &[Keys::One(&["polygon", "line"])],
+    rules: &[Keys::One(&["polygon", "line", "points"])],
 };
 
 static GENERATE_LAYER: TableShape = TableShape {
@@ -136,6 +141,16 @@ static LINE: TableShape = TableShape {
             "join = \"miter\": the largest ratio of miter length to width. Default: 4.",
         ),
         key("cap", choice::<Cap>(), "How the line ends. Default: \"butt\"."),
+    ],
+    rules: &[Keys::One(&["width_m", "width_px"])],
+};
+
+static POINT: TableShape = TableShape {
+    keys: &[
+        key("color", COLOR, "The colour.").required(),
+        key("opacity", OPACITY, "Multiplies the colour's alpha. Default: 1."),
+        key("width_m", WIDTH, "The disc's diameter in metres of the plan."),
+        key("width_px", WIDTH, "The disc's diameter in pixels of the screen."),
     ],
     rules: &[Keys::One(&["width_m", "width_px"])],
 };

@@ -13,7 +13,7 @@ use crate::crs::Crs;
 use crate::error::{Error, Result};
 use crate::scene::{Feature, Layer, Shape};
 use crate::scene_file::{DataFile, InlineFeature, LayerSource, LayerSpec, SceneFile, VectorGenerator};
-use crate::source::vector::is_drawable;
+use crate::source::vector::{VectorFile, is_drawable};
 use crate::source::{generate, vector};
 use crate::space::PlanBox;
 use glam::DVec2;
@@ -128,10 +128,13 @@ fn from_file<'a>(
     named.require()?;
     let blame = |error| named.blame(error);
     let mut file = vector::read_columns(named.path(), layer, &spec.columns()).map_err(blame)?;
+    leave_out_points(spec, &mut file);
     if !file.features.iter().any(|f| f.shape.parts().any(|part| is_drawable(&f.shape, part))) {
         let told = if file.notes.is_empty() { "it is empty".into() } else { file.notes.join("; ") };
         let error = Error::new(format!("nothing in this layer can be drawn: {told}"));
-        return Err(blame(error.help("leave the layer out, or give a file with polygons or lines")));
+        return Err(blame(
+            error.help("leave the layer out, or say how it looks: fill, outline, line or point"),
+        ));
     }
     let columns = Columns::of_file(&mut file, named);
     let crs = stated_crs(scene, spec)?.or(file.crs);
@@ -145,6 +148,26 @@ fn from_file<'a>(
 fn stated_crs(scene: &SceneFile, spec: &LayerSpec) -> Result<Option<Crs>> {
     let stated = spec.crs.as_ref().map(|text| Crs::parse(text)).transpose();
     stated.map_err(|error| of_key(scene, &format!("layer.{}.crs", spec.name), error))
+}
+
+/// Leaves out points where a layer says nothing of how they look, and tells how many.
+fn leave_out_points(spec: &LayerSpec, file: &mut VectorFile) {
+    if spec.style.point.is_some() {
+        return;
+    }
+    let points = |feature: &Feature| match &feature.shape {
+        Shape::Points(points) => points.len(),
+        _ => 0,
+    };
+    let count: usize = file.features.iter().map(points).sum();
+    file.features.retain(|feature| points(feature) == 0);
+    if count > 0 {
+        let plural = if count == 1 { "" } else { "s" };
+        file.notes.insert(
+            0,
+            format!("{count} point{plural} left out: the layer has no `point` that says how they look"),
+        );
+    }
 }
 
 /// How the layer's coordinates become plan coordinates, with a note where that is worth one.

@@ -19,7 +19,7 @@ pub(super) fn leave_out(terrain: &Terrain, layer: &mut Layer, count: usize, note
 
 /// How far beyond their vertices features of some styles may cover the plan; `None` where that depends on the view.
 pub(super) fn reach_of(styles: &[Style]) -> Option<f64> {
-    let lines = |style: &Style| [style.line, style.outline.map(|outline| outline.line)];
+    let lines = |style: &Style| [style.line, style.point, style.outline.map(|outline| outline.line)];
     styles.iter().flat_map(lines).flatten().try_fold(0.0, |far, line| Some(max(far, reach(line)?)))
 }
 
@@ -41,16 +41,19 @@ fn can_touch(feature: &Feature, style: &Style, terrain: &PlanBox) -> bool {
     let stroke = match &feature.shape {
         Shape::Polygon(_) | Shape::MultiPolygon(_) => style.outline.map(|outline| outline.line),
         Shape::Line(_) => style.line,
+        Shape::Points(_) => style.point,
     };
     let Some(reach) = stroke.map_or(Some(0.0), reach) else { return true };
     let around = terrain.grown(reach);
     let is_area = feature.shape.is_area();
     let encloses = |rings: &[Vec<Plan>]| style.fill.is_some_and(|fill| holds(rings, fill.rule, around.min));
-    feature.shape.parts().any(|part| edges(part, is_area).any(|edge| meets(edge, &around)))
+    let follows = !matches!(feature.shape, Shape::Points(_));
+    follows && feature.shape.parts().any(|part| edges(part, is_area).any(|edge| meets(edge, &around)))
         || match &feature.shape {
             Shape::Polygon(rings) => encloses(rings),
             Shape::MultiPolygon(members) => members.iter().any(|rings| encloses(rings)),
             Shape::Line(_) => false,
+            Shape::Points(points) => points.iter().any(|point| meets((*point, *point), &around)),
         }
 }
 

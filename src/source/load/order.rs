@@ -37,7 +37,7 @@ fn key(order: &Order, feature: &Feature, rule: Rule, columns: &Columns<'_>) -> K
     let own_area = || match &feature.shape {
         Shape::Polygon(rings) => area(rings, rule),
         Shape::MultiPolygon(members) => area_of_members(members, rule),
-        Shape::Line(_) => 0.0,
+        Shape::Line(_) | Shape::Points(_) => 0.0,
     };
     let own_length = || length(&feature.shape);
     let (group, value) = match (order, &feature.shape) {
@@ -46,6 +46,7 @@ fn key(order: &Order, feature: &Feature, rule: Rule, columns: &Columns<'_>) -> K
         // sorting criteria, because long lines and large polygons are usually more important (and important ones on top).
         (Order::Size, Shape::Polygon(_) | Shape::MultiPolygon(_)) => (0, Attribute::of_number(own_area())),
         (Order::Size, Shape::Line(_)) => (1, Attribute::of_number(own_length())),
+        (Order::Size, Shape::Points(_)) => (2, Attribute::Null),
         (Order::By { key: OrderKey::Area, .. }, _) => (0, Attribute::of_number(own_area())),
         (Order::By { key: OrderKey::Length, .. }, _) => (0, Attribute::of_number(own_length())),
         (Order::By { key: OrderKey::Column(column), .. }, _) => {

@@ -146,12 +146,13 @@ impl<'a> Way<'a> {
                 near.collect::<Result<_>>().map(Shape::MultiPolygon)
             }
             Shape::Line(lines) => self.lines(lines, &mut changes).map(Shape::Line),
+            Shape::Points(points) => self.points(points, &mut changes).map(Shape::Points),
         };
         changes.cut = changes.cut.min(1);
         changes.beyond = usize::from(beyond);
         Ok(match shape {
             Err(error) => Taken::Nowhere(error.in_feature(index)),
-            Ok(shape) if shape.parts().next().is_none() => Taken::Away(changes),
+            Ok(shape) if shape.parts().all(Vec::is_empty) => Taken::Away(changes),
             Ok(shape) => Taken::Near(Feature { index, style, shape }, changes),
         })
     }
@@ -196,6 +197,12 @@ impl<'a> Way<'a> {
             }
         }
         near.iter().map(|line| self.placed(line, None, changes)).collect()
+    }
+
+    /// Points, each a line that goes nowhere.
+    fn points(&self, points: Vec<Plan>, changes: &mut Changes) -> Result<Vec<Plan>> {
+        let lines = self.lines(points.into_iter().map(|p| vec![p, p]).collect(), changes)?;
+        Ok(lines.iter().filter_map(|line| line.first().copied()).collect())
     }
 
     /// Adds what of a line in degrees is near.

@@ -6,6 +6,9 @@ use crate::space::{Plan, PlanBox};
 
 /// The length of a shape's polylines, or of its rings: the sum over the segments in their order.
 pub(super) fn length(shape: &Shape) -> f64 {
+    if matches!(shape, Shape::Points(_)) {
+        return 0.0;
+    }
     let is_closed = shape.is_area();
     let of_part = |part: &Vec<Plan>| {
         let closing = part.last().zip(part.first()).filter(|_| is_closed);

@@ -2,7 +2,7 @@
 
 use super::columns::Columns;
 use crate::error::{Error, Result};
-use crate::scene::{Attribute, Color, Feature, Fill, Line, Outline, Style, Width};
+use crate::scene::{Attribute, Color, Feature, Fill, Line, Outline, Shape, Style, Width};
 use crate::scene_file::{
     ByColumn, LayerSpec, LineSpec, PaintSpec, Scale, StyleSetting, WidthSpec, nearest_or_all,
 };
@@ -17,14 +17,13 @@ pub(super) fn styled(
 ) -> Result<Vec<Style>> {
     let settings = Settings { spec, columns };
     if spec.style.columns().next().is_none() {
-        return settings.style(Takes { areas: true, lines: true }, 0).map(|style| vec![style]);
+        return settings.style(Takes::ALL, 0).map(|style| vec![style]);
     }
     let mut styles: Vec<Style> = Vec::new();
     let mut numbers = BTreeMap::new();
     for feature in features {
-        let is_area = feature.shape.is_area();
         let style = settings
-            .style(Takes { areas: is_area, lines: !is_area }, feature.index)
+            .style(Takes::of(&feature.shape), feature.index)
             .map_err(|e| columns.blame(e.in_feature(feature.index)))?;
         feature.style = *numbers.entry(bits(&style)).or_insert_with(|| {
             styles.push(style);
@@ -41,8 +40,9 @@ pub(super) fn styled(
 /// all of them.)
 fn bits(style: &Style) -> Vec<u64> {
     let outline = style.outline.map(|outline| outline.line);
-    let parts = [style.fill.is_some(), outline.is_some(), style.line.is_some()].map(u64::from);
-    let lines = || outline.iter().chain(&style.line);
+    let parts = [style.fill.is_some(), outline.is_some(), style.line.is_some(), style.point.is_some()];
+    let parts = parts.map(u64::from);
+    let lines = || outline.iter().chain(&style.line).chain(&style.point);
     let widths = lines().map(|line| match line.width {
         Width::Metres(width) | Width::Pixels(width) => width.to_bits(),
     });
@@ -56,6 +56,19 @@ fn bits(style: &Style) -> Vec<u64> {
 struct Takes {
     areas: bool,
     lines: bool,
+    points: bool,
+}
+
+impl Takes {
+    const ALL: Self = Self { areas: true, lines: true, points: true };
+
+    fn of(shape: &Shape) -> Self {
+        Self {
+            areas: shape.is_area(),
+            lines: matches!(shape, Shape::Line(_)),
+            points: matches!(shape, Shape::Points(_)),
+        }
+    }
 }
 
 /// A layer's settings, to be looked up for its features.
@@ -77,7 +90,14 @@ impl Settings<'_> {
             Ok(Outline { line, mode: outline.mode })
         });
         let line = line.map(|line| self.line(line, "line", index));
-        Ok(Style { fill: fill.transpose()?, outline: outline.transpose()?, line: line.transpose()? })
+        let point =
+            spec.point.as_ref().filter(|_| takes.points).map(|point| self.line(point, "point", index));
+        Ok(Style {
+            fill: fill.transpose()?,
+            outline: outline.transpose()?,
+            line: line.transpose()?,
+            point: point.transpose()?,
+        })
     }
 
     fn line(&self, line: &LineSpec, part: &str, index: usize) -> Result<Line> {

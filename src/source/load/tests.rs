@@ -473,3 +473,35 @@ fn the_scene_that_is_built_in_loads() {
     assert_eq!((scene.layers.len(), scene.origin), (8, DVec3::ZERO));
     assert_eq!(posts(surface).columns(), 513);
 }
+
+#[test]
+fn points_are_drawn_where_a_layer_says_how_and_left_out_with_a_word_where_not() {
+    let point =
+        r#"{"type":"Feature","properties":{},"geometry":{"type":"MultiPoint","coordinates":[[0,0],[9,9]]}}"#;
+    let line =
+        r#"{"type":"Feature","properties":{},"geometry":{"type":"LineString","coordinates":[[0,0],[9,9]]}}"#;
+    let both = format!(r#"{{"type":"FeatureCollection","features":[{point},{line}]}}"#);
+    let folder = Folder::new().with("points.json", point).with("both.json", both);
+    let layer = |file: &str, style: &str| {
+        format!(
+            "terrain = {{ generate = {{ kind = \"plane\" }} }}\n[[layer]]\nsource = \"{file}\"\n{style}\n"
+        )
+    };
+    let (point, line) =
+        ("point = { color = \"#ff0000\", width_px = 5 }", "line = { color = \"#ff0000\", width_m = 5 }");
+    let kept = |text: &str| folder.load(text).unwrap().0.layers[0].features.len();
+    assert_eq!(kept(&layer("both.json", &format!("{point}\n{line}"))), 2);
+    assert_eq!(kept(&layer("points.json", point)), 1);
+    let (scene, _) = folder.load(&layer("both.json", line)).unwrap();
+    assert_eq!(scene.layers[0].features.len(), 1);
+    assert!(
+        scene.notes.iter().any(|note| note.contains("2 points left out: the layer has no `point`")),
+        "{:?}",
+        scene.notes
+    );
+    let refused = folder.refused(&layer("points.json", line)).to_string();
+    assert!(refused.contains("nothing in this layer can be drawn: 2 points left out"), "{refused}");
+    let inline = layer("points.json", point)
+        .replace("source = \"points.json\"", "features = [{ points = [[1, 2], [3, 4]] }]");
+    assert_eq!(kept(&inline), 1);
+}

@@ -16,9 +16,8 @@ pub(super) struct Collector {
     pub(super) attributes: Attributes,
     /// Features seen in the file, with those left out.
     pub(super) seen: usize,
-    /// Coordinates of polygons and lines stored in the file, closing vertices counted.
+    /// Coordinates of polygons, lines and points stored in the file, closing vertices counted.
     pub(super) stored_vertices: usize,
-    points: usize,
     empty: usize,
     deleted: usize,
     /// Parts of lines that are a single vertex.
@@ -42,9 +41,12 @@ impl Collector {
         self.seen += 1;
     }
 
-    /// Counts points of the current feature, which are not drawn.
-    pub(super) fn leave_out_points(&mut self, count: usize) {
-        self.points += count;
+    /// Adds a (multi-)point of the current feature.
+    pub(super) fn add_points(&mut self, points: Vec<Plan>) -> Result<()> {
+        let mut parts = vec![points];
+        self.admit(&mut parts)?;
+        self.push((!parts.is_empty()).then(|| Shape::Points(parts.concat())));
+        Ok(())
     }
 
     /// Counts a geometry without coordinates.
@@ -114,7 +116,8 @@ impl Collector {
         };
         let index = self.current();
         let mut own = self.features.iter_mut().rev().take_while(|feature| feature.index == index);
-        match own.find(|feature| feature.shape.is_area() == shape.is_area()) {
+        let kind = |shape: &Shape| (shape.is_area(), matches!(shape, Shape::Points(_)));
+        match own.find(|feature| kind(&feature.shape) == kind(&shape)) {
             Some(feature) => join(&mut feature.shape, shape),
             None => self.features.push(Feature { index, style: 0, shape }),
         }
@@ -122,7 +125,6 @@ impl Collector {
 
     /// Says what was left out and what looks wrong.
     pub(super) fn finish(&mut self) {
-        self.note_count(self.points, "point", "left out: points are not drawn");
         self.note_count(self.empty, "geometry", "without coordinates left out");
         self.note_count(self.deleted, "feature", "left out, marked as deleted in the .dbf");
         self.note_count(self.dots, "line", "of a single vertex left out");
@@ -157,6 +159,10 @@ fn join(shape: &mut Shape, more: Shape) {
             parts.append(&mut more);
             Shape::Line(parts)
         }
+        (Shape::Points(mut points), Shape::Points(mut more)) => {
+            points.append(&mut more);
+            Shape::Points(points)
+        }
         (own, more) => {
             let mut members = members_of(own);
             members.append(&mut members_of(more));
@@ -169,10 +175,16 @@ fn members_of(shape: Shape) -> Vec<Vec<Vec<Plan>>> {
     match shape {
         Shape::MultiPolygon(members) => members,
         Shape::Polygon(rings) | Shape::Line(rings) => vec![rings],
+        Shape::Points(points) => vec![vec![points]],
     }
 }
 
-/// Whether a part has enough points to cover anything: 3 of a ring, 2 of a line.
+/// Whether a part has enough points to cover anything: 3 of a ring, 2 of a line, 1 of points.
 pub(in crate::source) fn is_drawable(shape: &Shape, part: &[Plan]) -> bool {
-    part.len() >= if shape.is_area() { 3 } else { 2 }
+    let least = match shape {
+        Shape::Polygon(_) | Shape::MultiPolygon(_) => 3,
+        Shape::Line(_) => 2,
+        Shape::Points(_) => 1,
+    };
+    part.len() >= least
 }

@@ -219,7 +219,7 @@ fn add(geometry: &Geometry<'_>, stated: GeometryType, found: &mut Collector, dep
     }
     match kind_of(geometry, stated) {
         GeometryType::Point | GeometryType::MultiPoint => {
-            found.leave_out_points(geometry.xy().map_or(0, |xy| xy.len() / 2));
+            found.add_points(paths(geometry)?.concat())?;
         }
         GeometryType::LineString | GeometryType::MultiLineString => found.add_line(paths(geometry)?)?,
         GeometryType::Polygon | GeometryType::Triangle => found.add_polygon(paths(geometry)?)?,

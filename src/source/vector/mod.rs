@@ -1,8 +1,8 @@
 //! Vector files -> features, in the file's own coordinates.
 //!
-//! Reads GeoJSON, shapefiles, FlatGeobuf, GeoPackage and OpenStreetMap's PBF, all but GeoPackages from a zip archive too: polygons
-//! and lines, in file order (FlatGeobuf: the order of the file, which is its index's and not the source's; GeoPackage: by primary
-//! key; OpenStreetMap: ways, then relations). Points, empty geometries, heights and
+//! Reads GeoJSON, shapefiles, FlatGeobuf, GeoPackage and OpenStreetMap's PBF, all but GeoPackages from a zip archive too: polygons,
+//! lines and points, in file order (FlatGeobuf: the order of the file, which is its index's and not the source's; GeoPackage: by primary
+//! key; OpenStreetMap: ways, then relations, no points). Empty geometries, heights and
 //! measures are left out and counted in the notes. Refuses what is damaged, not finite, or of no plan (multipatches),
 //! naming file and feature; never allocates by a count that the file's length does not bear out.
 //!

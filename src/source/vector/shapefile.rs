@@ -90,8 +90,11 @@ fn read_record(mut record: Cursor<'_>, found: &mut Collector) -> Result<()> {
     let kind = record.u32(Endian::Little).ok_or_else(|| damaged("its record is empty"))?;
     match kind {
         0 => found.leave_out_empty(),
-        1 | 11 | 21 => found.leave_out_points(1),
-        8 | 18 | 28 => found.leave_out_points(points_of_multipoint(record)?),
+        1 | 11 | 21 => {
+            let point = record.take(16).and_then(vertex);
+            found.add_points(vec![point.ok_or_else(|| damaged("its record is too short for its point"))?])?;
+        }
+        8 | 18 | 28 => found.add_points(points_of_multipoint(record)?)?,
         3 | 13 | 23 => found.add_line(parts_of_record(record)?)?,
         5 | 15 | 25 => found.add_polygons(members_by_turn(parts_of_record(record)?))?,
         31 => {
@@ -103,9 +106,11 @@ fn read_record(mut record: Cursor<'_>, found: &mut Collector) -> Result<()> {
     Ok(())
 }
 
-fn points_of_multipoint(mut record: Cursor<'_>) -> Result<usize> {
+fn points_of_multipoint(mut record: Cursor<'_>) -> Result<Vec<Plan>> {
     let count = record.take(32).and_then(|_| record.count(Endian::Little, 16));
-    count.ok_or_else(|| damaged("its record is too short for its points"))
+    let bytes = count.and_then(|count| record.take(count.checked_mul(16)?));
+    let bytes = bytes.ok_or_else(|| damaged("its record is too short for its points"))?;
+    Ok(bytes.chunks_exact(16).filter_map(vertex).collect())
 }
 
 /// Box, number of parts, number of points, first point of each part, points; heights and measures after them are

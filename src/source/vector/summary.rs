@@ -6,7 +6,7 @@ use super::column_summary::ColumnSummary;
 use super::{VectorFormat, geopackage, read_collected};
 use crate::crs::Crs;
 use crate::error::Result;
-use crate::scene::Feature;
+use crate::scene::{Feature, Shape};
 use crate::space::PlanBox;
 use std::path::Path;
 
@@ -26,7 +26,9 @@ pub struct VectorSummary {
     pub polygons: usize,
     /// (Multi-)lines that can be drawn: those with a part of 2 vertices or more.
     pub lines: usize,
-    /// Rings of polygons and parts of lines.
+    /// (Multi-)points.
+    pub points: usize,
+    /// Rings of polygons, parts of lines, and (multi-)points.
     pub parts: usize,
     /// Coordinates of polygons and lines as stored, closing vertices counted.
     pub vertices: usize,
@@ -68,8 +70,8 @@ fn summary(
     found: Collector,
 ) -> VectorSummary {
     let is_drawn = |f: &&Feature| f.shape.parts().any(|part| is_drawable(&f.shape, part));
-    let drawn = found.features.iter().filter(is_drawn).count();
-    let polygons = found.features.iter().filter(is_drawn).filter(|f| f.shape.is_area()).count();
+    let drawn =
+        |is: fn(&Shape) -> bool| found.features.iter().filter(is_drawn).filter(|f| is(&f.shape)).count();
     let doubts = found.crs.as_ref().map(|crs| super::doubts(crs, &found.features));
     let parts = || found.features.iter().flat_map(|f| f.shape.parts());
     VectorSummary {
@@ -77,8 +79,9 @@ fn summary(
         layer,
         layers: layers.to_vec(),
         features: found.seen,
-        polygons,
-        lines: drawn - polygons,
+        polygons: drawn(Shape::is_area),
+        lines: drawn(|shape| matches!(shape, Shape::Line(_))),
+        points: drawn(|shape| matches!(shape, Shape::Points(_))),
         parts: parts().count(),
         vertices: found.stored_vertices,
         bounds: PlanBox::around(parts().flatten().copied()),

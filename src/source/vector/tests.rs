@@ -168,8 +168,7 @@ const JSON: &str = r#"{"bbox":[0,0,1,1],"type":"FeatureCollection","features":[
 fn polygon_of(file: &VectorFile, at: usize) -> &[Vec<Plan>] {
     match &file.features[at].shape {
         Shape::Polygon(rings) => rings,
-        Shape::MultiPolygon(_) => panic!("a multi-polygon"),
-        Shape::Line(_) => panic!("a line"),
+        _ => panic!("no polygon"),
     }
 }
 
@@ -187,14 +186,12 @@ fn members_of(file: &VectorFile, at: usize) -> Vec<Vec<usize>> {
 fn geojson_keeps_order_and_indices_and_tells_what_it_leaves_out() {
     let read = read_bytes("a.geojson", JSON.as_bytes()).unwrap();
     let indices: Vec<usize> = read.features.iter().map(|f| f.index).collect();
-    assert_eq!(indices, [0, 3, 3]);
+    assert_eq!(indices, [0, 1, 3, 3]);
+    assert!(matches!(&read.features[1].shape, Shape::Points(points) if points.len() == 1));
     assert_eq!(polygon_of(&read, 0).iter().map(Vec::len).collect::<Vec<_>>(), [3, 3]);
-    assert_eq!(members_of(&read, 2), [[3], [3]]);
-    assert!(matches!(&read.features[1].shape, Shape::Line(parts) if parts[0].len() == 2));
-    assert_eq!(
-        read.notes,
-        ["1 point left out: points are not drawn", "1 geometry without coordinates left out"]
-    );
+    assert_eq!(members_of(&read, 3), [[3], [3]]);
+    assert!(matches!(&read.features[2].shape, Shape::Line(parts) if parts[0].len() == 2));
+    assert_eq!(read.notes, ["1 geometry without coordinates left out"]);
     assert!(read.crs.unwrap().is_geographic());
 }
 
@@ -297,7 +294,7 @@ fn rings_of_a_shapefile_that_turn_clockwise_are_members_and_the_others_holes_in_
         match &read.features[0].shape {
             Shape::MultiPolygon(members) => members.iter().map(Vec::len).collect(),
             Shape::Polygon(rings) => vec![rings.len()],
-            Shape::Line(_) => panic!("a line"),
+            _ => panic!("no polygon"),
         }
     };
     // A hole before its ring, an island in the hole with a hole of its own, and a ring beside them.
@@ -507,7 +504,7 @@ fn what_is_no_vector_file_is_refused_in_words() {
 
 #[test]
 fn the_content_tells_the_format_where_the_name_does_not() {
-    assert_eq!(read_bytes("noname", JSON.as_bytes()).unwrap().features.len(), 3);
+    assert_eq!(read_bytes("noname", JSON.as_bytes()).unwrap().features.len(), 4);
     assert_eq!(read_bytes("noname", &fgb()).unwrap().features.len(), 3);
 }
 
@@ -516,7 +513,8 @@ fn a_description_counts_as_the_file_stores() {
     let (_folder, path) = file("a.geojson", JSON.as_bytes());
     let all = describe(&path).unwrap();
     let [one] = all.as_slice() else { panic!("one layer") };
-    assert_eq!((one.features, one.polygons, one.lines, one.parts, one.vertices), (4, 2, 1, 5, 18));
+    assert_eq!((one.features, one.polygons, one.lines, one.points), (4, 2, 1, 1));
+    assert_eq!((one.parts, one.vertices), (6, 19));
     assert_eq!(one.bounds.max, Plan::new(6.0, 6.0));
     assert_eq!(one.format.to_string(), "GeoJSON");
 }

@@ -59,15 +59,17 @@ fn geometry(cursor: &mut Cursor<'_>, found: &mut Collector, depth: usize) -> Res
     let head = head(cursor)?;
     match head.kind {
         1 => {
-            let _point = vertices(cursor, &head, 1)?;
-            found.leave_out_points(1);
+            // A point without coordinates has NaN for them.
+            let point = vertices(cursor, &head, 1)?;
+            found.add_points(point.into_iter().filter(|p| !(p.x.is_nan() && p.y.is_nan())).collect())?;
         }
         2 => found.add_line(vec![path(cursor, &head)?])?,
         3 => found.add_polygon(paths(cursor, &head)?)?,
         4 => {
             let count = cursor.count(head.endian, 21).ok_or_else(cut_short)?;
-            let _points = members(cursor, count, POINTS, |cursor, head| vertices(cursor, head, 1))?;
-            found.leave_out_points(count);
+            found.add_points(
+                members(cursor, count, POINTS, |cursor, head| vertices(cursor, head, 1))?.concat(),
+            )?;
         }
         5 | 11 => {
             let count = cursor.count(head.endian, 9).ok_or_else(cut_short)?;

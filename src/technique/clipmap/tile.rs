@@ -313,6 +313,7 @@ impl TilePainter<'_> {
 
         let is_thin = width < maker.settings.threshold_texels;
         let as_lines = match maker.settings.solution {
+            _ if style.is_point => false,
             Solution::Lines => true,
             Solution::Polygons => false,
             Solution::Both | Solution::Wireframe | Solution::Adjacency | Solution::Offsets => is_thin,

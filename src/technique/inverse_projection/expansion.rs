@@ -4,9 +4,9 @@
 //! (Fig. 4d); every edge keeps the side that faces away from the line (Fig. 4e). The paper draws no round caps or joins ("in order to
 //! eradicate heavy loss in performance"), so a layer's `join` and `cap` are not asked, but for `square` caps.
 
-use crate::draw_list::{Chain, DrawList, Item};
+use crate::draw_list::{Chain, DrawList, Item, Role};
 use crate::scene::{Cap, Line, Width};
-use crate::space::Plan;
+use crate::space::{Plan, disc_corners};
 use glam::DVec2;
 use std::fmt;
 
@@ -88,7 +88,10 @@ impl Expansion<'_> {
         }
         let Some(line) = self.list.style_of(number).stroke else { return };
         for chain in self.list.strokes(item) {
-            self.add_stroke(AreaId::stroke_of(number), chain, &line);
+            match self.list.style_of(number).role {
+                Role::Point => self.add_disc(AreaId::stroke_of(number), chain, &line),
+                _ => self.add_stroke(AreaId::stroke_of(number), chain, &line),
+            }
         }
     }
 
@@ -96,6 +99,13 @@ impl Expansion<'_> {
     fn add_edges(&mut self, area: AreaId, path: &[Plan]) {
         let edges = path.windows(2).filter(|pair| pair[0] != pair[1]);
         self.edges.extend(edges.map(|pair| Edge { a: pair[0], b: pair[1], area, outside_is_left: false }));
+    }
+
+    /// Adds the polygon that stands for the disc around a point, which the paper does not have.
+    fn add_disc(&mut self, area: AreaId, chain: &Chain, line: &Line) {
+        let ([at, ..], Some(half)) = (self.list.vertices_of(chain), half_width(line)) else { return };
+        let corners = disc_corners(*at, half);
+        self.add_edges(area, &ring_of(corners.to_vec()));
     }
 
     /// Expands an open polyline (Fig. 4a to 4e), or a closed one: a chain on each side, no caps.

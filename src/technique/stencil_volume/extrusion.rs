@@ -15,7 +15,7 @@
 
 use super::heights::{Region, heights_under};
 use super::stroke::Stroke;
-use crate::draw_list::{Chain, DrawList, Item, Side};
+use crate::draw_list::{Chain, DrawList, Item, Role, Side};
 use crate::parallel;
 use crate::scene::Rule;
 use crate::space::{Plan, PlanBox, World};
@@ -144,6 +144,8 @@ impl<'l> Extrusion<'l> {
             false => self.objects[owner as usize].volumes.clone(),
         };
         let first = self.volumes.len();
+        // A point is nothing but its cap.
+        let joins = if self.list.style_of(number).role == Role::Point { VolumeJoins::Style } else { joins };
         if let Some(stroke) = Stroke::new(&line, joins) {
             self.list.strokes(item).iter().for_each(|chain| self.add_pieces(&stroke, chain));
         }

@@ -3,17 +3,13 @@
 //! Input: polylines, a width, what joins are asked for. Output: rings of the corners of pieces, counter-clockwise, rounded to
 //! doubles: *these* corners are the stroke's footprint. A piece is the rectangle of a segment and, where `joins = "style"`
 //! asks for it, the triangle of a bevel, the quadrilateral of a miter or the disc of a round join or cap (a polygon of
-//! [`DISC`] corners). The union of the pieces is the stroke. Refuses: nothing; pieces without area are left out.
+//! [`DISC_CORNERS`](crate::space::DISC_CORNERS) corners). The union of the pieces is the stroke. Refuses: nothing; pieces without area are left out.
 
-use crate::math;
 use crate::predicate::orient2d;
 use crate::scene::{Cap, Join, Line, Width};
-use crate::space::Plan;
+use crate::space::{Plan, disc_corners};
 use crate::technique::stencil_volume::VolumeJoins;
 use glam::DVec2;
-
-/// Corners of the polygon that stands for a disc.
-const DISC: usize = 32;
 
 /// Takes the rings of pieces.
 pub type Emit<'a> = dyn FnMut(&[Plan]) + 'a;
@@ -109,12 +105,7 @@ impl Stroke {
     }
 
     fn disc(&self, at: Plan, emit: &mut Emit) {
-        let corner = |k: usize| {
-            let angle = std::f64::consts::TAU * k as f64 / DISC as f64;
-            at + DVec2::new(math::cos(angle), math::sin(angle)) * self.half
-        };
-        let ring: [Plan; DISC] = std::array::from_fn(corner);
-        convex(&ring, emit);
+        convex(&disc_corners(at, self.half), emit);
     }
 }
 
@@ -161,7 +152,7 @@ mod tests {
         assert_eq!(by(Join::Bevel, VolumeJoins::Style)[2], [(4.0, 0.0), (4.0, -1.0), (5.0, 0.0)]);
         assert_eq!(by(miter, VolumeJoins::Style)[2], [(4.0, 0.0), (4.0, -1.0), (5.0, -1.0), (5.0, 0.0)]);
         assert_eq!(by(Join::Miter { limit: 1.2 }, VolumeJoins::Style)[2].len(), 3, "over the limit: bevel");
-        assert_eq!(by(Join::Round, VolumeJoins::Style)[2].len(), DISC);
+        assert_eq!(by(Join::Round, VolumeJoins::Style)[2].len(), crate::space::DISC_CORNERS);
     }
 
     #[test]

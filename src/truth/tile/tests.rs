@@ -85,23 +85,26 @@ fn rings(dice: &mut Dice) -> Vec<Vec<Plan>> {
 
 fn layer(dice: &mut Dice) -> Layer {
     let features = 1 + dice.below(2) as usize;
-    let is_line = dice.below(2) == 0;
-    let style = if is_line {
+    let kind = dice.below(5);
+    let style = if kind < 2 {
         Style { line: Some(line(dice)), ..Style::default() }
+    } else if kind == 2 {
+        Style { point: Some(line(dice)), ..Style::default() }
     } else {
         let rule = if dice.below(2) == 0 { Rule::EvenOdd } else { Rule::NonZero };
         let mode = [OutlineMode::Inset, OutlineMode::Normal, OutlineMode::Offset][dice.below(3) as usize];
         let fill = (dice.below(3) > 0).then(|| Fill { color: color(dice), rule });
         let outline = (fill.is_none() || dice.below(2) == 0).then(|| Outline { line: line(dice), mode });
-        Style { fill, outline, line: None }
+        Style { fill, outline, ..Style::default() }
     };
     let features = (0..features).map(|index| {
-        let shape = match is_line {
-            true => Shape::Line(vec![{
+        let shape = match kind {
+            0 | 1 => Shape::Line(vec![{
                 let count = 2 + dice.below(4);
                 points(dice, count)
             }]),
-            false => match 1 + dice.below(4) {
+            2 => Shape::Points(points(dice, 3)),
+            _ => match 1 + dice.below(4) {
                 2 => Shape::MultiPolygon((0..3).map(|_| rings(dice)).collect()),
                 _ => Shape::Polygon(rings(dice)),
             },
@@ -394,6 +397,19 @@ fn in_stroke(points: &[Plan], is_ring: bool, line: &Line, frame: &ViewFrame, see
     in_segment || in_corner || in_cap
 }
 
+/// Whether a point lies in the disc around another.
+fn in_disc(at: Plan, line: &Line, frame: &ViewFrame, seen: &Seen) -> bool {
+    let squared = match (line.width, frame.lens()) {
+        (Width::Metres(width), _) => square(rational(width) / rational(2.0)),
+        (Width::Pixels(width), lens) => {
+            let by = square(rational(width) / rational(2.0) * rational(lens.pixel()));
+            if matches!(lens, Lens::Central { .. }) { by * seen.eye_squared.clone() } else { by }
+        }
+    };
+    let v = sub(&seen.plan, &flat(at));
+    inner(&v, &v) <= squared
+}
+
 /// The items that hold a point, by their definitions, in draw order.
 fn items_at(layers: &[Layer], frame: &ViewFrame, seen: &Seen) -> Vec<bool> {
     let mut all = Vec::new();
@@ -404,6 +420,10 @@ fn items_at(layers: &[Layer], frame: &ViewFrame, seen: &Seen) -> Vec<bool> {
                 Shape::Line(parts) => {
                     let line = style.line.as_ref().unwrap();
                     all.push(parts.iter().any(|part| in_stroke(part, false, line, frame, seen)));
+                }
+                Shape::Points(points) => {
+                    let line = style.point.as_ref().unwrap();
+                    all.push(points.iter().any(|at| in_disc(*at, line, frame, seen)));
                 }
                 Shape::Polygon(_) | Shape::MultiPolygon(_) => {
                     let rule = style.fill.map_or(Rule::EvenOdd, |fill| fill.rule);

@@ -418,3 +418,29 @@ fn members_stay_members_in_any_plan_and_those_out_of_sight_go() {
         assert_eq!(around.count(), 2, "{}", globe.crs);
     }
 }
+
+#[test]
+fn points_in_degrees_are_where_they_are_on_every_turn_and_around_a_pole() {
+    let points = |lon: f64, lat: f64| {
+        format!(
+            r#"{{"type":"Feature","properties":{{}},"geometry":{{"type":"MultiPoint","coordinates":[[{lon},{lat}],[{},{}]]}}}}"#,
+            lon + 100.0,
+            -lat
+        )
+    };
+    let style = "point = { color = \"#000000\", width_m = 10 }";
+    for (globe, lon, lat) in [
+        (Globe::degrees(10.5, 45.5), 10.4, 45.6),
+        (Globe::around("EPSG:32633", 15.0, 47.0, 1000.0), 15.01, 47.01),
+        (Globe::around("EPSG:3413", -45.0, 80.0, 1000.0), -45.01, 80.01),
+    ] {
+        for turn in [0.0, 360.0] {
+            let scene = globe.load(&points(lon + turn, lat), style);
+            let [Feature { shape: Shape::Points(found), .. }] = &scene.layers[0].features[..] else {
+                panic!("{:?} {}", scene.layers[0].features, globe.crs)
+            };
+            let off = |p: &Plan| (*p - globe.local(&scene, lon, lat)).length();
+            assert!(found.iter().any(|p| off(p) < 1e-3), "{found:?} {}", globe.crs);
+        }
+    }
+}

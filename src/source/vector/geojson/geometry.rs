@@ -21,11 +21,11 @@ pub(super) fn add(geometry: Geometry, found: &mut Collector) -> Result<()> {
     let Geometry { kind, coordinates, geometries } = geometry;
     let coordinates = coordinates.unwrap_or(Coordinates::Nest(Vec::new()));
     match kind.as_str() {
-        "Point" => found.leave_out_points(1),
-        "MultiPoint" => found.leave_out_points(match coordinates {
-            Coordinates::Path(points) => points.len(),
-            _ => 0,
-        }),
+        "Point" => match coordinates {
+            Coordinates::Point(point) => found.add_points(vec![point])?,
+            other => found.add_points(paths(other, 0)?.concat())?,
+        },
+        "MultiPoint" => found.add_points(paths(coordinates, 0)?.concat())?,
         "LineString" => found.add_line(paths(coordinates, 0)?)?,
         "MultiLineString" => found.add_line(paths(coordinates, 1)?)?,
         "Polygon" => found.add_polygon(paths(coordinates, 1)?)?,

@@ -31,7 +31,10 @@ pub(super) fn read(input: impl Read + Seek, mut found: Collector) -> Result<Coll
     found.crs = Crs::crs84().ok();
     let (mut nodes, areas) = uses(&mut blobs)?;
     let points = nodes.find(&mut blobs)?;
-    found.leave_out_points(points);
+    if points > 0 {
+        let plural = if points == 1 { "" } else { "s" };
+        found.notes.push(format!("{points} point{plural} left out: nodes with tags are not drawn"));
+    }
     let mut ways = Ways { nodes, members: BTreeMap::new(), cut: 0 };
     for area in &areas {
         ways.members.extend(area.ways.iter().map(|way| (*way, None)));

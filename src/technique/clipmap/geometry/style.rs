@@ -1,13 +1,13 @@
 //! How items are drawn, and what is kept of them.
 
-use crate::draw_list::{DrawList, ItemStyle, Side};
+use crate::draw_list::{DrawList, ItemStyle, Role, Side};
 use crate::error::Result;
 use crate::math;
 use crate::resolve::Compositor;
 use crate::scene::{Compositing, Line, Rule, Width};
 use crate::technique::clipmap::raster::Ink;
 use crate::technique::clipmap::tessellation::Rule as Tessellation;
-use crate::technique::clipmap::{Settings, Solution};
+use crate::technique::clipmap::{Joints, Settings, Solution};
 
 /// What is kept of a stroke.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -55,6 +55,8 @@ pub(in crate::technique::clipmap) struct StrokeStyle {
     pub(in crate::technique::clipmap) ink: Ink,
     /// What is kept of them.
     pub(in crate::technique::clipmap) keep: Keep,
+    /// Whether they are points, which are never line primitives.
+    pub(in crate::technique::clipmap) is_point: bool,
     /// The side of their polygon that counts.
     pub(in crate::technique::clipmap) cut: Option<Side>,
     /// Which windings are inside that polygon.
@@ -96,11 +98,16 @@ impl Styles {
     pub(super) fn new(list: &DrawList, settings: &Settings, compositing: Compositing) -> Result<Self> {
         let compositor = Compositor::new(compositing);
         let stroke = |style: &ItemStyle, line: &Line, ink: Ink| -> Result<StrokeStyle> {
+            // The paper has no points: they are strips by their caps, whatever lines are.
+            let is_point = style.role == Role::Point;
+            let joints = if is_point { Joints::Style } else { settings.joints };
+            let keep = if is_point { Keep::Adjacency } else { Keep::of(settings.solution, line.width) };
             Ok(StrokeStyle {
-                tessellation: Tessellation::of_line(settings.joints, settings.angle_deg, line)?,
+                tessellation: Tessellation::of_line(joints, settings.angle_deg, line)?,
                 width: line.width,
                 ink,
-                keep: Keep::of(settings.solution, line.width),
+                keep,
+                is_point,
                 cut: style.cut,
                 cut_rule: style.rule,
                 reach: 1.0,
