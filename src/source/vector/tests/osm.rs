@@ -184,9 +184,9 @@ fn ways_are_lines_closed_ones_areas_by_their_tags_and_multipolygons_rings() {
         assert_eq!(
             read.notes,
             [
+                "1 point left out: nodes with tags are not drawn",
                 "2 ways lack nodes that the file does not hold: lines end there, areas are left out",
                 "1 areas of relations lack ways or nodes that the file does not hold, or do not close: left out",
-                "1 point left out: nodes with tags are not drawn",
             ]
         );
     }
