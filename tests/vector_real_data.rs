@@ -5,7 +5,7 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout)] // helpers of tests may stop a test and say what is skipped
 
 use drapery::crs::{Crs, PlanSpace};
-use drapery::scene::Attribute;
+use drapery::scene::{Attribute, Shape};
 use drapery::source::vector::{ColumnSummary, VectorSummary, describe, doubts, read, read_columns};
 use std::path::{Path, PathBuf};
 use std::process::Command;
