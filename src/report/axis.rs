@@ -151,7 +151,7 @@ mod tests {
     fn powers_of_ten_are_exact_and_labelled() {
         let axis = LogAxis::around(&[0.002, 700.0]);
         let words: Vec<f64> = axis.ticks(0.09).iter().filter(|t| t.is_labelled).map(|t| t.value).collect();
-        assert_eq!(words, [0.001, 0.01, 0.1, 1.0, 10.0, 100.0]);
+        assert_eq!(words, [0.001, 0.01, 0.1, 1.0, 10.0, 100.0, 500.0]);
         let first: Vec<f64> = axis.ticks(0.09).iter().take(3).map(|t| t.value).collect();
         assert_eq!(first, [0.001, 0.002, 0.003]);
     }
@@ -160,7 +160,7 @@ mod tests {
     fn a_short_axis_has_words_at_more_and_never_nearer_than_there_is_room() {
         let ticks = LogAxis::around(&[3.0, 30.0]).ticks(0.09);
         let words: Vec<f64> = ticks.iter().filter(|t| t.is_labelled).map(|t| t.value).collect();
-        assert_eq!(words, [2.0, 3.0, 5.0, 7.0, 10.0, 20.0, 30.0]);
+        assert_eq!(words, [2.0, 3.0, 5.0, 7.0, 10.0, 20.0, 30.0, 40.0]);
         let ticks = LogAxis::around(&[0.35, 0.5]).ticks(0.09);
         assert_eq!(ticks.iter().filter(|t| t.is_labelled).count(), ticks.len());
     }
