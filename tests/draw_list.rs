@@ -129,7 +129,12 @@ fn truth_and_techniques_paint_the_same_items_of_every_shape_in_every_style_of_on
             let x = (column * CELL + CELL / 2) as f64 - width as f64 / 2.0;
             let y = height as f64 / 2.0 - (row * CELL + CELL / 2) as f64;
             let mut shape = shape.clone();
-            shape.parts_mut().flatten().for_each(|p| *p = Plan::new(p.x + x, p.y + y));
+            let rings: Vec<&mut Vec<Plan>> = match &mut shape {
+                Shape::Polygon(parts) | Shape::Line(parts) => parts.iter_mut().collect(),
+                Shape::Points(points) => vec![points],
+                Shape::MultiPolygon(members) => members.iter_mut().flatten().collect(),
+            };
+            rings.into_iter().flatten().for_each(|p| *p = Plan::new(p.x + x, p.y + y));
             expected.push((is_painted(&shape, *has, style), *has));
             features.push(Feature { index: features.len(), style: column as u32, shape });
         }

@@ -91,16 +91,6 @@ impl Shape {
         };
         own.iter().chain(members.iter().flatten())
     }
-
-    /// The same to be changed in place.
-    pub fn parts_mut(&mut self) -> impl Iterator<Item = &mut Vec<Plan>> {
-        let (own, members): (&mut [Vec<Plan>], &mut [Vec<Vec<Plan>>]) = match self {
-            Self::Polygon(parts) | Self::Line(parts) => (parts, &mut []),
-            Self::Points(points) => (std::slice::from_mut(points), &mut []),
-            Self::MultiPolygon(members) => (&mut [], members),
-        };
-        own.iter_mut().chain(members.iter_mut().flatten())
-    }
 }
 
 /// How a layer's features look. Polygons take `fill` and `outline`, lines take `line`, points take `point`.
