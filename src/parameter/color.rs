@@ -11,7 +11,7 @@ pub fn color(text: &str) -> Option<[u8; 4]> {
     let is_color = match text.find('(') {
         // Digits without a `#` are a colour to the parser and none to CSS.
         None => text.starts_with('#') || color_names().any(|name| text.eq_ignore_ascii_case(name)),
-        Some(_) => text.is_ascii() && functions(text).all(|name| is_known(name)),
+        Some(_) => text.is_ascii() && functions(text).all(is_known),
     };
     let color = parse(text).ok().filter(|_| is_color)?;
     let is_finite = [color.r, color.g, color.b, color.a].iter().all(|v| v.is_finite());
