@@ -308,6 +308,14 @@ fn rings_of_a_shapefile_that_turn_clockwise_are_members_and_the_others_holes_in_
     assert_eq!(members(&rings), [2, 2, 1]);
     let overlapping = [square_ring(0.0, 2.0, true), square_ring(0.0, 1.0, true)];
     assert_eq!(members(&overlapping), [1, 1]);
+    // Both outer rings are around both holes: each hole is of the ring before it.
+    let holed = [
+        square_ring(0.0, 4.0, true),
+        square_ring(0.0, 1.0, false),
+        square_ring(0.0, 5.0, true),
+        square_ring(0.0, 2.0, false),
+    ];
+    assert_eq!(members(&holed), [2, 2]);
     // Without a clockwise ring beside another nothing is told by turns.
     assert_eq!(members(&[square_ring(0.0, 2.0, false), square_ring(0.0, 1.0, false)]), [2]);
     assert_eq!(members(&[square_ring(0.0, 2.0, true), square_ring(5.0, 1.0, false)]), [2]);
