@@ -43,22 +43,37 @@ impl<'a> Pixel<'a> {
     }
 }
 
+/// Where a fragment's edges of an item's polygon are.
+#[derive(Clone, Copy)]
+pub(super) enum Edges<'a> {
+    /// Some may cross it.
+    Across,
+    /// None crosses it, but some are near.
+    Near,
+    /// None is in this box around it.
+    Beyond(&'a PlanBox),
+}
+
 /// What a fragment knows of an item at first; its stroke is open if the item has one.
 pub(super) fn first_state(
     pixel: &Pixel,
     (ground, points): (&PixelGround, &[[f64; 2]]),
     item: u32,
-    has_edges: bool,
+    edges: Edges<'_>,
     (first, count): (u32, u32),
 ) -> State {
     let footprints = pixel.setting.footprints;
-    let polygon = match footprints.wants_polygon(item) {
-        None => Known::In,
-        Some(_) if has_edges => Known::Open,
-        // No edge is near: the polygon holds all of the fragment, or none.
-        Some(wanted) => match ground.hit(middle(points)) {
-            hit if hit.error < f64::INFINITY => Known::of(footprints.polygon_holds(item, hit.plan) == wanted),
-            _ => Known::Open,
+    let polygon = match (footprints.wants_polygon(item), edges) {
+        (None, _) => Known::In,
+        (Some(_), Edges::Across) => Known::Open,
+        (Some(_), Edges::Near) => polygon_at(pixel, ground, points, item),
+        // The polygon holds all of the box, or none.
+        (Some(wanted), Edges::Beyond(plan)) => match ground.hit(middle(points)).plan {
+            at if plan.contains(&PlanBox::around([at])) => {
+                Known::of(footprints.polygon_holds(item, at) == wanted)
+            }
+            // Where a ray grazes its facet, the point that is computed may lie beside the box.
+            _ => polygon_at(pixel, ground, points, item),
         },
     };
     let stroke = if footprints.wants_stroke(item) { Known::Open } else { Known::In };

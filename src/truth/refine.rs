@@ -4,7 +4,7 @@
 //! tell. The piece with the most unknown in it is cut first: along a primitive's line, so that the two halves know more.
 
 use super::form::Line;
-use super::knowledge::{Pixel, State, first_state, polygon_at};
+use super::knowledge::{Edges, Pixel, State, first_state, polygon_at};
 use super::polygon::{Halves, Pieces, Polygon, ROUNDING};
 use super::setting::Setting;
 use super::shape::{PixelGround, PixelPrimitive, Verdict};
@@ -246,7 +246,7 @@ impl Refinery {
         let near = fresh.len();
         footprints.areas_near(plan, |item| {
             if fresh[..near].binary_search_by_key(&item, |s| s.item).is_err() {
-                let mut state = first_state(pixel, (ground, points), item, false, (0, 0));
+                let mut state = first_state(pixel, (ground, points), item, Edges::Beyond(plan), (0, 0));
                 state.stroke = if state.stroke == Known::Open { Known::Out } else { state.stroke };
                 fresh.push(state);
             }
@@ -269,7 +269,7 @@ impl Refinery {
         is_crowd: bool,
     ) -> State {
         let first = self.lists.len() as u32;
-        let (mut has_edges, mut stroke) = (false, Known::Out);
+        let (mut edges, mut stroke) = (Edges::Beyond(plan), Known::Out);
         for part in parts {
             self.primitives.clear();
             pixel.setting.footprints.primitives(*part, &mut self.primitives);
@@ -282,8 +282,13 @@ impl Refinery {
                 let verdict = is_crowd.then(|| shape.verdict(ground, points, &mut self.slop));
                 match verdict {
                     Some(Verdict::In) => stroke = Known::In,
-                    Some(Verdict::Out) => continue,
-                    _ if is_edge => has_edges = true,
+                    Some(Verdict::Out) => {
+                        if is_edge && matches!(edges, Edges::Beyond(_)) {
+                            edges = Edges::Near;
+                        }
+                        continue;
+                    }
+                    _ if is_edge => edges = Edges::Across,
                     _ => stroke = stroke.or(Known::Open),
                 }
                 self.lists.push(self.shapes.len() as u32);
@@ -291,7 +296,7 @@ impl Refinery {
             }
         }
         let count = self.lists.len() as u32 - first;
-        let mut state = first_state(pixel, (ground, points), parts[0].item, has_edges, (first, count));
+        let mut state = first_state(pixel, (ground, points), parts[0].item, edges, (first, count));
         if state.stroke == Known::Open {
             state.stroke = stroke;
         }

@@ -469,40 +469,55 @@ fn violations(seed: u64, count: usize) -> Vec<String> {
         let at_seed = dice.0;
         let Some((scene, mesh)) = scene(&mut dice) else { continue };
         let Ok(frame) = scene.camera.view(&scene.image) else { continue };
-        let size = PixelSize::of(&frame, &mesh);
-        let list = DrawList::new(&mut scene.layers.clone()).unwrap();
-        let footprints = Footprints::new(&list, size, &|_| true);
         let budget = Budget { width: 0.02, depth: 8, coverage: true };
-        let setting = Setting::new(&scene, &mesh, (&footprints, size), budget);
-        let triangles: Vec<(u32, SurfaceTriangle)> =
-            (0..mesh.triangle_ids()).filter_map(|id| Some((id, mesh.surface_triangle(id)?))).collect();
-        let mut work = Work::new(&setting, &mesh, &frame, &TilePlace { corner: [0, 0], size: [12, 9] });
-        let all: Vec<u32> = (0..work.leaves.len()).flat_map(|leaf| work.facets_of(leaf)).collect();
-        for (x, y) in (0..9).flat_map(|y| (0..12).map(move |x| (x, y))) {
-            let near = narrowed((&work.facets, &work.boxes), &all, [x as f64, y as f64], 1.0);
-            assert!(work.pixel([x, y], &near, &[]));
-            let of_size = |shape: &&Polygon| work.pieces.area(**shape) >= SPECK;
-            let sky = work.sight.sky.iter().filter(of_size).map(|shape| (*shape, None, Vec::new()));
-            let seen =
-                work.refinery.claims().into_iter().map(|(shape, facet, claims)| (shape, Some(facet), claims));
-            for (shape, facet, claims) in sky.chain(seen) {
-                let piece = work.pieces.of(shape);
-                if dice.below(8) > 0 && claims.is_empty() && facet.is_some() {
-                    continue;
-                }
-                let p = point_in(piece, &mut dice);
-                judged += 1;
-                let at = [x as f64 + p[0], y as f64 + p[1]];
-                let facet = facet.map(|facet| &work.facets[facet as usize]);
-                let claimed = facet.map(|facet| (facet.id, facet.hit(&work.rays, at)));
-                let told = judge(&scene, &frame, &triangles, at, (claimed, &claims));
-                if let Err(what) = told {
-                    wrong.push(format!("seed {at_seed:#x}, pixel {x},{y}, {p:?}: {what}"));
-                }
+        let (looked_at, found) = violations_in(&scene, &mesh, &frame, budget, (&mut dice, 8));
+        judged += looked_at;
+        wrong.extend(found.into_iter().map(|what| format!("seed {at_seed:#x}, {what}")));
+    }
+    wrong
+}
+
+/// Looks at the pieces of a scene, at one in `few` of those that claim nothing: how many, and what was wrong.
+fn violations_in(
+    scene: &Scene,
+    mesh: &Mesh,
+    frame: &ViewFrame,
+    budget: Budget,
+    (dice, few): (&mut Dice, u64),
+) -> (usize, Vec<String>) {
+    let (mut judged, mut wrong) = (0, Vec::new());
+    let size = PixelSize::of(frame, mesh);
+    let list = DrawList::new(&mut scene.layers.clone()).unwrap();
+    let footprints = Footprints::new(&list, size, &|_| true);
+    let setting = Setting::new(scene, mesh, (&footprints, size), budget);
+    let triangles: Vec<(u32, SurfaceTriangle)> =
+        (0..mesh.triangle_ids()).filter_map(|id| Some((id, mesh.surface_triangle(id)?))).collect();
+    let (width, height) = (scene.image.width, scene.image.height);
+    let mut work = Work::new(&setting, mesh, frame, &TilePlace { corner: [0, 0], size: [width, height] });
+    let all: Vec<u32> = (0..work.leaves.len()).flat_map(|leaf| work.facets_of(leaf)).collect();
+    for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
+        let near = narrowed((&work.facets, &work.boxes), &all, [x as f64, y as f64], 1.0);
+        assert!(work.pixel([x, y], &near, &[]));
+        let of_size = |shape: &&Polygon| work.pieces.area(**shape) >= SPECK;
+        let sky = work.sight.sky.iter().filter(of_size).map(|shape| (*shape, None, Vec::new()));
+        let seen =
+            work.refinery.claims().into_iter().map(|(shape, facet, claims)| (shape, Some(facet), claims));
+        for (shape, facet, claims) in sky.chain(seen) {
+            let piece = work.pieces.of(shape);
+            if dice.below(few) > 0 && claims.is_empty() && facet.is_some() {
+                continue;
+            }
+            let p = point_in(piece, dice);
+            judged += 1;
+            let at = [x as f64 + p[0], y as f64 + p[1]];
+            let facet = facet.map(|facet| &work.facets[facet as usize]);
+            let claimed = facet.map(|facet| (facet.id, facet.hit(&work.rays, at)));
+            if let Err(what) = judge(scene, frame, &triangles, at, (claimed, &claims)) {
+                wrong.push(format!("pixel {x},{y}, {p:?}: {what}"));
             }
         }
     }
-    wrong
+    (judged, wrong)
 }
 
 /// An item, and whether it holds the piece; `None`: it is not said.
@@ -563,6 +578,40 @@ fn violations_on_all_threads(count: usize) -> Vec<String> {
 fn pieces_are_what_exact_arithmetic_says() {
     let wrong = violations_on_all_threads(20_000);
     assert!(wrong.is_empty(), "{} of 20,000:\n{}", wrong.len(), wrong[..wrong.len().min(5)].join("\n"));
+}
+
+#[test]
+fn a_strip_thinner_than_the_roundings_of_its_place_lies_in_the_polygons_of_a_crowd() {
+    // A thousand kilometres from the origin a pixel reaches a quarter of a rounding west over a line of posts, to which sixty
+    // squares reach from the west: the middle of that strip, computed, is on the squares' border or beyond it.
+    let (border, reach) = (1_000_000.0, 1.0 / (1u64 << 35) as f64);
+    let (mut scene, _) = scene(&mut Dice(0)).unwrap();
+    (scene.image.width, scene.image.height) = (2, 2);
+    scene.camera.up = DVec3::Y;
+    scene.camera.projection = crate::scene::Projection::Perspective { fov_y_deg: 0.3 };
+    let mut look_from = |height: f64| {
+        let at = |z| World::new(border + 0.25, 3.0, z);
+        (scene.camera.eye, scene.camera.target) = (at(height), at(0.0));
+        scene.camera.view(&scene.image).unwrap()
+    };
+    let size_at_a_metre = look_from(100.0).lens().pixel();
+    let frame = look_from((0.25 + reach) / size_at_a_metre);
+    let square = [(-6.0, 0.0), (0.0, 0.0), (0.0, 6.0), (-6.0, 6.0)];
+    let ring: Vec<Plan> = square.map(|(x, y)| Plan::new(border + x, y)).to_vec();
+    let fill = Fill { color: Color([0.0, 0.0, 0.0, 0.5]), rule: Rule::NonZero };
+    let features =
+        (0..60).map(|index| Feature { index, style: 0, shape: Shape::Polygon(vec![ring.clone()]) });
+    let style = Style { fill: Some(fill), ..Style::default() };
+    scene.layers = vec![Layer::uniform("crowd", style, features.collect())];
+    let steps = (DVec2::X * 8.0, DVec2::Y * 8.0);
+    let posts = Posts::new((3, 3), Plan::new(border - 8.0, -8.0), steps, vec![0.0; 9]).unwrap();
+    let mesh = Mesh::new(Surface::Grid(posts), scene.diagonal).unwrap();
+    let budget = Budget { width: 1e-13, depth: 10, coverage: true };
+    let (judged, wrong) = violations_in(&scene, &mesh, &frame, budget, (&mut Dice(1), 1));
+    let strip = frame.eye().z * frame.lens().pixel() - 0.25;
+    assert!((strip - reach).abs() < 0.01 * reach, "{strip}: the strip is as wide as the test means");
+    assert!(judged >= 6, "{judged}: two pixels in halves, and two others");
+    assert!(wrong.is_empty(), "{}", wrong[..wrong.len().min(5)].join("\n"));
 }
 
 #[test]
