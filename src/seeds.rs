@@ -13,6 +13,7 @@ pub(crate) fn plant(target: &str, seeds: impl IntoIterator<Item = impl AsRef<[u8
 }
 
 /// A file with what lies beside it, by extension, as the targets take it.
+#[cfg(feature = "render")]
 pub(crate) fn beside(main: &[u8], others: &[(&str, &[u8])]) -> Vec<u8> {
     let mut seed = main.to_vec();
     for (extension, content) in others {

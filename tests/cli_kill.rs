@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 const SCENE: &str = r##"
 schema = 1
@@ -54,6 +54,7 @@ fn all_below(folder: &Path) -> BTreeSet<PathBuf> {
 }
 
 /// Kills runs at moments from their begin to their end, into one place, then lets one run to its end.
+#[allow(clippy::disallowed_methods, reason = "a run is killed at shares of the time that it takes")]
 fn kill_then_run(arguments: &[&str]) {
     let sound = place();
     let begin = Instant::now();
@@ -102,9 +103,8 @@ fn what_is_left_at_the_worst_moments_is_cleared() {
             folder.path().join(left).ancestors().find(|path| path.extension().is_some()).unwrap().to_owned();
         fs::write(part.join("lock"), "").unwrap();
     }
-    let begin = Instant::now();
     let ended = call(folder.path(), &["render", "scene.toml", "-o", "deep/er/out"]).status().unwrap();
-    assert!(ended.success() && begin.elapsed() < Duration::from_secs(60));
+    assert!(ended.success());
     let hidden = all_below(folder.path()).into_iter().filter(|path| path.to_string_lossy().contains(".part"));
     assert_eq!(hidden.count(), 0);
 }

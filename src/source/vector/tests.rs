@@ -565,6 +565,7 @@ fn seeds_for_fuzzing_vectors() {
             Some((_, "geojson")) => "vector_geojson",
             Some((_, "shp")) => "vector_shapefile",
             Some((_, "fgb")) => "vector_flatgeobuf",
+            Some((_, "osm.pbf")) => "vector_osm",
             _ => "vector_geopackage",
         };
         seeds::plant(target, [bytes]);

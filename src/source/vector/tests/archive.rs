@@ -12,6 +12,14 @@ fn square_shp() -> Vec<u8> {
 }
 
 #[test]
+#[ignore = "writes the seeds for fuzzing into $DRAPERY_SEEDS"]
+fn seeds_for_fuzzing_archives() {
+    let shapes = packed(&[("a.shp", &square_shp()), ("a.prj", b"EPSG:32733")]);
+    seeds::plant("vector_zip", [shapes, packed(&[("a.geojson", LINE.as_bytes())])]);
+    seeds::plant("vector_osm/packed", [osm::town_file(true)]);
+}
+
+#[test]
 fn a_shapefile_in_an_archive_has_the_files_beside_it() {
     let mut table = super::attributes::dbf(0, &[("A", b'C', 2, 0)], &[b"\xe9 ", b"b "]);
     let second = table.len() - 3;

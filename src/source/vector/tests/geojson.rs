@@ -61,6 +61,13 @@ fn a_feature_has_its_members_in_any_order_and_may_lack_its_type() {
 }
 
 #[test]
+#[ignore = "writes the seeds for fuzzing into $DRAPERY_SEEDS"]
+fn seeds_for_fuzzing_sequences() {
+    let texts = [feature(1), collection(&[feature(2), feature(3)])];
+    seeds::plant("vector_geojson/sequence", [texts.join("\n"), format!("\u{1e}{}", texts.join("\n\u{1e}"))]);
+}
+
+#[test]
 fn texts_one_after_the_other_are_one_file_whatever_parts_them() {
     let texts = [feature(1), collection(&[feature(2), feature(3)]), feature(4)];
     for (name, text) in [

@@ -55,6 +55,15 @@ fn shx(entries: &[[u32; 2]]) -> Vec<u8> {
     out
 }
 
+#[test]
+#[ignore = "writes the seeds for fuzzing into $DRAPERY_SEEDS"]
+fn seeds_for_fuzzing_shapefiles_with_gaps() {
+    let pieces =
+        [Piece::Record(2, 0.0), Piece::Bytes(vec![0; 52]), Piece::Stale(1, 5.0), Piece::Record(1, 9.0)];
+    let Laid { shp, shx } = laid(&pieces);
+    seeds::plant("vector_shapefile/gaps", [seeds::beside(&shp, &[("shx", &shx)])]);
+}
+
 fn set_length(file: &mut [u8]) {
     let words = file.len() as u32 / 2;
     state(file, words);
