@@ -187,8 +187,7 @@ fn the_sky_and_pixels_whose_quadrilateral_reaches_it_are_told_apart() {
     let frame =
         draw(scene((32, 32), camera, vec![road], Settings::default()), posts(33, 8.0, |_, _| 0.0), 32);
     assert_eq!(*frame.image.at(16, 0), [0, 0, 255, 255], "sky");
-    let refused = frame.counts.iter().find(|(name, _)| *name == "refused").unwrap().1;
-    assert!(refused > 0, "the last row of terrain under the sky has no quadrilateral");
+    assert_eq!(refused(&frame), 32, "the last row of terrain under the sky has no quadrilateral");
     assert_eq!(*frame.image.at(16, 31), [0, 0, 0, 255], "the road in front of the eye");
     for p in frame.planes.iter().flat_map(|p| match &p.values {
         Values::F64(v) if p.name == "color" => v.clone(),
@@ -196,6 +195,50 @@ fn the_sky_and_pixels_whose_quadrilateral_reaches_it_are_told_apart() {
     }) {
         assert!(p.is_finite());
     }
+}
+
+/// How many pixels had no meaningful quadrilateral.
+fn refused(frame: &Frame) -> u64 {
+    frame.counts.iter().find(|(name, _)| *name == "refused").unwrap().1
+}
+
+#[test]
+fn true_corners_are_refused_where_one_sees_the_sky_and_the_centre_does_not() {
+    // Straight down on a square of terrain; the picture's pixels of a metre stand out by 8 on each side, and the rim cuts the outermost
+    // ones at `rim` of their width.
+    for (rim, by_corners, by_centres) in [(0.75, 4 * 17 - 4, 2 * 17 - 1), (0.25, 0, 2 * 15 - 1)] {
+        let half = 7.5 + rim;
+        let by = |corners| {
+            let down = camera([0.0, 0.0, 100.0], [0.0; 3], Projection::Orthographic { height_m: 33.0 });
+            let settings = Settings { corners, ..Settings::default() };
+            refused(&draw(scene((33, 33), down, Vec::new(), settings), posts(5, half / 2.0, |_, _| 0.0), 32))
+        };
+        assert_eq!(by(Corners::True), by_corners, "{rim}: all four sides' pixels");
+        assert_eq!(
+            by(Settings::default().corners),
+            by_centres,
+            "{rim}: those with no neighbour to the right or above"
+        );
+    }
+}
+
+#[test]
+fn quadrilaterals_over_a_silhouette_are_refused_where_edges_are_near_and_slivers_are_not() {
+    // A plain that falls by 40 m, seen from above the fall: a row of pixels reaches from its edge to the ground far behind it.
+    let fall = |y: f64| if y < 0.0 { 40.0 } else { 0.0 };
+    // One that climbs, seen from before it: its quadrilaterals are slivers, and are what the pixels see.
+    let climb = |y: f64| if y < 40.0 { 0.0 } else { 40.0 };
+    let down = camera([0.0, -60.0, 70.0], [0.0, 120.0, 0.0], Projection::Perspective { fov_y_deg: 30.0 });
+    let across = |y: f64| vec![line(&[(-900.0, y), (900.0, y)], 16.0)];
+    let by = |silhouette, layers: Vec<Layer>, height: &dyn Fn(f64) -> f64| {
+        let settings = Settings { silhouette, ..Settings::default() };
+        refused(&draw(scene((64, 64), down, layers, settings), posts(257, 8.0, |_, y| height(y)), 32))
+    };
+    assert_eq!(by(Silhouette::Centre, across(40.0), &fall), 64, "the line lies hidden behind the fall");
+    assert_eq!(by(Silhouette::Centre, across(-600.0), &fall), 0, "no edge is near the fall");
+    assert_eq!(by(Silhouette::Centre, Vec::new(), &fall), 0, "there is no edge");
+    assert_eq!(by(Silhouette::Smear, across(40.0), &fall), 0, "the paper's quadrilateral is meant");
+    assert_eq!(by(Silhouette::Centre, across(36.0), &climb), 0, "a steep face is no silhouette");
 }
 
 #[test]
