@@ -136,6 +136,23 @@ fn a_square_in_a_square_as_two_members_has_the_larger_one_s_area_and_one_coat_of
 }
 
 #[test]
+fn a_point_is_found_in_its_member_whichever_is_asked_first() {
+    // One with a hole that is in no other, one beside it, one that reaches over both.
+    let mut members = vec![
+        vec![square(-90.0, 0.0, 100.0), square(-90.0, 0.0, 55.0)],
+        vec![square(110.0, -30.0, 60.0)],
+        vec![square(60.0, 120.0, 70.0)],
+    ];
+    for _ in 0..3 {
+        members.rotate_left(1);
+        for rule in [Rule::EvenOdd, Rule::NonZero] {
+            let checked = check(&members, rule, 0.5).unwrap();
+            assert!(checked > 4_000, "{checked}");
+        }
+    }
+}
+
+#[test]
 fn an_outline_follows_all_rings_and_is_cut_to_the_union() {
     let members = vec![vec![square(0.0, 0.0, 147.0)], vec![square(147.0, 0.0, 48.0)]];
     let line = Line {
