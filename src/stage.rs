@@ -36,7 +36,7 @@ impl Stage {
     /// # Errors
     /// When there are more features than can be numbered.
     pub fn of_mesh(mut scene: Scene, mesh: Mesh) -> Result<Self> {
-        let draw_list = DrawList::new(&mut scene.layers)?;
+        let draw_list = DrawList::new(&mut scene.layers, &mesh.plan_bounds())?;
         Ok(Self { scene, draw_list, mesh: Arc::new(mesh) })
     }
 

@@ -142,7 +142,7 @@ fn truth_and_techniques_paint_the_same_items_of_every_shape_in_every_style_of_on
     let mut technique = TechniqueSettings::default();
     technique.set(stencil_volume::Settings { joins: VolumeJoins::Style, ..Default::default() });
     technique.set(clipmap::Settings { virtual_size: 2048, joints: Joints::Style, ..Default::default() });
-    let layer = Layer { name: "all".into(), styles, features, opacity: 1.0 };
+    let layer = Layer { name: "all".into(), styles, features, opacity: 1.0, outside: None };
     let stage = stage_of(&text, vec![layer], &technique);
 
     let budget = Budget { coverage: true, ..Budget::new(0.01, 10).unwrap() };
@@ -243,7 +243,7 @@ fn scattered(has_pixels: bool) -> impl Strategy<Value = Layer> {
             styles.push(style);
             features.push(Feature { index, style: index as u32, shape });
         }
-        Layer { name: "scattered".into(), styles, features, opacity: 1.0 }
+        Layer { name: "scattered".into(), styles, features, opacity: 1.0, outside: None }
     })
 }
 
@@ -313,7 +313,7 @@ fn mixed(has_pixels: bool) -> impl Strategy<Value = Layer> {
     (prop::collection::vec(style(has_pixels, 2.0..40.0), 5), features).prop_map(|(styles, features)| {
         let features = features.into_iter().enumerate();
         let features = features.map(|(index, (shape, style))| Feature { index, style, shape }).collect();
-        Layer { name: "mixed".into(), styles, features, opacity: 1.0 }
+        Layer { name: "mixed".into(), styles, features, opacity: 1.0, outside: None }
     })
 }
 

@@ -1,4 +1,4 @@
-//! Members of a multi-polygon that overlap are united, whatever draws them.
+//! Members of a multi-polygon that overlap are united, and so are polygons outside of which is painted, whatever draws them.
 #![cfg(feature = "render")]
 
 mod drawing;
@@ -92,9 +92,19 @@ fn is_clear(members: &[Vec<Vec<Plan>>], p: Plan, reach: f64) -> bool {
 
 /// Checks pixels near no edge against the definition, in the truth and in every technique.
 fn check(members: &[Vec<Vec<Plan>>], rule: Rule, alpha: f64) -> Result<usize, TestCaseError> {
+    let layer = layer(members.to_vec(), filled(rule, alpha));
+    check_layer(&layer, members, &|at| if holds(members, rule, at) { 1.0 - alpha } else { 1.0 })
+}
+
+/// Checks pixels near no edge of members against what is right there.
+fn check_layer(
+    layer: &Layer,
+    members: &[Vec<Vec<Plan>>],
+    right: &dyn Fn(Plan) -> f64,
+) -> Result<usize, TestCaseError> {
     let mut checked = 0;
     for technique in settings() {
-        let stage = stage(vec![layer(members.to_vec(), filled(rule, alpha))], &technique);
+        let stage = stage(vec![layer.clone()], &technique);
         let truth = truth_of(&stage).image();
         let images = Kind::ALL.map(|kind| (kind.name(), frame_of(kind, &stage, &[]).image));
         for (name, image) in images.iter().map(|(name, image)| (*name, image)).chain([("truth", &truth)]) {
@@ -107,7 +117,7 @@ fn check(members: &[Vec<Vec<Plan>>], rule: Rule, alpha: f64) -> Result<usize, Te
                 if !is_clear(members, middle, if name == "clipmap" { 45.0 } else { 15.0 }) {
                     continue;
                 }
-                let right = if holds(members, rule, middle) { 1.0 - alpha } else { 1.0 };
+                let right = right(middle);
                 let seen = image.at(x, y)[0];
                 prop_assert!(
                     (f64::from(seen) / 255.0 - right).abs() < 0.003,
@@ -192,8 +202,64 @@ fn ring() -> impl Strategy<Value = Vec<Plan>> {
     prop_oneof![prop::collection::vec(point, 3..6), square.clone(), square]
 }
 
+/// A layer that paints what is outside of polygons, each of which is a feature.
+fn inverted(polygons: &[Vec<Vec<Plan>>], rule: Rule, alpha: f64) -> Layer {
+    let features = polygons.iter().enumerate();
+    let feature =
+        |(index, rings): (usize, &Vec<_>)| Feature { index, style: 0, shape: Shape::Polygon(rings.clone()) };
+    let outside = Some(Fill { color: Color([0.0, 0.0, 0.0, alpha]), rule });
+    Layer { outside, ..Layer::uniform("inverted", Style::default(), features.map(feature).collect()) }
+}
+
+fn check_inverted(polygons: &[Vec<Vec<Plan>>], rule: Rule, alpha: f64) -> Result<usize, TestCaseError> {
+    let layer = inverted(polygons, rule, alpha);
+    check_layer(&layer, polygons, &|at| if holds(polygons, rule, at) { 1.0 } else { 1.0 - alpha })
+}
+
+#[test]
+fn what_is_outside_of_squares_that_overlap_has_the_rest_of_the_picture_s_area() {
+    let polygons = [vec![square(-50.0, 0.0, 100.0), square(-50.0, 0.0, 45.0)], vec![square(50.0, 0.0, 80.0)]];
+    for rule in [Rule::EvenOdd, Rule::NonZero] {
+        check_inverted(&polygons, rule, 0.5).unwrap();
+        let truth = truth_of(&stage(vec![inverted(&polygons, rule, 0.5)], &TechniqueSettings::default()));
+        let dark: f64 = truth.estimate.values().iter().map(|pixel| 1.0 - pixel[0]).sum();
+        // The second square lies over 25 x 90 of the first one's hole.
+        let hole = if rule == Rule::EvenOdd { 90.0 * 90.0 - 25.0 * 90.0 } else { 0.0 };
+        let union = 200.0 * 200.0 + 160.0 * 160.0 - 80.0 * 160.0 - hole;
+        assert!((dark * 100.0 / 0.5 - (160_000.0 - union)).abs() < 1e-6, "{dark}");
+    }
+}
+
+#[test]
+fn outside_of_no_polygon_is_everywhere_and_outside_of_one_around_the_terrain_nowhere() {
+    let around = [vec![square(0.0, 0.0, 5000.0)]];
+    let degenerate = [vec![square(0.0, 0.0, 0.0), Vec::new()]];
+    for (polygons, right) in [(&around[..], 1.0), (&[], 0.25), (&degenerate, 0.25)] {
+        check_layer(&inverted(polygons, Rule::NonZero, 0.75), &around, &|_| right).unwrap();
+    }
+    // One that reaches over the frame around the terrain is cut by it, and turns there the other way.
+    for reversed in [false, true] {
+        let mut ring =
+            vec![Plan::new(0.0, -9e4), Plan::new(9e4, -9e4), Plan::new(9e4, 9e4), Plan::new(0.0, 9e4)];
+        if reversed {
+            ring.reverse();
+        }
+        check_inverted(&[vec![ring]], Rule::NonZero, 0.5).unwrap();
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(12))]
+    #[test]
+    fn a_point_is_painted_once_where_no_polygon_holds_it(
+        polygons in prop::collection::vec(prop::collection::vec(ring(), 1..3), 1..5),
+        is_even_odd in any::<bool>(),
+        alpha in 0.2..1.0f64,
+    ) {
+        let rule = if is_even_odd { Rule::EvenOdd } else { Rule::NonZero };
+        check_inverted(&polygons, rule, alpha)?;
+    }
+
     #[test]
     fn a_point_is_painted_once_where_any_member_holds_it(
         members in prop::collection::vec(prop::collection::vec(ring(), 1..3), 2..5),

@@ -77,3 +77,65 @@ fn a_layer_of_full_opacity_is_drawn_feature_by_feature() {
         assert_eq!(colors, [[255, 128, 128, 255], [255, 64, 64, 255]], "{who}");
     }
 }
+
+/// A square with a hole, one that overlaps it, one of another kind, and a layer that paints what is outside of them.
+fn inverted(how: &str) -> String {
+    format!(
+        "[[layer]]\nname = \"mask\"\nfeatures = [\
+         {{ polygon = [[[-10, -10], [3, -10], [3, 5], [-10, 5]], [[-8, -8], [-8, -1], [-1, -1], [-1, -8]]], properties = {{ kind = 1 }} }}, \
+         {{ polygon = [[10, 10], [10, 1], [-1, 1], [-1, 10]], properties = {{ kind = 1 }} }}, \
+         {{ polygon = [[5, -11], [11, -11], [11, -5], [5, -5]], properties = {{ kind = 2 }} }}, \
+         {{ polygon = [[900, 0], [900, 9], [909, 9]], properties = {{ kind = 1 }} }}]\n{how}\n"
+    )
+}
+
+/// In the first square, in its hole, in both, in the second, in the one of another kind, outside.
+const INVERTED_PLACES: [[usize; 2]; 6] = [[13, 17], [7, 16], [13, 9], [18, 5], [20, 19], [4, 2]];
+
+#[test]
+fn an_inverted_fill_paints_what_is_outside_of_all_polygons_once_whoever_draws() {
+    let (pink, white) = ([255, 128, 128, 255], [255; 4]);
+    let grouped = "[technique.stencil-volume]\ngrouping = \"color\"\n";
+    let faint = "fill = { color = \"red\", opacity = 0.5, invert = true";
+    for (how, painted) in [
+        (format!("{faint} }}"), [white, pink, white, white, white, pink]),
+        (format!("{faint}, rule = \"nonzero\" }}"), [white, pink, white, white, white, pink]),
+        (format!("{faint} }}\nwhere = {{ kind = 1 }}"), [white, pink, white, white, pink, pink]),
+        (format!("{faint} }}\nwhere = {{ kind = 3 }}"), [pink; 6]),
+        (
+            "fill = { color = \"red\", invert = true }\nopacity = 0.5".into(),
+            [white, pink, white, white, white, pink],
+        ),
+    ] {
+        for (who, colors) in drawn(&stage("white", &format!("{grouped}{}", inverted(&how))), &INVERTED_PLACES)
+        {
+            assert_eq!(colors, painted, "{who}: {how}");
+        }
+    }
+}
+
+#[test]
+fn an_inverted_fill_lies_below_the_outlines_of_each_polygon_and_shares_no_count_with_other_fills() {
+    let (red, black, white) = ([255, 0, 0, 255], [0, 0, 0, 255], [255; 4]);
+    let outlined = "fill = { color = \"red\", invert = true, rule = \"nonzero\" }\n\
+        outline = { color = \"black\", width_m = 6, mode = \"inset\" }";
+    let grouped = "[technique.stencil-volume]\ngrouping = \"color\"\n";
+    let other = "[[layer]]\nname = \"other\"\nfeatures = [{ polygon = [[-12, 7], [-12, 12], [-3, 12], [-3, 7]] }]\n\
+        fill = { color = \"red\", rule = \"nonzero\" }\n";
+    let said = format!("{grouped}{}{other}", inverted(outlined));
+    // The second square's side in the first one, its middle, the hole, what is outside and in the other layer.
+    for (who, colors) in drawn(&stage("white", &said), &[[12, 9], [17, 6], [7, 16], [4, 2], [22, 12]]) {
+        assert_eq!(colors, [black, white, red, red, red], "{who}");
+    }
+}
+
+#[test]
+fn no_column_tells_the_colour_of_an_inverted_fill() {
+    let by = "{ by = \"kind\", map = { 1 = \"red\" } }";
+    for (color, opacity) in [(by, "1"), ("\"red\"", "{ by = \"kind\", stops = [[0, 0], [1, 1]] }")] {
+        let layer = inverted(&format!("fill = {{ color = {color}, opacity = {opacity}, invert = true }}"));
+        let text = format!("schema = 1\nterrain.generate = {{ kind = \"plane\" }}\n{layer}");
+        let error = SceneFile::parse(&text, None, &[]).unwrap_err().to_string();
+        assert!(error.contains("an inverted fill is painted once") && error.contains("`kind`"), "{error}");
+    }
+}

@@ -754,7 +754,13 @@ fn a_crowd_of_many_colours_is_bounded_by_all_of_them() {
         }
     };
     let features = (0..400).map(across).collect();
-    let crowd = Layer { name: "crowd".into(), styles: (0..8).map(style).collect(), features, opacity: 1.0 };
+    let crowd = Layer {
+        name: "crowd".into(),
+        styles: (0..8).map(style).collect(),
+        features,
+        opacity: 1.0,
+        outside: None,
+    };
     let stage = Stage::new(map(1, vec![crowd]), flat()).unwrap();
     let by = |depth| certify(&stage, &stage.view().unwrap(), &Budget::new(1e-4, depth).unwrap(), &|_| {});
     let (coarse, fine) = (by(0), by(16));

@@ -2,12 +2,12 @@
 
 use super::style::{StyleParts, StyleTable};
 use super::vertices::{Ends, add_distinct, are_distinct};
-use super::{Chain, DrawList, Item, ItemStyle};
+use super::{Chain, DrawList, Item, ItemStyle, NO_FEATURE};
 use crate::error::{Error, Result};
-use crate::overlay::union_border;
+use crate::overlay::{border_outside, union_border};
 use crate::parallel;
-use crate::scene::{Feature, Layer, Shape};
-use crate::space::Plan;
+use crate::scene::{Feature, Layer, Rule, Shape};
+use crate::space::{Plan, PlanBox};
 use std::ops::Range;
 
 /// Features that are one piece of work.
@@ -28,48 +28,88 @@ struct Block {
     /// The first one's place in the layer.
     first: usize,
     features: Vec<Feature>,
+    /// What is outside of all of the layer's polygons, if that is painted; in a block before its features.
+    outside: Option<Outside>,
+}
+
+/// What is to be painted outside of a layer's polygons.
+struct Outside {
+    style: u32,
+    /// The members of all polygons, each as rings.
+    members: Vec<Vec<Vec<Plan>>>,
 }
 
 /// The list of some layers, whose features it takes.
-pub(super) fn of_layers(layers: &mut [Layer]) -> Result<DrawList> {
+pub(super) fn of_layers(layers: &mut [Layer], terrain: &PlanBox) -> Result<DrawList> {
     let mut table = StyleTable::default();
     let parts: Vec<Vec<StyleParts>> =
         layers.iter().enumerate().map(|(k, layer)| table.parts_of(k, layer)).collect();
+    let outsides: Vec<Option<Outside>> = layers
+        .iter()
+        .enumerate()
+        .map(|(k, layer)| {
+            table.outside_of(k, layer).map(|style| Outside { style, members: members_of(layer) })
+        })
+        .collect();
+    let frame = frame_around(terrain);
     let features = layers.iter().flat_map(|layer| &layer.features);
     let mut all = DrawList::default();
     all.vertices.reserve_exact(features.map(|feature| vertices_of(&feature.shape)).sum());
-    let mut blocks = blocks(layers).into_iter();
+    let mut blocks = blocks(layers, outsides).into_iter();
     loop {
         // Not all at once: a block's features go when its list is made, its list when it is added.
         let some: Vec<Block> = blocks.by_ref().take(BLOCKS_AT_A_TIME).collect();
         if some.is_empty() {
             break;
         }
-        let made = parallel::map_owned(some, |block| made((&table.styles, &parts[block.layer]), block));
+        let made =
+            parallel::map_owned(some, |block| made((&table.styles, &parts[block.layer], &frame), block));
         made.into_iter().try_for_each(|block| all.append(block?))?;
     }
     all.take_styles(&table.styles);
     Ok(all)
 }
 
+/// The members of all of a layer's polygons, each as rings.
+fn members_of(layer: &Layer) -> Vec<Vec<Vec<Plan>>> {
+    let members = layer.features.iter().flat_map(|feature| match &feature.shape {
+        Shape::Polygon(rings) => std::slice::from_ref(rings),
+        Shape::MultiPolygon(members) => members,
+        Shape::Line(_) | Shape::Points(_) => &[],
+    });
+    members.cloned().collect()
+}
+
+/// A frame so far outside of the terrain that no filter at the terrain's edge sees it.
+fn frame_around(terrain: &PlanBox) -> PlanBox {
+    let size = terrain.max - terrain.min;
+    terrain.grown(size.max_element())
+}
+
 /// The features of all layers, which then have none.
-fn blocks(layers: &mut [Layer]) -> Vec<Block> {
+fn blocks(layers: &mut [Layer], outsides: Vec<Option<Outside>>) -> Vec<Block> {
     let mut blocks = Vec::new();
-    for (layer, of) in layers.iter_mut().enumerate() {
+    for ((layer, of), outside) in layers.iter_mut().enumerate().zip(outsides) {
+        if outside.is_some() {
+            blocks.push(Block { layer, first: 0, features: Vec::new(), outside });
+        }
         let count = of.features.len();
         let mut features = std::mem::take(&mut of.features).into_iter();
         for first in (0..count).step_by(FEATURES_AT_A_TIME) {
             let features = features.by_ref().take(FEATURES_AT_A_TIME).collect();
-            blocks.push(Block { layer, first, features });
+            blocks.push(Block { layer, first, features, outside: None });
         }
     }
     blocks
 }
 
 /// What a block becomes.
-fn made((styles, parts): (&[ItemStyle], &[StyleParts]), block: Block) -> Result<DrawList> {
+fn made((styles, parts, frame): (&[ItemStyle], &[StyleParts], &PlanBox), block: Block) -> Result<DrawList> {
     let mut list = DrawList::default();
     list.vertices.reserve_exact(block.features.iter().map(|feature| vertices_of(&feature.shape)).sum());
+    if let Some(outside) = &block.outside {
+        list.add_outside(block.layer, outside, (styles[outside.style as usize].rule, frame))?;
+    }
     for (k, feature) in block.features.into_iter().enumerate() {
         let item = Item {
             layer: block.layer as u32,
@@ -130,6 +170,40 @@ impl DrawList {
         self.items.push(Item { style, strokes: self.chains_from(first), ..item });
     }
 
+    /// Adds the item of what lies outside of a layer's polygons, by a rule and within a frame.
+    fn add_outside(
+        &mut self,
+        layer: usize,
+        Outside { style, members }: &Outside,
+        (rule, frame): (Rule, &PlanBox),
+    ) -> Result<()> {
+        let area = self.add_members(members);
+        let first = self.chains.len();
+        self.add_rings(&border_outside(members, frame, &|turns| rule.contains(turns))?, 0, 0);
+        let border = self.chains_from(first);
+        let (feature, number) = (NO_FEATURE, NO_FEATURE);
+        self.items.push(Item {
+            layer: layer as u32,
+            feature,
+            number,
+            style: *style,
+            area,
+            border,
+            strokes: 0..0,
+        });
+        Ok(())
+    }
+
+    /// Adds the rings of members.
+    fn add_members(&mut self, members: &[Vec<Vec<Plan>>]) -> Range<u32> {
+        let (first, mut part) = (self.chains.len(), 0);
+        for (member, rings) in (0..).zip(members) {
+            self.add_rings(rings, member, part);
+            part += rings.len() as u32;
+        }
+        self.chains_from(first)
+    }
+
     /// Adds the items of polygons, given by their members, and by the border of their union where members overlap.
     fn add_polygon(
         &mut self,
@@ -138,15 +212,7 @@ impl DrawList {
         members: &[Vec<Vec<Plan>>],
         union: Option<&[Vec<Plan>]>,
     ) {
-        let first = self.chains.len();
-        if style.has_area() {
-            let mut part = 0;
-            for (member, rings) in (0..).zip(members) {
-                self.add_rings(rings, member, part);
-                part += rings.len() as u32;
-            }
-        }
-        let area = self.chains_from(first);
+        let area = if style.has_area() { self.add_members(members) } else { 0..0 };
         let border = union.map_or_else(
             || area.clone(),
             |rings| {

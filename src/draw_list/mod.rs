@@ -1,11 +1,13 @@
 //! What is painted, decided once: every room that draws or judges reads the same items, in the same order, under the same numbers.
 //!
-//! Input: the layers of a scene, whose features it takes. Output: a [`DrawList`]: items in draw order, the chains of vertices that they are
+//! Input: the layers of a scene, whose features it takes, and the terrain's bounds. Output: a [`DrawList`]: items in draw order, the chains of vertices that they are
 //! made of, the styles that they share. Refuses: more items, chains or vertices than can be numbered. It holds data and decides nothing
 //! about coverage, so that the truth may stand on it and yet share no decision with what it judges. What it does decide:
 //! - *Items.* A polygon makes a fill, if its style has one, and over it an outline, if it has one; a line makes a line; points make one item, a dot of
 //!   round caps for each. A feature whose
 //!   style has nothing for it makes nothing. An item's number is its place in the list.
+//! - *Outsides.* A layer that paints what lies outside of its polygons makes one item for that, before all others of it. Its area is
+//!   that of all its polygons' members, its border that of what none of them holds, within a frame around the terrain.
 //! - *Areas.* An area has its feature's rings as they are, member by member, without those of fewer than three vertices, which enclose
 //!   nothing. What is inside of any member is inside.
 //! - *Borders.* Techniques know no members: where some overlap they draw what one border bounds ([`crate::overlay`]), else the rings as they
@@ -26,7 +28,7 @@ pub use vertices::SAME_VERTEX;
 
 use crate::error::Result;
 use crate::scene::Layer;
-use crate::space::Plan;
+use crate::space::{Plan, PlanBox};
 use std::ops::Range;
 
 /// A set of plan points that is painted in one go.
@@ -34,9 +36,9 @@ use std::ops::Range;
 pub struct Item {
     /// The number of its feature's layer in the scene.
     pub layer: u32,
-    /// Its feature's place in the layer, from 0.
+    /// Its feature's place in the layer, from 0; [`NO_FEATURE`] of what lies outside of all.
     pub feature: u32,
-    /// Its feature's number in the file, from 0.
+    /// Its feature's number in the file, from 0; [`NO_FEATURE`] of what lies outside of all.
     pub number: u32,
     /// Its style, among [`DrawList::styles`].
     pub style: u32,
@@ -47,6 +49,9 @@ pub struct Item {
     /// The chains that its stroke follows; none of a fill.
     pub strokes: Range<u32>,
 }
+
+/// The number of no feature.
+pub const NO_FEATURE: u32 = u32::MAX;
 
 /// Consecutive vertices: a ring of a border, or what a stroke follows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -81,15 +86,16 @@ pub struct DrawList {
 }
 
 impl DrawList {
-    /// The list of some layers, whose features it takes: their geometry is held once, here.
+    /// The list of some layers, whose features it takes: their geometry is held once, here. `terrain` is what the terrain covers of the
+    /// plan: nothing else is painted.
     ///
     /// # Errors
     /// When there is more than can be numbered.
     ///
     /// # Panics
     /// When a feature names a style that its layer does not have.
-    pub fn new(layers: &mut [Layer]) -> Result<Self> {
-        build::of_layers(layers)
+    pub fn new(layers: &mut [Layer], terrain: &PlanBox) -> Result<Self> {
+        build::of_layers(layers, terrain)
     }
 
     /// The items in draw order; an item's number is its place.

@@ -1,6 +1,6 @@
 //! How items look: the styles of layers, taken apart.
 
-use crate::scene::{Cap, Color, Group, Join, Layer, Line, OutlineMode, Rule, Style, Width};
+use crate::scene::{Cap, Color, Fill, Group, Join, Layer, Line, OutlineMode, Rule, Style, Width};
 use std::collections::BTreeMap;
 
 /// What an item is of its feature.
@@ -8,6 +8,8 @@ use std::collections::BTreeMap;
 pub enum Role {
     /// The inside of a polygon.
     Fill,
+    /// All of the terrain outside of a layer's polygons.
+    Outside,
     /// The border of a polygon.
     Outline,
     /// A line.
@@ -104,25 +106,23 @@ pub(super) struct StyleTable {
 impl StyleTable {
     /// Takes the styles of a scene's layer apart.
     pub(super) fn parts_of(&mut self, number: usize, layer: &Layer) -> Vec<StyleParts> {
-        let group = Group { layer: number as u32, opacity: layer.opacity };
-        let group = (layer.opacity < 1.0).then_some(group);
-        layer.styles.iter().map(|style| self.parts(style, group)).collect()
+        let group = group_of(number, layer);
+        layer.styles.iter().map(|style| self.parts(style, layer.outside, group)).collect()
     }
 
-    fn parts(&mut self, style: &Style, group: Option<Group>) -> StyleParts {
-        let rule = style.fill.map_or(Rule::EvenOdd, |fill| fill.rule);
+    /// The style of what is outside of a scene's layer's polygons, if that is painted.
+    pub(super) fn outside_of(&mut self, number: usize, layer: &Layer) -> Option<u32> {
+        let fill = layer.outside?;
+        Some(self.number(filled(Role::Outside, fill, group_of(number, layer))))
+    }
+
+    fn parts(&mut self, style: &Style, outside: Option<Fill>, group: Option<Group>) -> StyleParts {
+        let rule = style.fill.or(outside).map_or(Rule::EvenOdd, |fill| fill.rule);
         let stroked = |role: Role, line: Line, cut: Option<Side>| {
             let rule = if cut.is_some() { rule } else { Rule::EvenOdd };
             ItemStyle { role, paint: line.color, rule, cut, stroke: Some(line), group }
         };
-        let fill = style.fill.map(|fill| ItemStyle {
-            role: Role::Fill,
-            paint: fill.color,
-            rule,
-            cut: None,
-            stroke: None,
-            group,
-        });
+        let fill = style.fill.map(|fill| filled(Role::Fill, fill, group));
         let outline = style.outline.map(|outline| {
             let cut = match outline.mode {
                 OutlineMode::Inset => Some(Side::Inside),
@@ -151,4 +151,13 @@ impl StyleTable {
         }
         number
     }
+}
+
+/// The group of a scene's layer, if it is one.
+fn group_of(number: usize, layer: &Layer) -> Option<Group> {
+    (layer.opacity < 1.0).then_some(Group { layer: number as u32, opacity: layer.opacity })
+}
+
+fn filled(role: Role, fill: Fill, group: Option<Group>) -> ItemStyle {
+    ItemStyle { role, paint: fill.color, rule: fill.rule, cut: None, stroke: None, group }
 }

@@ -33,7 +33,11 @@ fn plan(points: &[(f64, f64)]) -> Vec<Plan> {
 fn list(styles: Vec<Style>, features: Vec<(u32, Shape)>) -> DrawList {
     let features = features.into_iter().enumerate();
     let features = features.map(|(index, (style, shape))| Feature { index, style, shape }).collect();
-    DrawList::new(&mut [Layer { name: "layer".into(), styles, features, opacity: 1.0 }]).unwrap()
+    DrawList::new(
+        &mut [Layer { name: "layer".into(), styles, features, opacity: 1.0, outside: None }],
+        &PlanBox::EMPTY,
+    )
+    .unwrap()
 }
 
 fn polygon(style: Style, rings: &[&[(f64, f64)]]) -> DrawList {
@@ -80,7 +84,7 @@ fn items_keep_the_order_of_layers_and_features_and_know_where_they_are_from() {
     // More features than are one piece of work.
     let many: Vec<usize> = (0..3000).rev().collect();
     let mut layers = [layer(&[7, 3]), layer(&[]), layer(&many)];
-    let list = DrawList::new(&mut layers).unwrap();
+    let list = DrawList::new(&mut layers, &PlanBox::EMPTY).unwrap();
     let told: Vec<[u32; 3]> =
         list.items().iter().map(|item| [item.layer, item.feature, item.number]).collect();
     assert_eq!(told[..3], [[0, 0, 7], [0, 1, 3], [2, 0, 2999]]);

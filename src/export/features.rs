@@ -1,7 +1,7 @@
 //! Features as GeoJSON (RFC 7946, but in the scene's plan coordinates), styled in the words of the simplestyle specification and
 //! of the scene file.
 
-use crate::draw_list::{Chain, DrawList, Item, ItemStyle, Role, Side};
+use crate::draw_list::{Chain, DrawList, Item, ItemStyle, NO_FEATURE, Role, Side};
 use crate::parameter::Named;
 use crate::scene::{Attribute, Color, Column, Join, Layer, Line, OutlineMode, Width};
 use crate::space::Plan;
@@ -58,7 +58,8 @@ fn crs_member(plan_space: &str) -> Value {
 /// its name.
 fn properties(table: &FeatureTable, items: &[Item]) -> Map<String, Value> {
     let mut all = styled(table, items);
-    let Some(item) = items.first() else { return all };
+    let numbered = items.first().filter(|item| item.number != NO_FEATURE);
+    let Some(item) = numbered else { return all };
     for column in table.attributes.get(item.layer as usize).into_iter().flatten() {
         let value = match column.value(item.number as usize) {
             Attribute::Null => Value::Null,
@@ -75,13 +76,14 @@ fn properties(table: &FeatureTable, items: &[Item]) -> Map<String, Value> {
 }
 
 /// What a style may write.
-const STYLE_KEYS: [&str; 15] = [
+const STYLE_KEYS: [&str; 16] = [
     "layer",
     "number",
     "layer-opacity",
     "fill",
     "fill-opacity",
     "fill-rule",
+    "fill-invert",
     "stroke",
     "stroke-opacity",
     "stroke-width-m",
@@ -99,7 +101,8 @@ fn styled(table: &FeatureTable, items: &[Item]) -> Map<String, Value> {
     let mut all = Map::new();
     for item in items {
         all.insert("layer".into(), table.layers[item.layer as usize].name.clone().into());
-        all.insert("number".into(), item.number.into());
+        let number = Some(item.number).filter(|number| *number != NO_FEATURE);
+        all.insert("number".into(), number.into());
         let style = &list.styles()[item.style as usize];
         if let Some(group) = style.group {
             all.insert("layer-opacity".into(), group.opacity.into());
@@ -116,6 +119,9 @@ fn put_fill(style: &ItemStyle, all: &mut Map<String, Value>) {
     all.insert("fill".into(), hex(style.paint).into());
     all.insert("fill-opacity".into(), style.paint.0[3].into());
     all.insert("fill-rule".into(), style.rule.word().into());
+    if style.role == Role::Outside {
+        all.insert("fill-invert".into(), true.into());
+    }
 }
 
 fn put_stroke(style: &ItemStyle, line: &Line, all: &mut Map<String, Value>) {
@@ -163,7 +169,7 @@ fn write_geometry(list: &DrawList, items: &[Item], origin: DVec2, to: &mut dyn W
         return write!(to, "{}", json!({ "type": "MultiPoint", "coordinates": places }));
     }
     let is_line = has(Role::Line);
-    let is_united = items.iter().any(|item| item.border != item.area);
+    let is_united = !has(Role::Outside) && items.iter().any(|item| item.border != item.area);
     let kind = match (is_line, is_united) {
         (true, _) => "MultiLineString",
         (false, true) => "MultiPolygon",
@@ -206,7 +212,11 @@ fn write_parts(
 
 /// The lines or rings of a feature in their order: borders where it has an area; what only its outline has by the outline's stroke.
 fn parts(list: &DrawList, items: &[Item]) -> Vec<Chain> {
-    let borders = items.iter().flat_map(|item| list.area(item));
+    // What is outside of all polygons has a border of its own.
+    let borders = items.iter().flat_map(|item| match list.styles()[item.style as usize].role {
+        Role::Outside => list.border(item),
+        _ => list.area(item),
+    });
     let strokes = items.iter().flat_map(|item| list.strokes(item));
     let mut parts: Vec<Chain> = borders.chain(strokes).copied().collect();
     // Borders are before strokes: the sort keeps them there.
@@ -219,6 +229,7 @@ fn parts(list: &DrawList, items: &[Item]) -> Vec<Chain> {
 mod tests {
     use super::*;
     use crate::scene::{Cap, Feature, Fill, Outline, Rule, Shape, Style};
+    use crate::space::PlanBox;
 
     fn written(style: Style, shapes: Vec<Shape>) -> Value {
         written_with(style, shapes, (&[], "metres without a CRS"))
@@ -232,7 +243,7 @@ mod tests {
         let features = shapes.into_iter().enumerate();
         let features = features.map(|(index, shape)| Feature { index, style: 0, shape }).collect();
         let mut layers = [Layer::uniform("layer", style, features)];
-        let list = DrawList::new(&mut layers).unwrap();
+        let list = DrawList::new(&mut layers, &PlanBox::EMPTY).unwrap();
         let mut text = Vec::new();
         let origin = DVec2::new(100.0, 0.0);
         let table = FeatureTable { layers: &layers, list: &list, attributes, plan_space, origin };

@@ -10,7 +10,7 @@ mod stroke;
 
 pub use primitive::{HalfPlane, MOST_SIDES, Primitive};
 
-use crate::draw_list::{Chain, DrawList, Role, Side};
+use crate::draw_list::{Chain, DrawList, Item, Role, Side};
 use crate::index::BoxTree;
 use crate::parallel;
 use crate::scene::{Line, Width};
@@ -90,8 +90,10 @@ const NO_AREA: u32 = u32::MAX;
 impl<'l> Footprints<'l> {
     /// The items of a list; parts and polygons whose box `is_seen` denies are left out.
     pub fn new(list: &'l DrawList, pixel: PixelSize, is_seen: &IsSeen) -> Self {
-        let with_area =
-            || list.numbered().filter(|(_, item)| !item.area.is_empty()).map(|(number, _)| number);
+        let is_outside = |item: u32| list.style_of(item).role == Role::Outside;
+        // What is outside of no polygon is everywhere.
+        let has_area = |(number, item): &(u32, &Item)| !item.area.is_empty() || is_outside(*number);
+        let with_area = || list.numbered().filter(has_area).map(|(number, _)| number);
         let owners: Vec<u32> = with_area().filter(|item| list.area_owner(*item) == *item).collect();
         let areas = parallel::map(&owners, |owner| Area::new(list, &list.items()[*owner as usize]));
         let mut area_of = vec![NO_AREA; list.items().len()];
@@ -101,7 +103,10 @@ impl<'l> Footprints<'l> {
         for item in with_area() {
             area_of[item as usize] = area_of[list.area_owner(item) as usize];
         }
-        let bounds = |item: u32| areas[area_of[item as usize] as usize].bounds();
+        let bounds = |item: u32| match is_outside(item) {
+            true => bounds_of_border(list, &list.items()[item as usize]),
+            false => areas[area_of[item as usize] as usize].bounds(),
+        };
         let seen = with_area().map(|item| (item, bounds(item))).filter(|(_, plan)| is_seen(plan));
         let (area_items, area_boxes): (Vec<u32>, Vec<PlanBox>) = seen.unzip();
         let (parts, part_boxes) = Parts { list, pixel: &pixel, is_seen }.all();
@@ -135,7 +140,7 @@ impl<'l> Footprints<'l> {
         let style = self.list.style_of(item);
         match (style.role, style.cut) {
             (Role::Fill, _) | (_, Some(Side::Inside)) => Some(true),
-            (_, Some(Side::Outside)) => Some(false),
+            (Role::Outside, _) | (_, Some(Side::Outside)) => Some(false),
             (Role::Outline | Role::Line | Role::Point, None) => None,
         }
     }
@@ -173,6 +178,11 @@ impl<'l> Footprints<'l> {
             + self.part_boxes.bytes()
             + self.area_boxes.bytes()
     }
+}
+
+/// The box around an item's border.
+fn bounds_of_border(list: &DrawList, item: &Item) -> PlanBox {
+    PlanBox::around(list.border(item).iter().flat_map(|ring| list.vertices_of(ring)).copied())
 }
 
 /// A chain of an item by its place among them and how it is drawn, if it is one of the item's stroke.

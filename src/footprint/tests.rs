@@ -10,7 +10,11 @@ fn line_style(width: f64, join: Join, cap: Cap) -> Style {
 }
 
 fn list(style: Style, shape: Shape) -> DrawList {
-    DrawList::new(&mut [Layer::uniform("l", style, vec![Feature { index: 0, style: 0, shape }])]).unwrap()
+    DrawList::new(
+        &mut [Layer::uniform("l", style, vec![Feature { index: 0, style: 0, shape }])],
+        &PlanBox::EMPTY,
+    )
+    .unwrap()
 }
 
 fn footprints(list: &DrawList) -> Footprints<'_> {

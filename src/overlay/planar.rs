@@ -14,8 +14,8 @@ const MOST_ROUNDS: usize = 64;
 const MOST_PIECES: usize = 1 << 22;
 
 fn too_often() -> Error {
-    Error::unsupported("the polygons of this multi-polygon cross one another too often to be united")
-        .help("repair or simplify the feature, or give each of its polygons a feature of its own")
+    Error::unsupported("these polygons cross one another too often to be united")
+        .help("repair or simplify them; give each polygon of a multi-polygon a feature of its own")
 }
 
 /// The edges cut where they meet: each one's pieces meet others at their ends alone, and equal ones of a member are one.
@@ -108,32 +108,47 @@ fn merge(pieces: &mut Vec<(Edge, bool)>) {
     pieces.retain(|(edge, _)| edge.turns != 0);
 }
 
-/// The rings around what is inside of any member, on their left; `None` where no point is in two.
-pub(super) fn border(edges: &Edges, is_inside: &(dyn Fn(i32) -> bool + Sync)) -> Option<Rings> {
+/// Pieces of edges, each once, and how many members hold what is on each of its sides.
+pub(super) struct Sides {
+    pieces: Vec<(Plan, Plan)>,
+    /// Left and right of each piece.
+    held: Vec<(usize, usize)>,
+}
+
+/// The sides of edges that meet at their ends alone.
+pub(super) fn sides(edges: &Edges, is_inside: &(dyn Fn(i32) -> bool + Sync)) -> Sides {
     // Those of several members that lie upon one another are one piece of the border.
     let is_same = |a: &Edge, b: &Edge| a.low == b.low && a.high == b.high;
     let groups: Vec<&[Edge]> = edges.all.chunk_by(is_same).collect();
-    let sides = parallel::map(&groups, |group| {
+    let held = parallel::map(&groups, |group| {
         let Edge { low, high, .. } = group[0];
         let mut windings = Windings::default();
-        let held = |windings: &Windings| windings.0.iter().filter(|(_, turns)| is_inside(*turns)).count();
+        let count = |windings: &Windings| windings.0.iter().filter(|(_, turns)| is_inside(*turns)).count();
         edges.turns_around(low, Some(high), &mut windings);
-        let right = held(&windings);
+        let right = count(&windings);
         group.iter().for_each(|edge| windings.add(edge.member, edge.turns));
-        (held(&windings), right)
+        (count(&windings), right)
     });
-    if sides.iter().all(|(left, right)| *left < 2 && *right < 2) {
-        return None;
+    Sides { pieces: groups.iter().map(|group| (group[0].low, group[0].high)).collect(), held }
+}
+
+impl Sides {
+    /// Whether a point is in two members.
+    pub(super) fn overlap(&self) -> bool {
+        self.held.iter().any(|(left, right)| *left > 1 || *right > 1)
     }
-    let mut directed: Vec<(Plan, Plan)> = Vec::new();
-    for (group, (left, right)) in groups.iter().zip(sides) {
-        match (left > 0, right > 0) {
-            (true, false) => directed.push((group[0].low, group[0].high)),
-            (false, true) => directed.push((group[0].high, group[0].low)),
-            _ => {}
-        }
+
+    /// The rings around what is inside of any member, on their left.
+    pub(super) fn border(&self) -> Rings {
+        let directed = self.pieces.iter().zip(&self.held).filter_map(|((low, high), (left, right))| {
+            match (*left > 0, *right > 0) {
+                (true, false) => Some((*low, *high)),
+                (false, true) => Some((*high, *low)),
+                _ => None,
+            }
+        });
+        rings(directed.collect())
     }
-    Some(rings(directed))
 }
 
 /// Edges, of which as many leave each vertex as come to it, put together to rings.

@@ -15,6 +15,9 @@ pub struct Layer {
     pub features: Vec<Feature>,
     /// How much of the layer as a whole is drawn, 0..=1: where its features lie on one another, they do not add up.
     pub opacity: f64,
+    /// What all of the terrain that lies outside of every one of its polygons is painted with, once and below its features (an inverted
+    /// fill). Of an outline's polygon its rule says what is inside where the style has no fill.
+    pub outside: Option<Fill>,
 }
 
 /// Items that are composed with one another before they are drawn over what lies below: those of a layer with an opacity.
@@ -29,7 +32,7 @@ pub struct Group {
 impl Layer {
     /// A layer whose features all look alike.
     pub fn uniform(name: impl Into<String>, style: Style, features: Vec<Feature>) -> Self {
-        Self { name: name.into(), styles: vec![style], features, opacity: 1.0 }
+        Self { name: name.into(), styles: vec![style], features, opacity: 1.0, outside: None }
     }
 
     /// Whether a line or an outline is so many pixels wide: its footprint then depends on the view.

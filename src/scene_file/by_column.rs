@@ -72,6 +72,8 @@ pub struct FillSpec {
     pub paint: PaintSpec,
     /// What is inside.
     pub rule: Rule,
+    /// Whether it is not the inside of each polygon that is painted, but what lies outside of all; then no column tells its colour.
+    pub is_inverted: bool,
 }
 
 /// The border of polygons, as it is written.

@@ -52,7 +52,7 @@ fn counted(stage: &Stage) -> [usize; 3] {
         }
         let path =
             |chain: &Chain| if role == Role::Line { list.path_of(chain) } else { list.vertices_of(chain) };
-        features += usize::from(role != Role::Fill);
+        features += usize::from(matches!(role, Role::Outline | Role::Line));
         segments += list.strokes(item).iter().map(|chain| chain.segments() as usize).sum::<usize>();
         vertices += list.strokes(item).iter().map(|chain| path(chain).len()).sum::<usize>();
     }

@@ -20,7 +20,20 @@ pub(super) fn style(section: &mut Section<'_>) -> Result<StyleSpec> {
 }
 
 fn fill(section: &mut Section<'_>) -> Result<FillSpec> {
-    Ok(FillSpec { paint: paint(section)?, rule: section.name("rule")?.unwrap_or_default() })
+    let is_inverted = section.flag("invert")?.unwrap_or(false);
+    let places = ["color", "opacity"].map(|key| section.first_of(&[key]).map(|(_, place)| place.clone()));
+    let paint = paint(section)?;
+    let columns = [paint.color.column(), paint.opacity.column()];
+    let told = places.iter().zip(columns).find_map(|(place, column)| Some((place.as_ref()?, column?)));
+    if let Some((place, column)) = told.filter(|_| is_inverted) {
+        let what = format!(
+            "an inverted fill is painted once, outside of all polygons: no column (`{column}`) can tell how"
+        );
+        return Err(section
+            .error_at(place, what)
+            .help("write one color and one opacity, or leave `invert` out"));
+    }
+    Ok(FillSpec { paint, rule: section.name("rule")?.unwrap_or_default(), is_inverted })
 }
 
 fn outline(section: &mut Section<'_>) -> Result<OutlineSpec> {

@@ -103,6 +103,11 @@ static FILL: TableShape = TableShape {
         key("color", COLOR, "The colour.").required(),
         key("opacity", OPACITY, "Multiplies the colour's alpha. Default: 1."),
         key("rule", choice::<Rule>(), "What rings enclose. Default: \"even-odd\"."),
+        key(
+            "invert",
+            Shape::Flag,
+            "Paints all of the terrain that lies outside of every one of the layer's polygons, once, in place of their insides. Default: false.",
+        ),
     ],
     rules: &[],
 };

@@ -7,7 +7,7 @@ use super::off_terrain::{leave_out, reach_of};
 use super::order::ordered;
 use super::place::Map;
 use super::reproject::{Onto, reproject};
-use super::styling::styled;
+use super::styling::{outside, styled};
 use super::terrain::Terrain;
 use crate::crs::Crs;
 use crate::error::{Error, Result};
@@ -58,6 +58,7 @@ fn layer(
     columns.require(spec)?;
     let mut features = fulfilling(features, spec, &columns, notes)?;
     let styles = styled(&mut features, spec, &columns)?;
+    let outside = outside(spec);
     let count = features.len();
     let onto = Onto {
         terrain: terrain.bounds,
@@ -67,7 +68,7 @@ fn layer(
         edges: spec.edges,
     };
     let features = reproject(features, &map, &onto, notes).map_err(|error| columns.blame(error))?;
-    let mut layer = Layer { name: spec.name.clone(), styles, features, opacity: spec.opacity };
+    let mut layer = Layer { name: spec.name.clone(), styles, features, opacity: spec.opacity, outside };
     leave_out(terrain, &mut layer, count, notes);
     layer.features = ordered(layer.features, spec, &columns);
     Ok(layer)

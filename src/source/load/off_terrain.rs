@@ -7,8 +7,11 @@ use crate::space::{Plan, PlanBox};
 
 /// Keeps the features of a layer that can touch the terrain, in their order. `count` is how many there were before any were left out.
 pub(super) fn leave_out(terrain: &Terrain, layer: &mut Layer, count: usize, notes: &mut Vec<String>) {
-    let styles = &layer.styles;
-    layer.features.retain(|feature| can_touch(feature, &styles[feature.style as usize], &terrain.bounds));
+    let (styles, outside) = (&layer.styles, layer.outside);
+    layer.features.retain(|feature| {
+        let style = styles[feature.style as usize];
+        can_touch(feature, &Style { fill: style.fill.or(outside), ..style }, &terrain.bounds)
+    });
     let kept = layer.features.len();
     if kept == 0 && count > 0 {
         notes.push(format!("none of its {count} features meets the terrain"));

@@ -36,6 +36,17 @@ pub(super) fn styled(
     Ok(styles)
 }
 
+/// What is painted outside of all of a layer's polygons: its fill, where that is inverted, which is the same for all.
+pub(super) fn outside(spec: &LayerSpec) -> Option<Fill> {
+    let fill = spec.style.fill.as_ref().filter(|fill| fill.is_inverted)?;
+    match (&fill.paint.color, &fill.paint.opacity) {
+        (StyleSetting::Constant(color), StyleSetting::Constant(opacity)) => {
+            Some(Fill { color: color.with_opacity(*opacity), rule: fill.rule })
+        }
+        _ => None,
+    }
+}
+
 /// All that may differ between the styles of a layer: which parts there are, their colours and widths. (A part's width has the same unit in
 /// all of them.)
 fn bits(style: &Style) -> Vec<u64> {
@@ -80,7 +91,8 @@ struct Settings<'a> {
 impl Settings<'_> {
     fn style(&self, takes: Takes, index: usize) -> Result<Style> {
         let spec = &self.spec.style;
-        let (fill, outline) = (spec.fill.as_ref().filter(|_| takes.areas), spec.outline.as_ref());
+        let fill = spec.fill.as_ref().filter(|fill| takes.areas && !fill.is_inverted);
+        let outline = spec.outline.as_ref();
         let outline = outline.filter(|_| takes.areas);
         let line = spec.line.as_ref().filter(|_| takes.lines);
         let fill =

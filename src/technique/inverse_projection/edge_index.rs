@@ -103,7 +103,8 @@ impl<'l> EdgeIndex<'l> {
     #[inline]
     pub fn painted_by(&self, area: AreaId) -> Option<u32> {
         let style = self.list.items()[area.item() as usize].style;
-        let is_painted = area.is_stroke() || self.list.styles()[style as usize].role == Role::Fill;
+        let is_filled = matches!(self.list.styles()[style as usize].role, Role::Fill | Role::Outside);
+        let is_painted = area.is_stroke() || is_filled;
         is_painted.then_some(style)
     }
 
@@ -522,7 +523,7 @@ mod tests {
         };
         let features = rings.iter().enumerate().map(feature).collect();
         let style = Style { fill: Some(fill), ..Style::default() };
-        DrawList::new(&mut [Layer::uniform("rings", style, features)]).unwrap()
+        DrawList::new(&mut [Layer::uniform("rings", style, features)], &PlanBox::EMPTY).unwrap()
     }
 
     /// The winding number by the crossings of a ray to the west, half-open.

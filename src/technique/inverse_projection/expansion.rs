@@ -188,13 +188,16 @@ fn side_chain(points: &[Plan], half: f64, is_closed: bool) -> Vec<Plan> {
 mod tests {
     use super::*;
     use crate::scene::{Color, Feature, Join, Layer, Shape, Style};
+    use crate::space::PlanBox;
 
     fn expanded(points: &[(f64, f64)], cap: Cap) -> Vec<Edge> {
         let line = Line { color: Color([1.0; 4]), width: Width::Metres(2.0), join: Join::Bevel, cap };
         let part = points.iter().map(|&(x, y)| Plan::new(x, y)).collect();
         let style = Style { line: Some(line), ..Style::default() };
         let feature = Feature { index: 0, style: 0, shape: Shape::Line(vec![part]) };
-        super::expanded(&DrawList::new(&mut [Layer::uniform("line", style, vec![feature])]).unwrap())
+        super::expanded(
+            &DrawList::new(&mut [Layer::uniform("line", style, vec![feature])], &PlanBox::EMPTY).unwrap(),
+        )
     }
 
     fn corners(edges: &[Edge]) -> Vec<(f64, f64)> {

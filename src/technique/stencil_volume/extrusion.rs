@@ -190,6 +190,7 @@ impl<'l> Extrusion<'l> {
             grouping == Grouping::Color
                 && self.rule_of(object) == Rule::NonZero
                 && self.cut_of(object).is_none()
+                && self.list.style_of(object).role != Role::Outside
         };
         // A layer that is composed as a whole shares with no other.
         let layer = |object: u32| self.list.style_of(object).group.map(|group| group.layer);

@@ -487,7 +487,7 @@ fn violations_in(
 ) -> (usize, Vec<String>) {
     let (mut judged, mut wrong) = (0, Vec::new());
     let size = PixelSize::of(frame, mesh);
-    let list = DrawList::new(&mut scene.layers.clone()).unwrap();
+    let list = DrawList::new(&mut scene.layers.clone(), &PlanBox::EMPTY).unwrap();
     let footprints = Footprints::new(&list, size, &|_| true);
     let setting = Setting::new(scene, mesh, (&footprints, size), budget);
     let triangles: Vec<(u32, SurfaceTriangle)> =
