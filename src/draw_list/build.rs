@@ -35,6 +35,8 @@ struct Block {
 /// What is to be painted outside of a layer's polygons.
 struct Outside {
     style: u32,
+    /// The layer's name.
+    name: String,
     /// The members of all polygons, each as rings.
     members: Vec<Vec<Vec<Plan>>>,
 }
@@ -48,7 +50,8 @@ pub(super) fn of_layers(layers: &mut [Layer], terrain: &PlanBox) -> Result<DrawL
         .iter()
         .enumerate()
         .map(|(k, layer)| {
-            table.outside_of(k, layer).map(|style| Outside { style, members: members_of(layer) })
+            let style = table.outside_of(k, layer)?;
+            Some(Outside { style, name: layer.name.clone(), members: members_of(layer) })
         })
         .collect();
     let frame = frame_around(terrain);
@@ -174,12 +177,14 @@ impl DrawList {
     fn add_outside(
         &mut self,
         layer: usize,
-        Outside { style, members }: &Outside,
+        Outside { style, name, members }: &Outside,
         (rule, frame): (Rule, &PlanBox),
     ) -> Result<()> {
         let area = self.add_members(members);
         let first = self.chains.len();
-        self.add_rings(&border_outside(members, frame, &|turns| rule.contains(turns))?, 0, 0);
+        let border = border_outside(members, frame, &|turns| rule.contains(turns));
+        let border = border.map_err(|error| error.reworded(|what| format!("layer `{name}`: {what}")))?;
+        self.add_rings(&border, 0, 0);
         let border = self.chains_from(first);
         let (feature, number) = (NO_FEATURE, NO_FEATURE);
         self.items.push(Item {

@@ -278,3 +278,29 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn what_is_outside_of_a_layer_s_polygons_is_one_item_below_all_others_of_it() {
+    let square = |x: f64| plan(&[(x, 0.0), (x + 2.0, 0.0), (x + 2.0, 2.0), (x, 2.0)]);
+    let fill = Fill { color: RED, rule: Rule::NonZero };
+    let style = Style { line: Some(stroke(BLUE, 2.0)), ..Style::default() };
+    let shapes = [
+        Shape::Line(vec![square(0.0)]),
+        Shape::Polygon(vec![square(0.0)]),
+        Shape::MultiPolygon(vec![vec![square(1.0)], vec![square(7.0)]]),
+    ];
+    let features =
+        shapes.into_iter().enumerate().map(|(index, shape)| Feature { index, style: 0, shape }).collect();
+    let below = Layer::uniform("below", style, vec![]);
+    let layer = Layer { outside: Some(fill), ..Layer::uniform("inverted", style, features) };
+    let terrain = PlanBox { min: Plan::new(0.0, 0.0), max: Plan::new(10.0, 5.0) };
+    let list = DrawList::new(&mut [below, layer], &terrain).unwrap();
+    let told: Vec<_> =
+        list.numbered().map(|(k, item)| (item.layer, item.number, list.style_of(k).role)).collect();
+    assert_eq!(told, [(1, NO_FEATURE, Role::Outside), (1, 0, Role::Line)]);
+    let item = &list.items()[0];
+    assert_eq!(list.area(item).iter().map(|ring| ring.member).collect::<Vec<_>>(), [0, 1, 2]);
+    let frame = list.vertices_of(&list.border(item)[0]);
+    assert_eq!(frame, plan(&[(-10.0, -10.0), (20.0, -10.0), (20.0, 15.0), (-10.0, 15.0)]));
+    assert_eq!(list.border(item).len(), 3);
+}

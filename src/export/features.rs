@@ -292,6 +292,37 @@ mod tests {
     }
 
     #[test]
+    fn what_is_outside_of_polygons_is_a_feature_of_no_number_with_a_frame_and_what_is_cut_out_of_it() {
+        let shape = Shape::Polygon(vec![plan(&[(0.0, 0.0), (4.0, 0.0), (0.0, 4.0)])]);
+        let fill = Fill { color: Color([1.0, 0.0, 0.0, 0.5]), rule: Rule::NonZero };
+        let features = vec![Feature { index: 0, style: 0, shape }];
+        let layer = Layer::uniform("layer", style(OutlineMode::Normal, false), features);
+        let mut layers = [Layer { outside: Some(fill), ..layer }];
+        let terrain = PlanBox { min: Plan::new(-5.0, -5.0), max: Plan::new(5.0, 5.0) };
+        let list = DrawList::new(&mut layers, &terrain).unwrap();
+        let mut text = Vec::new();
+        let (attributes, plan_space, origin) = (&[][..], "", DVec2::ZERO);
+        let table = FeatureTable { layers: &layers, list: &list, attributes, plan_space, origin };
+        write_features(&table, &mut text).unwrap();
+        let written: Value = serde_json::from_slice(&text).unwrap();
+        let [outside, outline] = written["features"].as_array().unwrap().as_slice() else {
+            panic!("{written}")
+        };
+        let properties = &outside["properties"];
+        assert_eq!((&properties["number"], &properties["fill-invert"]), (&Value::Null, &json!(true)));
+        let frame = json!([[-15.0, -15.0], [15.0, -15.0], [15.0, 15.0], [-15.0, 15.0], [-15.0, -15.0]]);
+        assert_eq!(
+            (&outside["geometry"]["type"], &outside["geometry"]["coordinates"][0]),
+            (&json!("Polygon"), &frame)
+        );
+        assert_eq!(outside["geometry"]["coordinates"].as_array().map(Vec::len), Some(2));
+        assert_eq!(
+            (&outline["properties"]["number"], &outline["properties"]["fill-invert"]),
+            (&json!(0), &Value::Null)
+        );
+    }
+
+    #[test]
     fn the_plan_is_named_as_gis_programs_read_it_and_attributes_stay_beside_the_style() {
         let polygon = || Shape::Polygon(vec![plan(&[(0.0, 0.0), (4.0, 0.0), (0.0, 4.0)])]);
         let column = |name: &str, values: Vec<Attribute>| Column { name: name.into(), values };

@@ -1,5 +1,5 @@
 use super::*;
-use crate::space::Plan;
+use crate::space::{Plan, PlanBox};
 use proptest::prelude::*;
 
 fn ring(points: &[(f64, f64)]) -> Vec<Plan> {
@@ -47,6 +47,27 @@ fn area(rings: &[Vec<Plan>]) -> f64 {
         ring.iter().zip(next).map(|(a, b)| a.x * b.y - b.x * a.y).sum::<f64>()
     };
     rings.iter().map(twice).sum::<f64>() / 2.0
+}
+
+#[test]
+fn outside_of_polygons_rings_turn_once_or_not_at_all_however_the_polygons_turn() {
+    let reversed = |ring: Vec<Plan>| ring.into_iter().rev().collect::<Vec<_>>();
+    let twice = vec![square(-50.0, 0.0, 20.0), square(-50.0, 0.0, 20.0)];
+    let members =
+        [vec![reversed(square(0.0, 0.0, 10.0))], twice, vec![square(5.0, 0.0, 10.0), square(7.0, 0.0, 2.0)]];
+    let frame = PlanBox { min: Plan::new(-100.0, -100.0), max: Plan::new(100.0, 100.0) };
+    for (rule, inside) in [(even_odd as fn(i32) -> bool, 500.0), (non_zero, 500.0 + 1600.0)] {
+        let border = border_outside(&members, &frame, &rule).unwrap();
+        assert_eq!(area(&border), 40_000.0 - inside);
+        let around = |x: f64, y: f64| turns(&border, Plan::new(x, y));
+        let twice = i32::from(!rule(2));
+        assert_eq!(
+            [around(0.0, 1.0), around(-50.0, 1.0), around(12.0, 1.0), around(0.0, 50.0)],
+            [0, twice, 0, 1]
+        );
+        assert_eq!(around(0.0, 150.0), 0);
+    }
+    assert_eq!(area(&border_outside(&[], &frame, &even_odd).unwrap()), 40_000.0);
 }
 
 #[test]
