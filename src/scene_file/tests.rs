@@ -63,7 +63,7 @@ generate = { kind = "roads", seed = 1, count = 10, window = [0, 0, 9, 9], segmen
 line = { color = "#ff7f00", width_px = 3 }
 [[layer]]
 generate = { kind = "mosaic", class = [0, 3], holes = 0.2 }
-fill = { color = "#112233" }
+fill = { color = "#112233", invert = true }
 [technique.clipmap]
 virtual_size = 4096
 clip_size = 512
