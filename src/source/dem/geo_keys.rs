@@ -53,6 +53,7 @@ mod key {
     pub(super) const CENTER_LAT: u16 = 3089;
     pub(super) const SCALE: u16 = 3092;
     pub(super) const VERTICAL_CRS: u16 = 4096;
+    pub(super) const VERTICAL_CITATION: u16 = 4097;
     pub(super) const VERTICAL_UNITS: u16 = 4099;
 }
 
@@ -100,13 +101,24 @@ impl GeoKeys {
             .find_map(|key| VerticalUnit::of_crs_code(code(key)?.into()))
             .or_else(|| VerticalUnit::of_wkt(&self.esri_wkt()?));
         let Some(unit) = code(key::VERTICAL_UNITS).map(VerticalUnit::of_unit_code) else {
-            return of_crs;
+            return of_crs.or_else(|| self.unsaid_unit());
         };
         // The key has no direction: that is the CRS's.
         let down = of_crs.is_some_and(|unit| unit.metres() < 0.0);
         match unit {
             VerticalUnit::Metres(metres, words) if down => Some(VerticalUnit::Metres(-metres, words)),
             unit => Some(unit),
+        }
+    }
+
+    /// The unit of a vertical CRS that no code describes; `None` where one does, or where there is none.
+    fn unsaid_unit(&self) -> Option<VerticalUnit> {
+        let citation = self.text(key::VERTICAL_CITATION).filter(|name| !name.is_empty());
+        match (self.code(key::VERTICAL_CRS), citation) {
+            (Some(code), _) if is_register(code) => None,
+            (_, Some(name)) => Some(VerticalUnit::Unsaid(name.to_owned())),
+            (Some(USER_DEFINED), None) => Some(VerticalUnit::Unsaid("user-defined".to_owned())),
+            _ => None,
         }
     }
 

@@ -9,6 +9,7 @@ use super::failure::too_many_posts;
 use super::frame::{Frame, PostRange};
 use super::grid::{GridFile, Header, RowSink};
 use super::nodata::Nodata;
+use super::virtual_band::{Agreement, Storage};
 use crate::error::{Error, Result};
 use std::path::{Path, PathBuf};
 
@@ -45,8 +46,10 @@ pub(super) struct Piece {
     pub(super) at: (usize, usize),
     /// Factor and offset from its samples to the mosaic's.
     pub(super) scaling: Option<(f64, f64)>,
-    /// A sample that is not taken.
-    pub(super) nodata: Option<f64>,
+    /// The samples that are not taken: what lies below shows.
+    pub(super) nodata: Option<Nodata>,
+    /// Whether what lies below shows where the file itself holds no data.
+    pub(super) lets_through: bool,
 }
 
 /// Whose heights count where files overlap.
@@ -54,7 +57,7 @@ pub(super) struct Piece {
 pub(super) enum Overlap {
     /// The mean of all that have data.
     Mean,
-    /// The last one's that has data.
+    /// The last one's; where it lets through, the one's below it.
     Last,
 }
 
@@ -63,20 +66,20 @@ pub(super) struct Mosaic {
     header: Header,
     pieces: Vec<Piece>,
     overlap: Overlap,
-    nodata: Option<Nodata>,
+    /// `None`: heights are taken as they are.
+    virtual_raster: Option<(Storage, Agreement)>,
     open: Opener,
 }
 
 impl Mosaic {
-    /// A mosaic whose header is known.
-    pub(super) fn new(
+    /// A mosaic whose header is known: later pieces lie on earlier ones.
+    pub(super) fn layered(
         header: Header,
         pieces: Vec<Piece>,
-        overlap: Overlap,
-        nodata: Option<Nodata>,
+        virtual_raster: (Storage, Agreement),
         open: Opener,
     ) -> Self {
-        Self { header, pieces, overlap, nodata, open }
+        Self { header, pieces, overlap: Overlap::Last, virtual_raster: Some(virtual_raster), open }
     }
 
     /// Files that must stand on one grid, with seams averaged.
@@ -90,11 +93,12 @@ impl Mosaic {
                 at: (0, 0),
                 scaling: None,
                 nodata: None,
+                lets_through: true,
             };
             headers.push((open(&piece)?.header().clone(), piece));
         }
         let (header, pieces) = united(headers)?;
-        Ok(Self::new(header, pieces, Overlap::Mean, None, open))
+        Ok(Self { header, pieces, overlap: Overlap::Mean, virtual_raster: None, open })
     }
 
     /// Puts the rows of a part together, and hands them on.
@@ -108,9 +112,12 @@ impl Mosaic {
                 let mut file = (self.open)(piece)?;
                 let of_file = file.header().frame;
                 piece.check_size(&of_file)?;
+                let storage = self.virtual_raster.as_ref().map(|(storage, _)| *storage);
+                if let Some((_, agreement)) = &self.virtual_raster {
+                    agreement.check(file.header().unit.as_ref(), piece.own_scaling(file.header()))?;
+                }
                 file.check_promise(&wanted)?;
-                let mut placing =
-                    Placing { band: &mut band, wanted, to, piece, nodata: self.nodata, seams: &mut *seams };
+                let mut placing = Placing { band: &mut band, wanted, to, piece, storage, seams: &mut *seams };
                 file.scan(&wanted, &mut placing)?;
                 seams.remember(&file.header().notes);
                 Ok(())
@@ -180,6 +187,12 @@ impl Piece {
         Some((wanted, (column, row)))
     }
 
+    /// Factor and offset that the file states for its samples and that are still to be applied once they are taken.
+    pub(super) fn own_scaling(&self, header: &Header) -> (f64, f64) {
+        // A source that is scaled as it is taken is scaled by that alone.
+        header.scaling.filter(|_| self.scaling.is_none()).unwrap_or((1.0, 0.0))
+    }
+
     /// Refuses a file that does not have the posts that are to be taken from it.
     fn check_size(&self, frame: &Frame) -> Result<()> {
         let PostRange { column, row, columns, rows } = self.source;
@@ -244,7 +257,7 @@ impl Band {
         Ok(Self { part, heights, counts })
     }
 
-    /// Takes a height in.
+    /// Takes a height in; NaN, which is no post, only where the last file's wins.
     fn put(&mut self, at: usize, height: f64, seams: &mut Seams) {
         let held = self.heights[at];
         let Some(count) = self.counts.get_mut(at).filter(|_| !held.is_nan()) else {
@@ -274,7 +287,7 @@ struct Placing<'a> {
     /// Where its first post stands in the mosaic.
     to: (usize, usize),
     piece: &'a Piece,
-    nodata: Option<Nodata>,
+    storage: Option<Storage>,
     seams: &'a mut Seams,
 }
 
@@ -285,14 +298,17 @@ impl RowSink for Placing<'_> {
         let row = self.to.1 + (row - self.wanted.row.min(row)) - part.row;
         let (factor, offset) = self.piece.scaling.unwrap_or((1.0, 0.0));
         for (c, sample) in (self.to.0 + column - self.wanted.column..).zip(samples) {
-            if sample.is_nan() || Some(*sample) == self.piece.nodata {
+            let shows_below = if sample.is_nan() {
+                self.piece.lets_through
+            } else {
+                self.piece.nodata.is_some_and(|nodata| nodata.height(*sample).is_nan())
+            };
+            if shows_below {
                 continue;
             }
             let height = if self.piece.scaling.is_some() { sample * factor + offset } else { *sample };
-            let height = self.nodata.map_or(height, |nodata| nodata.height(height));
-            if !height.is_nan() {
-                self.band.put(row * part.columns + c - part.column, height, self.seams);
-            }
+            let height = self.storage.map_or(height, |storage| storage.stored(height));
+            self.band.put(row * part.columns + c - part.column, height, self.seams);
         }
     }
 }
@@ -312,13 +328,17 @@ fn united(files: Vec<(Header, Piece)>) -> Result<(Header, Vec<Piece>)> {
     }
     for (header, piece) in rest {
         if header.crs_hint != first.crs_hint {
-            return Err(another(&piece.path, "CRS", &files[0].1.path));
+            return Err(another(&piece.path, "CRS", &files[0].1.path)
+                .help("warp them into one CRS and one file: gdalwarp -t_srs CRS FILES... OUT.tif"));
         }
     }
     // Counted from the file that begins first, so that the order of the files does not matter.
     let offsets = |from: &Frame| -> Result<Vec<(i64, i64)>> {
         let of = |(header, piece): &(Header, Piece)| {
-            from.steps_to(&header.frame).ok_or_else(|| another(&piece.path, "grid", &files[0].1.path))
+            from.steps_to(&header.frame).ok_or_else(|| {
+                another(&piece.path, "grid", &files[0].1.path)
+                    .help("resample them into one file: gdalwarp -r bilinear -tr X Y FILES... OUT.tif")
+            })
         };
         files.iter().map(of).collect()
     };
@@ -355,7 +375,5 @@ fn united(files: Vec<(Header, Piece)>) -> Result<(Header, Vec<Piece>)> {
 }
 
 fn another(path: &Path, what: &str, first: &Path) -> Error {
-    Error::new(format!("the file has another {what} than {}", first.display())).in_file(path).help(
-        "bring them to one: gdalbuildvrt OUT.vrt FILES..., then gdalwarp -tr X Y -t_srs CRS OUT.vrt OUT.tif",
-    )
+    Error::new(format!("the file has another {what} than {}", first.display())).in_file(path)
 }

@@ -8,11 +8,11 @@ use super::content::MAX_POSTS;
 use super::failure::{too_many_posts, unreadable};
 use super::frame::{Frame, PostRange};
 use super::grid::{GridFile, Header, RowSink};
+use super::image_place;
 use super::nodata::{Nodata, Precision};
 use super::options::{DemOptions, PngEncoding};
 use super::sidecar::Sidecar;
 use super::site::{Input, Site};
-use super::world_file;
 use crate::error::{Error, Result};
 use image::codecs::png::PngDecoder;
 use image::{ImageDecoder, ImageError, Limits};
@@ -59,7 +59,7 @@ impl HeightPng {
             crs_hint: None,
             unit: None,
             scaling: None,
-            notes: vec![note.into()],
+            notes: vec![note],
         };
         let nodata = Nodata::new([None, beside.nodata, options.nodata], Precision::Double);
         Ok(Self { decoder: Some(decoder), header, encoding, channels, nodata, file_length })
@@ -128,19 +128,17 @@ fn place(
     size: (usize, usize),
     bounds: Option<[f64; 4]>,
     beside: Option<[f64; 6]>,
-) -> Result<(Frame, bool, &'static str)> {
-    if let Some(place) = beside {
-        return Ok((Frame::of_geo_transform(size, place)?, true, "placed by the .aux.xml beside it"));
-    }
-    if let Some(frame) = world_file::frame_beside(site, size)? {
-        return Ok((frame, true, "placed by the world file beside it; it has no CRS"));
+) -> Result<(Frame, bool, String)> {
+    if let Some((frame, said_by)) = image_place::place(site, size, beside)? {
+        return Ok((frame, true, format!("placed by the {said_by} beside it")));
     }
     match bounds {
-        Some(bounds) => Ok((Frame::within(size, bounds)?, false, "placed by the given bounds")),
+        Some(bounds) => Ok((Frame::within(size, bounds)?, false, "placed by the given bounds".into())),
         None => Ok((
             Frame::local(size)?,
             false,
-            "the image says neither its place nor its CRS: a local grid, cell 1, south-west post at (0, 0)",
+            "the image says neither its place nor its CRS: a local grid, cell 1, south-west post at (0, 0)"
+                .into(),
         )),
     }
 }

@@ -41,7 +41,7 @@ impl Sidecar {
         read().map_err(|error| {
             error
                 .in_file(file.path())
-                .help("it says what GDAL knows of the terrain file: correct or remove it")
+                .help("it says what GDAL knows of the file beside it: correct or remove it")
         })
     }
 

@@ -2,6 +2,8 @@
 //!
 //! Codes after the EPSG register 12.013 (vertical CRSs whose axis is not in metres upwards); what is not listed is in metres.
 
+use std::ops::Range;
+
 /// What one step of stored heights is.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum VerticalUnit {
@@ -9,6 +11,8 @@ pub(super) enum VerticalUnit {
     Metres(f64, String),
     /// A word that names no length known here.
     Unknown(String),
+    /// A vertical CRS that is described by its name alone.
+    Unsaid(String),
 }
 
 /// Metres of an international and of a US survey foot.
@@ -20,7 +24,23 @@ impl VerticalUnit {
     pub(super) fn metres(&self) -> f64 {
         match self {
             Self::Metres(metres, _) => *metres,
-            Self::Unknown(_) => 1.0,
+            Self::Unknown(_) | Self::Unsaid(_) => 1.0,
+        }
+    }
+
+    /// Whether heights in one unit may stand beside heights in the other as they are; what is not said is the metre.
+    pub(super) fn agree(one: Option<&Self>, other: Option<&Self>) -> bool {
+        let metre = Self::of_unit_code(9001);
+        match (one.unwrap_or(&metre), other.unwrap_or(&metre)) {
+            (Self::Metres(one, _), Self::Metres(other, _)) => one == other,
+            (one, other) => one == other,
+        }
+    }
+
+    /// The unit in words.
+    pub(super) fn words(&self) -> &str {
+        match self {
+            Self::Metres(_, words) | Self::Unknown(words) | Self::Unsaid(words) => words,
         }
     }
 
@@ -37,6 +57,10 @@ impl VerticalUnit {
             Self::Unknown(word) => Some(format!(
                 "the file's unit of heights, `{word}`, is no length known here: they are taken as metres (`vertical_scale` \
                  makes up for it)"
+            )),
+            Self::Unsaid(name) => Some(format!(
+                "the file's vertical CRS, `{name}`, is described by its name alone, which does not say the unit of heights: they are \
+                 taken as metres (`vertical_scale` makes up for it)"
             )),
         }
     }
@@ -111,9 +135,8 @@ impl VerticalUnit {
                 Self::of_unit_code(9002)
             }
             "ftus" | "us ft" | "us survey foot" | "us survey feet" | "survey foot" | "survey feet"
-            | "foot us" | "us foot" | "us feet" | "feet us" | "sft" | "usft" | "ft us" => {
-                Self::of_unit_code(9003)
-            }
+            | "foot (us survey)" | "feet (us survey)" | "ft (us survey)" | "foot us" | "us foot"
+            | "us feet" | "feet us" | "sft" | "usft" | "ft us" => Self::of_unit_code(9003),
             "cm" | "centimetre" | "centimetres" | "centimeter" | "centimeters" => Self::of_unit_code(1033),
             "mm" | "millimetre" | "millimetres" | "millimeter" | "millimeters" => Self::of_unit_code(1025),
             "dm" | "decimetre" | "decimetres" | "decimeter" | "decimeters" => {
@@ -137,7 +160,7 @@ impl VerticalUnit {
         let known = Self::of_word(name).filter(|unit| matches!(unit, Self::Metres(..)));
         let metres = metres.or(known.map(|unit| unit.metres())).unwrap_or(1.0);
         let axis = node(vertical, "AXIS").unwrap_or_default();
-        let down = axis.split(',').any(|part| part.trim() == "DOWN");
+        let down = axis.split(',').any(|part| part.trim() == "DOWN") || esri_direction(vertical) < 0.0;
         let metres = if down { -metres } else { metres };
         (metres != 1.0).then(|| {
             Self::Metres(metres, if name.is_empty() { "metres".into() } else { name.to_ascii_lowercase() })
@@ -145,11 +168,29 @@ impl VerticalUnit {
     }
 }
 
+/// Which way a vertical CRS of Esri's programs counts: below 0 for downwards.
+fn esri_direction(vertical: &str) -> f64 {
+    let (mut from, mut direction) = (0, 1.0);
+    while let Some(found) = span(vertical, "PARAMETER", from) {
+        from = found.end;
+        let mut parts = vertical[found].split(',').map(|part| part.trim().trim_matches('"'));
+        if parts.next() == Some("DIRECTION") {
+            direction = parts.next().and_then(|number| number.parse().ok()).unwrap_or(direction);
+        }
+    }
+    direction
+}
+
 /// What stands between the brackets of the first node of a keyword, outside quotes.
 fn node<'a>(text: &'a str, keyword: &str) -> Option<&'a str> {
+    text.get(span(text, keyword, 0)?)
+}
+
+/// Where the content of the first node of a keyword from a byte outside quotes on stands.
+fn span(text: &str, keyword: &str, from: usize) -> Option<Range<usize>> {
     let bytes = text.as_bytes();
     let mut quoted = false;
-    let start = (0..bytes.len()).find_map(|at| {
+    let start = (from..bytes.len()).find_map(|at| {
         quoted ^= bytes[at] == b'"';
         let is_word = at == 0 || !(bytes[at - 1].is_ascii_alphanumeric() || bytes[at - 1] == b'_');
         let open = at + keyword.len();
@@ -165,7 +206,7 @@ fn node<'a>(text: &'a str, keyword: &str) -> Option<&'a str> {
             _ => {}
         }
         if depth == 0 {
-            return text.get(start..at);
+            return Some(start..at);
         }
     }
     None
@@ -215,8 +256,26 @@ mod tests {
     }
 
     #[test]
+    fn a_vertical_crs_of_esri_says_its_direction_in_a_parameter() {
+        let esri = |direction: &str, unit: &str| {
+            let text = format!(
+                r#"PROJCS["x",UNIT["Meter",1.0]],VERTCS["MSL",VDATUM["é"],PARAMETER["Vertical_Shift",0.0],PARAMETER["Direction",{direction}],UNIT[{unit}]]"#
+            );
+            for (cut, _) in text.char_indices() {
+                let _ = VerticalUnit::of_wkt(&text[..cut]);
+            }
+            metres(VerticalUnit::of_wkt(&text))
+        };
+        assert_eq!(esri("-1.0", r#""Meter",1.0"#), Some(-1.0));
+        assert_eq!(esri("-1.0", r#""Foot",0.3048"#), Some(-0.3048));
+        assert_eq!(esri("1.0", r#""Meter",1.0"#), None);
+        assert_eq!(esri("down", r#""Meter",1.0"#), None);
+    }
+
+    #[test]
     fn words_name_lengths_or_say_that_they_do_not() {
         assert_eq!(metres(VerticalUnit::of_word("US_survey_foot")), Some(SURVEY_FOOT));
+        assert_eq!(metres(VerticalUnit::of_word("Feet (US survey)")), Some(SURVEY_FOOT));
         assert_eq!(metres(VerticalUnit::of_word(" ft ")), Some(FOOT));
         assert_eq!(VerticalUnit::of_word(" "), None);
         let kelvin = VerticalUnit::of_word("K").unwrap();

@@ -72,7 +72,7 @@ pub fn load(file: &SceneFile, progress: &dyn Fn(&str)) -> Result<(Scene, Surface
     let terrain = terrain::terrain(file, progress, &mut notes)?;
     let layers = layer::layers(file, &terrain, progress, &mut notes)?;
     let camera = camera::camera(file, &terrain, &layers)?;
-    let ground = ground::ground(file, &terrain, progress)?;
+    let ground = ground::ground(file, &terrain, progress, &mut notes)?;
     let scene = Scene {
         name: file.name.clone(),
         origin: terrain.place.origin(),

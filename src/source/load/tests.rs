@@ -448,22 +448,60 @@ fn imagery_covers_the_terrain_or_what_its_world_file_says() {
     let folder = Folder::new()
         .with("d.asc", grid((5, 5), (1000.0, 2000.0), 10.0, hills))
         .with("o.png", png.into_inner());
-    let load = || match folder
-        .load("terrain = { source = \"d.asc\", imagery = \"o.png\" }")
-        .unwrap()
-        .0
-        .ground
-        .colors
-    {
+    let read =
+        || folder.load("terrain = { source = \"d.asc\", imagery = \"o.png\" }").map(|(scene, _)| scene);
+    let load = || match read().unwrap().ground.colors {
         crate::scene::GroundColors::Imagery(imagery) => imagery,
         other => panic!("{other:?}"),
     };
+    let is_stretched =
+        || read().unwrap().notes.iter().any(|n| n.contains("imagery: ") && n.contains("stretched"));
     let imagery = load();
+    assert!(is_stretched());
     assert_eq!(imagery.texels.at(1, 0).0, [0.0, 0.0, 0.2, 1.0]);
     assert_eq!((imagery.extent.min, imagery.extent.max), (Plan::new(-20.0, -20.0), Plan::new(20.0, 20.0)));
     std::fs::write(folder.path("o.pgw"), "20\n0\n0\n-15\n1010\n2022.5\n").unwrap();
     let extent = load().extent;
     assert_eq!((extent.min, extent.max), (Plan::new(-20.0, -20.0), Plan::new(20.0, 10.0)));
+    assert!(!is_stretched());
+    let aux = |place: &str, srs: &str| {
+        let text = format!("<PAMDataset><SRS>{srs}</SRS><GeoTransform>{place}</GeoTransform></PAMDataset>");
+        std::fs::write(folder.path("o.png.aux.xml"), text).unwrap();
+    };
+    // As of a terrain, what GDAL says counts before a world file.
+    aux("1010, 5, 0, 2030, 0, -5", "");
+    let extent = load().extent;
+    assert_eq!((extent.min, extent.max), (Plan::new(-10.0, 0.0), Plan::new(0.0, 10.0)));
+    assert!(!is_stretched());
+    for (place, what) in [("1010, 5, 1, 2030, 0, -5", "turns"), ("here", "six numbers")] {
+        aux(place, "");
+        let message = read().unwrap_err().to_string();
+        assert!(message.contains(what) && message.contains("o.png"), "{message}");
+    }
+}
+
+#[test]
+fn imagery_in_another_crs_than_the_plan_is_refused() {
+    let mut png = std::io::Cursor::new(Vec::new());
+    image::RgbImage::new(2, 2).write_to(&mut png, image::ImageFormat::Png).unwrap();
+    let folder = Folder::new()
+        .with("d.asc", grid((5, 5), (500_000.0, 5_000_000.0), 10.0, hills))
+        .with("o.png", png.into_inner());
+    let read = |srs: &str| {
+        let text = format!(
+            "<PAMDataset><SRS>{srs}</SRS><GeoTransform>500000, 5, 0, 5000030, 0, -5</GeoTransform></PAMDataset>"
+        );
+        std::fs::write(folder.path("o.png.aux.xml"), text).unwrap();
+        let scene = "terrain = { source = \"d.asc\", imagery = \"o.png\", crs = \"EPSG:32632\" }\ncrs = \"EPSG:32632\"";
+        folder.load(scene).map(|(scene, _)| scene.notes)
+    };
+    for same in ["EPSG:32632", "+proj=utm +zone=32 +datum=WGS84"] {
+        let notes = read(same).unwrap();
+        assert!(!notes.iter().any(|n| n.starts_with("imagery")) || same.starts_with('+'), "{notes:?}");
+    }
+    let message = read("EPSG:32633").unwrap_err().to_string();
+    assert!(message.contains("another CRS") && message.contains("gdalwarp -t_srs"), "{message}");
+    assert!(read("LOCAL_CS[]").unwrap().iter().any(|n| n.contains("is not followed")));
 }
 
 #[test]

@@ -72,18 +72,18 @@ impl Bands {
     }
 }
 
-/// Refuses a picture: its samples are no heights. Three bands of bytes, and samples that a table of colours is kept for without their
-/// being called indices, may be heights to who says which band holds them.
+/// Refuses a picture: its samples are no heights. Three bands of unsigned numbers of 8 or 16 bits, and samples that a table of colours
+/// is kept for without their being called indices, may be heights to who says which band holds them.
 pub(super) fn refuse_picture<R: Read + Seek>(
     directory: &Directory,
     source: &mut Source<R>,
-    is_bytes: bool,
+    is_unsigned: bool,
     asked: Option<usize>,
 ) -> Result<()> {
     const HELP: &str = "name the file of heights that belongs to it";
     const UNLESS: &str = "name the file of heights that belongs to it; if a band of this one does hold heights, say `band` = 1";
     let (what, help) = match directory.whole(source, tag::PHOTOMETRIC)?.unwrap_or(1) {
-        2 if is_bytes && asked.is_none() => ("red, green and blue", UNLESS),
+        2 if is_unsigned && asked.is_none() => ("red, green and blue", UNLESS),
         3 => ("indices into a palette", HELP),
         5 => ("shares of printing inks", HELP),
         6 => ("brightness and colour differences", HELP),

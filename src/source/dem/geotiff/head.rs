@@ -59,7 +59,7 @@ impl Head {
             return Err(Error::unsupported("samples of a single bit are no heights")
                 .help("name the file of heights that belongs to it"));
         }
-        refuse_picture(directory, source, coding.sample == Sample::U8, options.band)?;
+        refuse_picture(directory, source, matches!(coding.sample, Sample::U8 | Sample::U16), options.band)?;
         let layout = layout(directory, source, size, &coding, &bands)?;
         let keys = geo_keys(directory, source)?;
         let place = (site, options.bounds, beside.place);

@@ -18,6 +18,7 @@ fn a_palette_or_a_photograph_is_refused_as_heights() {
         (tiff(Kind::U8, 1, 3), "palette"),
         (tiff(Kind::U16, 1, 3), "palette"),
         (tiff(Kind::U8, 3, 2), "red, green and blue"),
+        (tiff(Kind::U16, 3, 2), "red, green and blue"),
         (tiff(Kind::U8, 4, 5), "inks"),
         (tiff(Kind::U8, 3, 6), "brightness"),
     ] {

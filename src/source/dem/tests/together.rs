@@ -114,14 +114,15 @@ fn files_that_do_not_fit_together_are_refused_by_name() {
         tiff
     };
     let shifted = tile((5, 5), (43.0, 100.0), 0.0);
-    for (second, expected) in [
-        (other_crs, "another CRS"),
-        (coarser, "another grid"),
-        (shifted, "another grid"),
-        (placeless, "place"),
+    for (second, expected, help) in [
+        (other_crs, "another CRS", "gdalwarp -t_srs CRS FILES... OUT.tif"),
+        (coarser, "another grid", "gdalwarp -r bilinear -tr X Y FILES... OUT.tif"),
+        (shifted, "another grid", "gdalwarp"),
+        (placeless, "place", "world file"),
     ] {
         let message = together(&[first(), second], &DemOptions::default()).unwrap_err().to_string();
-        assert!(message.contains("1.tif") && message.contains(expected), "{message}");
+        let is_told = [expected, help].iter().all(|words| message.contains(words));
+        assert!(message.contains("1.tif") && is_told, "{message}");
     }
     let far = tile((5, 5), (1e7, 1e7), 0.0);
     let message = together(&[first(), far], &DemOptions::default()).unwrap_err().to_string();

@@ -71,6 +71,28 @@ fn the_unit_of_a_band_wins_over_that_of_the_crs_and_metres_stay() {
 }
 
 #[test]
+fn a_vertical_crs_that_is_described_by_its_name_alone_is_told() {
+    let with_citation = |units: &[[u16; 4]]| {
+        let keys =
+            [&[[1024, 0, 1, 1], [3072, 0, 1, 32633], [4096, 0, 1, 32767], [4097, 34737, 21, 0]], units];
+        let keys = keys.concat();
+        let mut directory = vec![1, 1, 0, keys.len() as u16];
+        directory.extend(keys.iter().flatten());
+        let mut tiff = Tiff::new((4, 4), Kind::F32, |_, _| 1000.0);
+        tiff.tags.push((34735, Values::Shorts(directory)));
+        tiff.tags.push((34737, Values::Text("NAVD88 height (ftUS)|".into())));
+        read_bytes("a.tif", &tiff.bytes(), &DemOptions::default()).unwrap()
+    };
+    let dem = with_citation(&[[4098, 0, 1, 32767], [4099, 0, 1, 32767]]);
+    let is_told = |note: &String| note.contains("`NAVD88 height (ftUS)`") && note.contains("taken as metres");
+    assert!(dem.notes.iter().any(is_told), "{:?}", dem.notes);
+    assert_eq!(posts(dem).heights()[0], 1000.0);
+    let dem = with_citation(&[[4099, 0, 1, 9003]]);
+    assert!(!dem.notes.iter().any(is_told), "{:?}", dem.notes);
+    assert_eq!(posts(dem).heights()[0], 1000.0 * SURVEY_FOOT);
+}
+
+#[test]
 fn a_scale_that_is_no_number_is_refused() {
     let items = r#"<Item name="SCALE" sample="0" role="scale">abc</Item>"#;
     let message = refusal("a.tif", &with_items(items), &DemOptions::default());
@@ -81,6 +103,12 @@ fn a_scale_that_is_no_number_is_refused() {
 fn the_projection_file_of_an_ascii_grid_may_state_feet() {
     let grid = b"ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1000 1000\n1000 1000\n";
     let wkt = r#"COMPD_CS["x",PROJCS["y"],VERT_CS["NAVD88 height (ft)",VERT_DATUM["n",2005],UNIT["foot",0.3048],AXIS["Up",UP]]]"#;
+    let depths = r#"PROJCS["x",UNIT["Meter",1.0]],VERTCS["EGM2008",VDATUM["EGM2008"],PARAMETER["Vertical_Shift",0.0],PARAMETER["Direction",-1.0],UNIT["Meter",1.0]]"#;
+    let dem = with_file("a.asc", grid, |path| {
+        std::fs::write(path.with_extension("prj"), depths).unwrap();
+        read(&path, &DemOptions::default()).unwrap()
+    });
+    assert_eq!(posts(dem).heights()[0], -1000.0);
     for prj in [wkt, "Projection    UTM\nZunits        FEET\nUnits         METERS\n"] {
         let dem = with_file("a.asc", grid, |path| {
             std::fs::write(path.with_extension("prj"), prj).unwrap();

@@ -92,6 +92,139 @@ fn later_files_lie_on_earlier_ones_except_where_they_hold_no_data() {
 }
 
 #[test]
+fn a_source_that_does_not_say_its_nodata_lays_its_holes_over_those_before_it() {
+    let at = |kind: &str, more: &str| {
+        let over = source(kind, "tiles/2.tif", WHOLE, WHOLE, more);
+        let band = "<NoDataValue>210</NoDataValue>".to_owned()
+            + &source("SimpleSource", "tiles/1.tif", WHOLE, WHOLE, "")
+            + &over;
+        posts(read_vrt(&dataset(&band), &DemOptions::default()).unwrap()).world(1, 2).z
+    };
+    assert!(at("SimpleSource", "").is_nan());
+    assert!(at("ComplexSource", "").is_nan());
+    assert!(at("SimpleSource", "<NODATA>210</NODATA>").is_nan(), "a simple source has no nodata");
+    assert_eq!(at("ComplexSource", "<NODATA>210</NODATA>"), 110.0);
+}
+
+#[test]
+fn holes_of_a_file_let_others_through_only_where_its_source_says_so() {
+    let at = |kind: &str, more: &str| {
+        let mut above = file(2.0);
+        above.nodata = Some("210");
+        let band = source("SimpleSource", "tiles/1.tif", WHOLE, WHOLE, "")
+            + &source(kind, "tiles/2.tif", WHOLE, WHOLE, more);
+        let dem = with_files(&dataset(&band), |path| {
+            std::fs::write(path.with_file_name("tiles/2.tif"), above.bytes()).unwrap();
+            read(path, &DemOptions::default()).unwrap()
+        });
+        posts(dem).world(1, 2).z
+    };
+    assert!(at("SimpleSource", "").is_nan());
+    assert_eq!(at("ComplexSource", "<NODATA>210</NODATA>"), 110.0);
+    assert_eq!(at("ComplexSource", "<UseMaskBand>true</UseMaskBand>"), 110.0);
+}
+
+/// The first file's metadata, and the second's, as two tiles side by side.
+fn told_apart(items: [&str; 2], more: &str, options: &DemOptions) -> crate::Result<Dem> {
+    with_files(&dataset(&(two() + more)), |path| {
+        for (number, items) in (1..).zip(items) {
+            let mut tiff = file(f64::from(number));
+            tiff.tags.push((42112, Values::Text(format!("<GDALMetadata>{items}</GDALMetadata>"))));
+            std::fs::write(path.with_file_name(format!("tiles/{number}.tif")), tiff.bytes()).unwrap();
+        }
+        read(path, options)
+    })
+}
+
+#[test]
+fn files_in_different_units_or_scales_are_refused_by_both_their_names_unless_the_raster_states_one() {
+    const FEET: &str = r#"<Item name="UNITTYPE" sample="0" role="unittype">ft</Item>"#;
+    const METRES: &str = r#"<Item name="UNITTYPE" sample="0" role="unittype">m</Item>"#;
+    const TENTHS: &str = r#"<Item name="SCALE" sample="0" role="scale">0.1</Item>"#;
+    let read = |items, more: &str| told_apart(items, more, &DemOptions::default());
+    for (items, what) in
+        [([FEET, METRES], "unit"), ([METRES, FEET], "unit"), ([FEET, ""], "unit"), ([TENTHS, ""], "scale")]
+    {
+        let message = read(items, "").unwrap_err().to_string();
+        let is_named = message.contains("1.tif") && message.contains("2.tif") && message.contains(what);
+        assert!(is_named && message.contains("source = ["), "{message}");
+    }
+    let heights = |items, more: &str| {
+        let posts = posts(read(items, more).unwrap());
+        (posts.world(0, 2).z, posts.world(4, 2).z)
+    };
+    assert_eq!(heights([FEET, FEET], ""), (100.0 * 0.3048, 200.0 * 0.3048));
+    assert_eq!(heights([TENTHS, TENTHS], ""), (100.0 * 0.1, 200.0 * 0.1));
+    assert_eq!(heights([METRES, ""], ""), (100.0, 200.0));
+    assert_eq!(heights([FEET, METRES], "<UnitType>m</UnitType>"), (100.0, 200.0));
+    assert_eq!(heights([TENTHS, ""], "<Scale>2</Scale>"), (200.0, 400.0));
+}
+
+#[test]
+fn a_source_that_is_scaled_as_it_is_taken_is_not_scaled_again() {
+    const TENTHS: &str = r#"<Item name="SCALE" sample="0" role="scale">0.5</Item>"#;
+    let xml = dataset(&source(
+        "ComplexSource",
+        "tiles/1.tif",
+        WHOLE,
+        WHOLE,
+        "<ScaleOffset>0</ScaleOffset><ScaleRatio>0.5</ScaleRatio>",
+    ));
+    let dem = with_files(&xml, |path| {
+        let mut tiff = file(1.0);
+        tiff.tags.push((42112, Values::Text(format!("<GDALMetadata>{TENTHS}</GDALMetadata>"))));
+        std::fs::write(path.with_file_name("tiles/1.tif"), tiff.bytes()).unwrap();
+        read(path, &DemOptions::default()).unwrap()
+    });
+    assert_eq!(posts(dem).world(0, 2).z, 50.0);
+}
+
+#[test]
+fn a_mask_of_its_own_and_an_alpha_band_are_refused_with_the_command_that_keeps_them() {
+    let alpha = source("SimpleSource", "tiles/2.tif", WHOLE, WHOLE, "");
+    let alpha = format!(
+        r#"<VRTRasterBand dataType="Byte" band="2"><ColorInterp>Alpha</ColorInterp>{alpha}</VRTRasterBand></VRTDataset>"#
+    );
+    let mask = |sources: &str| {
+        format!(
+            r#"<MaskBand><VRTRasterBand dataType="Byte">{sources}</VRTRasterBand></MaskBand></VRTDataset>"#
+        )
+    };
+    let with = |more: &str| dataset(&two()).replace("</VRTDataset>", more);
+    let of_files = two().replace("<SourceBand>1<", "<SourceBand>mask,1<");
+    let first = source("SimpleSource", "tiles/1.tif", WHOLE, WHOLE, "").replace(">1</So", ">mask,1</So");
+    for (xml, what) in [
+        (with(&alpha), "alpha band"),
+        (with(&mask(&two())), "mask of its own"),
+        (with(&mask(&first)), "mask of other files"),
+    ] {
+        let message = read_vrt(&xml, &DemOptions::default()).unwrap_err().to_string();
+        assert!(message.contains(what) && message.contains("gdal_translate"), "{message}");
+    }
+    // The files' own masks are read with them.
+    assert!(read_vrt(&with(&mask(&of_files)), &DemOptions::default()).is_ok());
+}
+
+#[test]
+fn heights_are_rounded_and_cut_to_the_kind_of_number_that_the_raster_stores() {
+    let stored = |kind: &str, ratio: &str| {
+        let scaled = format!("<ScaleOffset>0</ScaleOffset><ScaleRatio>{ratio}</ScaleRatio>");
+        let band = source("ComplexSource", "tiles/1.tif", WHOLE, WHOLE, &scaled);
+        let xml = dataset(&band).replace("<VRTRasterBand dataType=\"Int16\"", kind);
+        Ok::<_, crate::Error>(posts(read_vrt(&xml, &DemOptions::default())?).world(0, 2).z)
+    };
+    let kind = |name: &str| format!("<VRTRasterBand dataType=\"{name}\"");
+    assert_eq!(stored(&kind("Int16"), "0.016").unwrap(), 2.0);
+    assert_eq!(stored(&kind("Int16"), "-0.015").unwrap(), -2.0);
+    assert_eq!(stored(&kind("Int16"), "1000").unwrap(), 32767.0);
+    assert_eq!(stored(&kind("Byte"), "-1").unwrap(), 0.0);
+    assert_eq!(stored("<VRTRasterBand", "3").unwrap(), 255.0);
+    assert_eq!(stored(&kind("Float32"), "0.001").unwrap(), f64::from(0.1_f32));
+    assert_eq!(stored(&kind("Float64"), "0.001").unwrap(), 0.1);
+    assert!(stored(&kind("CFloat32"), "1").unwrap_err().to_string().contains("CFloat32"));
+}
+
+#[test]
 fn scale_offset_nodata_and_unit_of_the_raster_count() {
     let scaled = "<ScaleOffset>1000</ScaleOffset><ScaleRatio>2</ScaleRatio>";
     let band = source("ComplexSource", "tiles/1.tif", WHOLE, WHOLE, scaled);
