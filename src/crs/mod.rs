@@ -9,7 +9,7 @@
 //!   how files store them.
 //! - Axes that a CRS counts west and south stay so: that is how files store them, too.
 //! - Datum shifts are Helmert transformations; there are no grid files. Where neither the text nor the list of EPSG
-//!   datums knows a shift, longitudes and latitudes are taken for those of WGS 84, and [`Crs::note`] says so.
+//!   datums knows a shift (an ellipsoid alone, WGS 84's too, says nothing of one), longitudes and latitudes are taken for those of WGS 84, and [`Crs::note`] says so.
 //! - ETRS89, NAD83, NZGD2000, GDA94 and their like count as WGS 84 (they differ by less than 2 m).
 //!
 //! # Determinism
@@ -83,9 +83,12 @@ impl Crs {
             Error::unsupported(format!("EPSG:{code} is not a CRS known here"))
                 .help("write it as a PROJ string or as WKT, or reproject the data")
         })?;
-        let mut crs = Self::from_definition(&Definition::parse(&known.proj)?).map_err(|e| {
-            e.help(format!("EPSG:{code} cannot be used: reproject the data, for example to UTM"))
+        let definition = Definition::parse(&known.proj)?;
+        let mut crs = Self::from_definition(&definition).map_err(|e| {
+            Error::unsupported(format!("EPSG:{code} cannot be used: {}", e.what()))
+                .help("reproject the data, for example to UTM")
         })?;
+        crs.datum = definition.listed_datum(&definition.ellipsoid()?)?;
         crs.epsg = Some(code);
         if crs.is_geographic() {
             // The unit of angles is what a PROJ string cannot say.
@@ -96,7 +99,8 @@ impl Crs {
         Ok(crs)
     }
 
-    /// The CRS of a text: `EPSG:32733`, `OGC:CRS84`, an OGC URN or URL, a PROJ string, or WKT (1, 2 or Esri's).
+    /// The CRS of a text: `EPSG:32733`, `OGC:CRS84`, an OGC URN or URL, a PROJ string, or WKT (1, 2 or Esri's). Of a compound
+    /// one (`EPSG:32633+5773`) it is the horizontal part.
     ///
     /// # Errors
     /// When the text is none of these, or what it describes is not supported.
@@ -105,7 +109,7 @@ impl Crs {
         if let Some(crs) = Self::from_identifier(text) {
             return crs;
         }
-        if text.contains("+proj") {
+        if text.starts_with('+') && text.contains("+proj") {
             return Self::from_proj_string(text);
         }
         if text.contains(['[', '(']) {
@@ -121,7 +125,11 @@ impl Crs {
         if upper.len() <= 80 && (upper.ends_with(":CRS84") || upper.ends_with("/CRS84") || upper == "CRS84") {
             return Some(Self::crs84());
         }
-        let short = upper.strip_prefix("EPSG:");
+        if WEB_MERCATORS.contains(&upper.as_str()) {
+            return Some(Self::from_epsg(3857));
+        }
+        let short = upper.strip_prefix("EPSG:").or_else(|| upper.strip_prefix("+INIT=EPSG:").map(first_word));
+        let short = short.map(horizontal_code);
         let urn = upper.strip_prefix("URN:OGC:DEF:CRS:EPSG:").and_then(|t| t.split(':').nth(1));
         let url = upper.split_once("/DEF/CRS/EPSG/").and_then(|t| t.1.split('/').nth(1));
         let code: u32 = short.or(urn).or(url)?.trim().parse().ok()?;
@@ -223,6 +231,12 @@ impl Crs {
             (Datum::Shift(a), Datum::Shift(b)) => {
                 a.agrees_with(b) && self.ellipsoid.agrees_with(&other.ellipsoid)
             }
+            // On WGS 84's ellipsoid, what is unknown is taken for WGS 84, and not for what is known to be another datum.
+            (Datum::Unknown, Datum::Shift(_)) | (Datum::Shift(_), Datum::Unknown)
+                if self.ellipsoid.agrees_with(&Ellipsoid::WGS84) =>
+            {
+                false
+            }
             (Datum::Unknown, _) | (_, Datum::Unknown) => self.ellipsoid.agrees_with(&other.ellipsoid),
             _ => false,
         }
@@ -284,6 +298,24 @@ impl Crs {
         Error::new(format!("longitude {}, latitude {} lies outside the domain of {}", p.x, p.y, self.name))
             .help("clip the data, or choose a CRS made for that area")
     }
+}
+
+/// What Web Mercator was called before it had a code of EPSG.
+const WEB_MERCATORS: [&str; 5] = ["EPSG:900913", "ESRI:102100", "ESRI:102113", "EPSG:102100", "EPSG:102113"];
+
+/// `32633` of a compound `32633+5773`.
+fn horizontal_code(text: &str) -> &str {
+    match text.split_once('+') {
+        Some((horizontal, vertical)) if vertical.parse::<u32>().is_ok() => horizontal,
+        _ => text,
+    }
+}
+
+/// Nothing that can follow the code of `+init=` alone changes the CRS.
+fn first_word(text: &str) -> &str {
+    let (first, rest) = text.split_once(' ').unwrap_or((text, ""));
+    let is_idle = |word: &str| matches!(word, "+NO_DEFS" | "+WKTEXT" | "+TYPE=CRS");
+    if rest.split_whitespace().all(is_idle) { first } else { text }
 }
 
 #[cfg(test)]

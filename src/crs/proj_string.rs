@@ -107,6 +107,7 @@ impl Definition {
         Err(Error::new(format!("an ellipsoid flattened by {f} is no figure of a planet")))
     }
 
+    /// The datum that is stated; an ellipsoid alone states none.
     pub(crate) fn datum(&self, ellipsoid: &Ellipsoid) -> Result<Datum> {
         if self.text("nadgrids") == Some("@null") {
             return Ok(Datum::Wgs84);
@@ -121,9 +122,16 @@ impl Definition {
         };
         match known_datum(name) {
             Ok((_, shift)) if !name.is_empty() => shift_of_numbers(shift, ellipsoid),
-            _ if ellipsoid.agrees_with(&Ellipsoid::WGS84) => Ok(Datum::Wgs84),
             _ => Ok(Datum::Unknown),
         }
+    }
+
+    /// The datum of a definition in the list of EPSG codes. One on the ellipsoid of WGS 84 or GRS 80 that has no shift there has the
+    /// datum WGS 84: all codes of the list were compared with PROJ's. Of other texts that does not hold (GGRS87 is on GRS 80, 300 m off).
+    pub(crate) fn listed_datum(&self, ellipsoid: &Ellipsoid) -> Result<Datum> {
+        let stated = self.datum(ellipsoid)?;
+        let is_wgs84 = stated == Datum::Unknown && ellipsoid.agrees_with(&Ellipsoid::WGS84);
+        Ok(if is_wgs84 { Datum::Wgs84 } else { stated })
     }
 
     /// Degrees east of Greenwich.

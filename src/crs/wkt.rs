@@ -207,10 +207,13 @@ fn crs_of(root: &Node) -> Result<Crs> {
     if let Some(Ok(crs)) = node.epsg().map(Crs::from_epsg) {
         return Ok(crs);
     }
+    let geographic =
+        node.find(&GEOGRAPHIC).ok_or_else(|| malformed("a projected CRS lacks its geographic one"))?;
     let mut crs = match proj4_extension(node) {
         Some(text) => Crs::from_proj_string(text)?,
-        None => crs_of_parameters(node)?,
+        None => crs_of_parameters(node, geographic)?,
     };
+    settle(&mut crs, geographic)?;
     crs.name = node.name().to_owned();
     Ok(crs)
 }
@@ -221,9 +224,7 @@ fn proj4_extension(node: &Node) -> Option<&str> {
     extension.text(1).filter(|text| text.contains("proj="))
 }
 
-fn crs_of_parameters(node: &Node) -> Result<Crs> {
-    let geographic =
-        node.find(&GEOGRAPHIC).ok_or_else(|| malformed("a projected CRS lacks its geographic one"))?;
+fn crs_of_parameters(node: &Node, geographic: &Node) -> Result<Crs> {
     let angle = degrees_per_unit(geographic);
     let mut text = match PROJECTED.contains(&node.keyword.as_str()) {
         true => projection_text(node, angle)? + axes_of(node),
@@ -238,20 +239,27 @@ fn crs_of_parameters(node: &Node) -> Result<Crs> {
         let numbers: Vec<String> = (0..7).map(|i| shift.number(i).unwrap_or(0.0).to_string()).collect();
         let _ = write!(text, " +towgs84={}", numbers.join(","));
     }
-    let mut crs = Crs::from_definition(&Definition::parse(&text)?)?;
-    settle(&mut crs, geographic, angle);
-    Ok(crs)
+    Crs::from_definition(&Definition::parse(&text)?)
 }
 
 /// Set what a PROJ string cannot say: the unit of angles, and the shift of a datum that is known by name alone.
-fn settle(crs: &mut Crs, geographic: &Node, angle: f64) {
+fn settle(crs: &mut Crs, geographic: &Node) -> Result<()> {
     if crs.is_geographic() {
-        crs.unit = angle;
+        crs.unit = degrees_per_unit(geographic);
     }
+    if crs.datum != Datum::Unknown {
+        return Ok(());
+    }
+    let (a, rf) = ellipsoid_of(geographic)?;
+    let ellipsoid = Ellipsoid::from_inverse_flattening(a, rf);
+    let by_code = geographic.epsg().map(|code| wkt_names::datum_of_code(code, &ellipsoid));
     let datum = geographic.find(&["DATUM", "GEODETICDATUM", "TRF", "ENSEMBLE"]);
-    if let (Datum::Unknown, Some(datum)) = (crs.datum, datum) {
-        crs.datum = wkt_names::datum_named(datum.name(), &crs.ellipsoid);
-    }
+    crs.datum = match (by_code, datum) {
+        (Some(known), _) if known != Datum::Unknown => known,
+        (_, Some(datum)) => wkt_names::datum_named(datum.name(), &ellipsoid),
+        _ => Datum::Unknown,
+    };
+    Ok(())
 }
 
 /// The unit of angles in degrees; exactly 1 for every spelling of a degree.

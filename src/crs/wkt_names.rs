@@ -50,7 +50,9 @@ pub(crate) fn proj_text(
     metres: f64,
 ) -> Result<String> {
     let value = |key: &str| parameters.iter().find(|p| p.0 == key).map(|p| p.1);
-    let proj = proj_of(method, value("alpha")).ok_or_else(|| {
+    // Esri's plain name is that of a pole's projection and of any place's alike; the latter is not the double one.
+    let is_other = method == "stereographic" && value("lat_0").is_none_or(|lat| lat.abs() != 90.0);
+    let proj = proj_of(method, value("alpha")).filter(|_| !is_other).ok_or_else(|| {
         Error::unsupported(format!("the projection '{name}' is not supported"))
             .help("reproject the data, for example to UTM, or name the CRS by its EPSG code")
     })?;
@@ -67,6 +69,9 @@ pub(crate) fn proj_text(
             (_, key) => key,
         };
         let _ = write!(text, " +{key}={number}");
+    }
+    if method == "behrmann" {
+        text += " +lat_ts=30";
     }
     if proj == "stere" {
         let south = value("lat_1").or(value("lat_0")).unwrap_or(90.0) < 0.0;
@@ -103,13 +108,14 @@ fn proj_of(method: &str, azimuth: Option<f64>) -> Option<&'static str> {
         | "polarstereographicvarianta"
         | "polarstereographicvariantb"
         | "stereographicnorthpole"
-        | "stereographicsouthpole" => "stere",
+        | "stereographicsouthpole"
+        | "stereographic" => "stere",
         "obliquestereographic" | "doublestereographic" => "sterea",
         "cassinisoldner" | "cassini" => "cass",
         "polyconic" | "americanpolyconic" => "poly",
         "equirectangular" | "platecarree" | "equidistantcylindrical" => "eqc",
         "azimuthalequidistant" | "modifiedazimuthalequidistant" => "aeqd",
-        "cylindricalequalarea" | "lambertcylindricalequalarea" => "cea",
+        "cylindricalequalarea" | "lambertcylindricalequalarea" | "behrmann" => "cea",
         "swissobliquecylindrical" | "swissobliquemercator" => "somerc",
         "hotineobliquemercator"
         | "hotineobliquemercatorvarianta"
@@ -126,7 +132,7 @@ fn proj_of(method: &str, azimuth: Option<f64>) -> Option<&'static str> {
 }
 
 /// Datums whose usual names in WKT are not those of EPSG, each with the code of its geographic CRS.
-const ALIASES: [(&str, u32); 13] = [
+const ALIASES: [(&str, u32); 41] = [
     ("mgi", 4312),
     ("militargeographischeinstitut", 4312),
     ("europeandatum1950", 4230),
@@ -140,26 +146,94 @@ const ALIASES: [(&str, u32); 13] = [
     ("northamerican1927", 4267),
     ("ntf", 4275),
     ("romamm", 4265),
+    ("ggrs1987", 4121),
+    ("israel", 4141),
+    ("twd1997", 3824),
+    ("moznet", 4130),
+    ("hartebeesthoek1994", 4148),
+    ("swisstrf1995", 4151),
+    ("swissterrestrialreferencesystem1995", 4151),
+    ("yemenngn1996", 4163),
+    ("regven", 4189),
+    ("ngn", 4318),
+    ("mexicanof1993", 4483),
+    ("rraf1991", 4558),
+    ("rgfg1995", 4624),
+    ("rgr1992", 4627),
+    ("islandsnetwork1993", 4659),
+    ("islandsnetwork2004", 5324),
+    ("latviangeodeticcoordinatesystem1992", 4661),
+    ("lithuania1994", 4669),
+    ("igm1995", 4670),
+    ("magna", 4686),
+    ("koreageodetic2002", 4737),
+    ("koreangeodetic2002", 4737),
+    ("gdm2000", 4742),
+    ("ptra08", 5013),
+    ("gdbd2009", 5246),
+    ("marcogeodesiconacional", 5354),
+    ("kyrgyzrepublic2006", 7686),
+    ("macao2008", 8431),
 ];
 
-/// What is known of a datum by its name: the shift that EPSG's geographic CRS of that datum has here.
+/// How the names of datums begin that are WGS 84 within its own realisations, in all their spellings and realisations.
+const AGREEING: [&str; 23] = [
+    "wgs1984",
+    "wgs84",
+    "worldgeodeticsystem1984",
+    "itrf",
+    "internationalterrestrialreferenceframe",
+    "igs",
+    "igb",
+    "etrs",
+    "etrf",
+    "europeanterrestrialreference",
+    "northamerican1983",
+    "northamericanof1983",
+    "nad83",
+    "nad1983",
+    "gda1994",
+    "gda2020",
+    "nzgd2000",
+    "jgd2000",
+    "jgd2011",
+    "sirgas",
+    "posgar",
+    "rgf1993",
+    "reseaugeodesiquefrancais1993",
+];
+
+/// The codes among which EPSG's geographic CRSs are.
+const GEOGRAPHIC_CODES: std::ops::Range<u32> = 3800..10_000;
+
+/// What is known of a datum by its name: the shift that EPSG's geographic CRS of that datum has here. Nothing of a name that is not
+/// known, whatever its ellipsoid.
 pub(crate) fn datum_named(name: &str, ellipsoid: &Ellipsoid) -> Datum {
     let wanted = datum_key(name);
+    if ellipsoid.agrees_with(&Ellipsoid::WGS84) && AGREEING.iter().any(|start| wanted.starts_with(start)) {
+        return Datum::Wgs84;
+    }
     let alias = ALIASES.iter().find(|a| a.0 == wanted).map(|a| a.1);
-    let mut codes = alias.into_iter().chain(4001..4999);
     let named = |code: &u32| {
         epsg::known(*code)
+            .filter(|known| known.wkt.starts_with("GEOGCS"))
             .and_then(|d| Some(datum_key(d.wkt.split_once("DATUM[\"")?.1.split('"').next()?)))
             .is_some_and(|key| Some(*code) == alias || key == wanted)
     };
-    let shift = |code: u32| {
+    let codes = alias.into_iter().chain(GEOGRAPHIC_CODES).filter(named);
+    let mut known = codes.map(|code| datum_of_code(code, ellipsoid)).filter(|datum| *datum != Datum::Unknown);
+    known.next().unwrap_or(Datum::Unknown)
+}
+
+/// What is known of the datum of EPSG's CRS of a code; nothing where it is on another ellipsoid.
+pub(crate) fn datum_of_code(code: u32, ellipsoid: &Ellipsoid) -> Datum {
+    let listed = || {
         let definition = Definition::parse(&epsg::known(code)?.proj).ok()?;
         let theirs = definition.ellipsoid().ok()?;
-        let datum = definition.datum(&theirs).ok()?;
-        let known = theirs.agrees_with(ellipsoid) && datum != Datum::Unknown;
-        known.then_some(datum)
+        let datum = definition.listed_datum(&theirs).ok()?;
+        theirs.agrees_with(ellipsoid).then_some(datum)
     };
-    codes.by_ref().filter(named).find_map(shift).unwrap_or(Datum::Unknown)
+    listed().unwrap_or(Datum::Unknown)
 }
 
 /// `D_European_1950`, `European_Datum_1950` -> `european1950`.

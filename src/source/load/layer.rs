@@ -140,6 +140,15 @@ fn from_file<'a>(
     let columns = Columns::of_file(&mut file, named);
     let crs = stated_crs(scene, spec)?.or(file.crs);
     notes.append(&mut file.notes);
+    if let Some(words) = file.crs_not_read {
+        // Without a CRS of the terrain all coordinates are taken as they are.
+        if crs.is_none() && terrain.place.space.is_some() {
+            return Err(blame(Error::unsupported(words).help(
+                "say in the scene as the layer's `crs` what its coordinates are in (an EPSG code, a PROJ string or WKT), or reproject it",
+            )));
+        }
+        notes.push(words);
+    }
     notes.extend(crs.iter().flat_map(|crs| vector::doubts(crs, &file.features)));
     let map = map(crs, terrain, named.file, notes).map_err(blame)?;
     Ok(Found { features: file.features, columns, map, shift: terrain.place.shift(spec.offset) })

@@ -394,6 +394,29 @@ fn notes_of_crs(scene: &str, terrain: &str, layer: &str) -> Vec<String> {
 }
 
 #[test]
+fn a_layer_in_a_crs_that_cannot_be_used_is_refused_unless_the_scene_says_its_own() {
+    let unusable = r#"{"type":"LineString","crs":{"type":"name","properties":{"name":"EPSG:27200"}},"coordinates":[[500010.0,5099700.0],[500300.0,5099800.0]]}"#;
+    let folder = Folder::new()
+        .with("d.asc", grid((5, 5), (500_000.0, 5_099_600.0), 100.0, hills))
+        .with("l.geojson", unusable);
+    let text = |terrain: &str, layer: &str| {
+        format!(
+            "terrain = {{ source = \"d.asc\"{terrain} }}\n[[layer]]\nsource = \"l.geojson\"\n{layer}\nline = {{ color = \"#000000\", width_m = 4.0 }}"
+        )
+    };
+    let placed = ", crs = \"EPSG:32632\"";
+    let refused = folder.refused(&text(placed, "")).to_string();
+    for words in ["l.geojson", "the CRS in the crs member cannot be used: EPSG:27200", "`crs`", "reproject"] {
+        assert!(refused.contains(words), "{words}: {refused}");
+    }
+    // The scene knows better, and no terrain without a CRS can tell where anything lies.
+    for (terrain, layer) in [(placed, "crs = \"EPSG:32632\""), ("", "")] {
+        let notes = folder.load(&text(terrain, layer)).unwrap().0.notes;
+        assert!(notes.iter().any(|note| note.contains("EPSG:27200")), "{notes:?}");
+    }
+}
+
+#[test]
 fn an_unknown_datum_is_told_however_the_crs_was_given() {
     const UNKNOWN: &str = "+proj=longlat +ellps=bessel";
     const UNKNOWN_UTM: &str = "+proj=utm +zone=32 +ellps=bessel";

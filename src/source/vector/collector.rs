@@ -12,6 +12,8 @@ use crate::space::Plan;
 pub(super) struct Collector {
     pub(super) features: Vec<Feature>,
     pub(super) crs: Option<Crs>,
+    /// What is wrong with the CRS that the file states.
+    pub(super) crs_not_read: Option<String>,
     pub(super) notes: Vec<String>,
     pub(super) attributes: Attributes,
     /// Features seen in the file, with those left out.
@@ -29,6 +31,14 @@ pub(super) struct Collector {
 impl Collector {
     pub(super) fn new(wanted: Wanted) -> Self {
         Self { attributes: Attributes::new(wanted), ..Self::default() }
+    }
+
+    /// Takes what was read of the CRS that the file states, and where it does.
+    pub(super) fn state_crs(&mut self, read: Result<Crs>, at: &str) {
+        match read {
+            Ok(crs) => self.crs = Some(crs),
+            Err(e) => self.crs_not_read = Some(format!("the CRS {at} cannot be used: {}", e.what())),
+        }
     }
 
     /// The number in the file of the feature that is being read.
@@ -148,7 +158,14 @@ impl Collector {
 
     pub(super) fn into_file(self) -> VectorFile {
         let (column_names, columns) = self.attributes.into_columns();
-        VectorFile { features: self.features, columns, column_names, crs: self.crs, notes: self.notes }
+        VectorFile {
+            features: self.features,
+            columns,
+            column_names,
+            crs: self.crs,
+            crs_not_read: self.crs_not_read,
+            notes: self.notes,
+        }
     }
 }
 

@@ -25,7 +25,9 @@ pub(super) fn read(bytes: &[u8], mut found: Collector) -> Result<Collector> {
     let header_bytes = sized(&mut cursor).ok_or_else(|| damaged("it ends within its header"))?;
     let header = size_prefixed_root_as_header(header_bytes)
         .map_err(|e| damaged(&format!("its header: {e}")).caused_by(e))?;
-    found.crs = crs_of(&header, &mut found.notes);
+    if let Some(read) = crs_of(&header) {
+        found.state_crs(read, "in the header");
+    }
     skip_index(&mut cursor, &header)?;
     read_features(cursor, &header, &mut found)?;
     found.finish();
@@ -55,19 +57,18 @@ fn sized<'a>(cursor: &mut Cursor<'a>) -> Option<&'a [u8]> {
     (size >= 8).then(|| cursor.take(size.checked_add(4)?)).flatten()
 }
 
-fn crs_of(header: &Header<'_>, notes: &mut Vec<String>) -> Option<Crs> {
+fn crs_of(header: &Header<'_>) -> Option<Result<Crs>> {
     let crs = header.crs()?;
     let by_code = u32::try_from(crs.code())
         .ok()
         .filter(|code| *code > 0 && crs.org().is_none_or(|org| org.eq_ignore_ascii_case("EPSG")))
         .map(Crs::from_epsg);
-    let by_text = || crs.wkt().or(crs.code_string()).or(crs.name()).map(Crs::parse);
-    match by_code.filter(Result::is_ok).or_else(by_text)? {
-        Ok(crs) => Some(crs),
-        Err(e) => {
-            notes.push(format!("the CRS in the header is not understood: {}", e.what()));
-            None
-        }
+    let text = [crs.wkt(), crs.code_string(), crs.name()].into_iter().flatten().find(|text| !text.is_empty());
+    let by_text = text.map(Crs::parse);
+    match by_code {
+        Some(Err(_)) if matches!(by_text, Some(Ok(_))) => by_text,
+        Some(by_code) => Some(by_code),
+        None => by_text,
     }
 }
 

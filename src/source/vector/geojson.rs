@@ -47,7 +47,9 @@ pub(super) fn read(mut bytes: Vec<u8>, found: Collector) -> Result<Collector> {
         }
     }
     let mut found = note_what_is_odd(reading);
-    found.crs = crs_of(first_crs.flatten().as_ref(), &mut found.notes);
+    if let Some(read) = crs_of(first_crs.flatten().as_ref()) {
+        found.state_crs(read, "in the crs member");
+    }
     found.finish();
     Ok(found)
 }
@@ -76,14 +78,16 @@ fn note_what_is_odd(reading: Reading) -> Collector {
 }
 
 /// No `crs` member means longitude and latitude on WGS 84; one that is null, that nothing is known.
-fn crs_of(member: Option<&serde_json::Value>, notes: &mut Vec<String>) -> Option<Crs> {
+fn crs_of(member: Option<&serde_json::Value>) -> Option<Result<Crs>> {
     let Some(member) = member else {
-        return Crs::crs84().ok();
+        return Some(Crs::crs84());
     };
+    if member.is_null() {
+        return None;
+    }
     let name = member.get("properties").and_then(|p| p.get("name")).and_then(|n| n.as_str());
-    let read = match name {
+    Some(match name {
         Some(name) => Crs::parse(name),
         None => Err(Error::new("it names none")),
-    };
-    read.map_err(|e| notes.push(format!("the CRS in the crs member is not understood: {}", e.what()))).ok()
+    })
 }

@@ -31,7 +31,9 @@ pub(super) fn read(path: &Path, layer: Option<&str>, wanted: Wanted) -> Result<C
     let table = chosen(&tables, layer)?;
     let mut found = Collector::new(wanted);
     note_unmerged_log(path, &mut found);
-    found.crs = crs_of(&connection, table.srs, &mut found.notes);
+    if let Some(read) = crs_of(&connection, table.srs) {
+        found.state_crs(read, &format!("{} of the layer", table.srs));
+    }
     read_rows(&connection, table, &mut found)?;
     found.finish();
     Ok(found)
@@ -156,7 +158,7 @@ fn chosen<'a>(tables: &'a [Table], layer: Option<&str>) -> Result<&'a Table> {
 }
 
 /// The CRS of a spatial reference id; -1 and 0 mean none by the standard.
-fn crs_of(connection: &Connection, srs: i64, notes: &mut Vec<String>) -> Option<Crs> {
+fn crs_of(connection: &Connection, srs: i64) -> Option<Result<Crs>> {
     if srs <= 0 {
         return None;
     }
@@ -164,11 +166,12 @@ fn crs_of(connection: &Connection, srs: i64, notes: &mut Vec<String>) -> Option<
     let row = |row: &rusqlite::Row<'_>| {
         Ok((row.get::<_, String>(0)?, row.get::<_, i64>(1)?, row.get::<_, String>(2)?))
     };
-    let parsed = match connection.query_row(sql, [srs], row) {
-        Ok((organization, id, definition)) => crs_of_row(&organization, id, &definition),
-        Err(e) => Err(damaged(e)),
-    };
-    parsed.map_err(|e| notes.push(format!("the CRS {srs} of the layer is not understood: {}", e.what()))).ok()
+    match connection.query_row(sql, [srs], row) {
+        // Some writers give a number of their own to what is in no system.
+        Ok((_, _, definition)) if definition.to_ascii_lowercase().contains("\"undefined srs") => None,
+        Ok((organization, id, definition)) => Some(crs_of_row(&organization, id, &definition)),
+        Err(e) => Some(Err(damaged(e))),
+    }
 }
 
 fn crs_of_row(organization: &str, id: i64, definition: &str) -> Result<Crs> {

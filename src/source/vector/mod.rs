@@ -65,6 +65,8 @@ pub struct VectorFile {
     pub column_names: Vec<String>,
     /// The CRS the file states.
     pub crs: Option<Crs>,
+    /// What is wrong with the CRS the file states, where it is one that is not supported or not understood.
+    pub crs_not_read: Option<String>,
     /// What the user should know (points left out, empty geometries, ...), but for [`doubts`] about the CRS.
     pub notes: Vec<String>,
 }

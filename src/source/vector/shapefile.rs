@@ -75,14 +75,15 @@ fn read_table(table: Result<Option<Rows<'_>>>, cpg: Option<&[u8]>, found: &mut C
     Ok(())
 }
 
-/// A .prj that is missing or not understood is a note: the scene can name the CRS.
+/// A .prj that is missing is a note: the scene can name the CRS.
 fn read_prj(prj: Option<&[u8]>, found: &mut Collector) {
     let Some(bytes) = prj else {
         return found.notes.push("there is no .prj beside the file, so its CRS is not known".to_owned());
     };
-    match Crs::parse(String::from_utf8_lossy(bytes).trim_start_matches('\u{feff}')) {
-        Ok(crs) => found.crs = Some(crs),
-        Err(e) => found.notes.push(format!("the CRS in the .prj is not understood: {}", e.what())),
+    let text = String::from_utf8_lossy(bytes);
+    match text.trim_matches(['\u{feff}', '\0', ' ', '\r', '\n']) {
+        "" => found.notes.push("the .prj beside the file is empty, so its CRS is not known".to_owned()),
+        text => found.state_crs(Crs::parse(text), "in the .prj"),
     }
 }
 

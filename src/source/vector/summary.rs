@@ -87,6 +87,11 @@ fn summary(
         bounds: PlanBox::around(parts().flatten().copied()),
         crs: found.crs,
         columns: found.attributes.into_summaries(),
-        notes: found.notes.into_iter().chain(doubts.into_iter().flatten()).collect(),
+        notes: found
+            .notes
+            .into_iter()
+            .chain(found.crs_not_read)
+            .chain(doubts.into_iter().flatten())
+            .collect(),
     }
 }
