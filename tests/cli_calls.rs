@@ -214,7 +214,7 @@ fn info_on_what_is_no_data_file_exits_with_2() {
     let said = refused(called_in(&folder, &["info", "dom.asc"]), 2);
     assert!(said.starts_with("error: dom.asc: this file cannot be read"), "{said}");
     let said = refused(called_in(&folder, &["info", "dem.prj"]), 2);
-    assert!(said.contains("terrain files of the kind .prj are unknown"), "{said}");
+    assert!(said.contains("name the .shp beside it"), "{said}");
 }
 
 #[test]

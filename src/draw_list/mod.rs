@@ -10,7 +10,7 @@
 //!   that of all its polygons' members, its border that of what none of them holds, within a frame around the terrain.
 //! - *Areas.* An area has its feature's rings as they are, member by member, without those of fewer than three vertices, which enclose
 //!   nothing. What is inside of any member is inside.
-//! - *Borders.* Techniques know no members: where some overlap they draw what one border bounds ([`crate::overlay`]), else the rings as they
+//! - *Borders.* Techniques know no members: where some overlap they draw what one border bounds (`overlay`), else the rings as they
 //!   are. Who judges them reads the members.
 //! - *Strokes.* Consecutive vertices that are [the same](SAME_VERTEX) are one. A line that ends where it begins and has three distinct vertices
 //!   is a ring: joined there, without caps; with fewer it runs there and back. A ring of an outline is closed, one of two vertices there
