@@ -34,6 +34,7 @@ struct Inner {
     help: Option<String>,
     path: Option<PathBuf>,
     position: Option<Position>,
+    layer: Option<(usize, String)>,
     feature: Option<usize>,
     named: Option<(Option<PathBuf>, Position)>,
     // Shared, so that an error can be cloned: those of the system cannot.
@@ -101,6 +102,7 @@ impl Error {
             help: None,
             path: None,
             position: None,
+            layer: None,
             feature: None,
             named: None,
             source: None,
@@ -142,6 +144,13 @@ impl Error {
         self
     }
 
+    /// Names the layer of a scene: its number, counted from 0, and its name.
+    #[must_use]
+    pub fn in_layer(mut self, number: usize, name: &str) -> Self {
+        self.0.layer = Some((number, name.to_owned()));
+        self
+    }
+
     /// Names the feature, counted from 0 in file order.
     #[must_use]
     pub fn in_feature(mut self, index: usize) -> Self {
@@ -177,6 +186,11 @@ impl Error {
         self.0.position
     }
 
+    /// The number of the scene's layer that is to blame, from 0, where a layer made of its data is.
+    pub fn layer(&self) -> Option<usize> {
+        self.0.layer.as_ref().map(|(number, _)| *number)
+    }
+
     /// What a program can do about it.
     pub fn kind(&self) -> ErrorKind {
         self.0.kind
@@ -199,6 +213,9 @@ impl fmt::Display for Error {
             write!(f, " ")?;
         } else if let Some(at) = inner.position {
             write!(f, "line {}, column {}: ", at.line, at.column)?;
+        }
+        if let Some((_, name)) = &inner.layer {
+            write!(f, "layer `{name}`: ")?;
         }
         if let Some(feature) = inner.feature {
             write!(f, "feature {feature}: ")?;

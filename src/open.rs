@@ -4,7 +4,7 @@
 //! scene file and the readers of its data refuse.
 
 use crate::error::{Error, Result};
-use crate::scene_file::{SceneFile, SceneText};
+use crate::scene_file::{LayerSource, SceneFile, SceneText};
 use crate::source::load;
 use crate::space::ViewFrame;
 use crate::stage::Stage;
@@ -52,7 +52,7 @@ impl Opened {
     pub fn load(text: SceneText, progress: &dyn Fn(&str)) -> Result<Self> {
         let (scene, surface) = load::load(&text.file, progress)?;
         progress("making the surface");
-        let stage = Stage::new(scene, surface).map_err(|error| of_terrain(error, &text.file))?;
+        let stage = Stage::new(scene, surface).map_err(|error| blamed(error, &text.file))?;
         Ok(Self { text, stage })
     }
 
@@ -70,11 +70,17 @@ impl Opened {
     }
 }
 
-/// An error of the terrain's surface: its file and the line that names it.
-fn of_terrain(error: Error, scene: &SceneFile) -> Error {
-    let Some(file) = scene.terrain.source.files().first() else {
-        return error;
+/// An error of what was loaded, with the file that it was read from and the line that names it: that of the layer to blame, or else of the
+/// terrain.
+fn blamed(error: Error, scene: &SceneFile) -> Error {
+    let file = match error.layer() {
+        None => scene.terrain.source.files().first(),
+        Some(number) => match scene.layers.get(number).map(|layer| &layer.source) {
+            Some(LayerSource::File { file, .. }) => Some(file),
+            _ => None,
+        },
     };
+    let Some(file) = file else { return error };
     let error = error.in_file(&file.path);
     match file.position {
         Some(position) => error.named_in(scene.path.as_deref(), position),

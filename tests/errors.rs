@@ -87,3 +87,47 @@ fn an_error_of_a_key_keeps_its_kind() {
     assert_eq!(error.kind(), ErrorKind::Unsupported, "{error}");
     assert!(error.what().starts_with("`crs`: ") && error.help_text().is_some(), "{error}");
 }
+
+/// A comb of upright bars as a ring of GeoJSON, or of bars that lie.
+fn comb(bars: usize, is_upright: bool) -> String {
+    let length = (2 * bars + 1) as f64;
+    let bar = |k: usize| {
+        let at = 2.0 * k as f64 + 0.25;
+        [(at, 0.0), (at, length), (at + 1.0, length), (at + 1.0, 0.0)]
+    };
+    let ring = (0..bars).flat_map(bar).chain([(length, -1.0), (0.25, -1.0), (0.25, 0.0)]);
+    let places = ring.map(|(x, y)| if is_upright { format!("[{x},{y}]") } else { format!("[{y},{x}]") });
+    format!("[[{}]]", places.collect::<Vec<_>>().join(","))
+}
+
+#[test]
+fn members_that_cannot_be_united_are_blamed_on_their_layer_its_file_and_the_feature_and_not_on_the_terrain() {
+    let (folder, path) = file(
+        "s.toml",
+        b"schema = 1\nimage = { width = 8, height = 8 }\nterrain = { source = \"d.asc\" }\n\
+          camera = { eye = [0, 0, 100], target = [0, 0, 0], up = [0, 1, 0] }\n\
+          [[layer]]\nname = \"combs\"\nsource = \"c.geojson\"\ncrs = \"none\"\nfill = { color = \"#000000\" }\n",
+    );
+    let grid = "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1000\n1 2\n3 4\n";
+    std::fs::write(folder.path().join("d.asc"), grid).unwrap();
+    let feature = |kind: &str, places: &str| {
+        format!(
+            r#"{{"type":"Feature","properties":{{}},"geometry":{{"type":"{kind}","coordinates":{places}}}}}"#
+        )
+    };
+    let features = [
+        feature("Polygon", "[[[0,0],[9,0],[9,9],[0,0]]]"),
+        feature("MultiPolygon", &format!("[{},{}]", comb(800, true), comb(800, false))),
+    ];
+    let vectors = format!(r#"{{"type":"FeatureCollection","features":[{}]}}"#, features.join(","));
+    std::fs::write(folder.path().join("c.geojson"), vectors).unwrap();
+    let error = drapery::open(&path).unwrap_err();
+    let said = error.to_string();
+    assert!(
+        said.contains("c.geojson: layer `combs`: feature 1: these polygons lie over one another"),
+        "{said}"
+    );
+    assert!(said.contains("s.toml:7:10") && !said.contains("d.asc"), "{said}");
+    assert_eq!((error.layer(), error.kind()), (Some(0), ErrorKind::Unsupported));
+    assert!(error.help_text().is_some_and(|help| help.contains("ST_UnaryUnion")), "{said}");
+}

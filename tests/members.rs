@@ -163,6 +163,22 @@ fn a_point_is_found_in_its_member_whichever_is_asked_first() {
 }
 
 #[test]
+fn members_side_by_side_are_painted_without_a_seam() {
+    let place = |k: u32| (f64::from(k % 5) - 2.0, f64::from(k / 5) - 2.0);
+    let members: Vec<_> =
+        (0..25).map(|k| vec![square(place(k).0 * 62.0 + 1.3, place(k).1 * 62.0 + 0.7, 31.0)]).collect();
+    for technique in settings() {
+        let stage = stage(vec![layer(members.clone(), filled(Rule::EvenOdd, 0.5))], &technique);
+        for kind in Kind::ALL {
+            let image = frame_of(kind, &stage, &[]).image;
+            let inside = (10..30).flat_map(|y| (10..30).map(move |x| (x, y)));
+            let seam = inside.filter(|(x, y)| image.at(*x, *y)[0].abs_diff(128) > 1).count();
+            assert_eq!(seam, 0, "{}", kind.name());
+        }
+    }
+}
+
+#[test]
 fn an_outline_follows_all_rings_and_is_cut_to_the_union() {
     let members = vec![vec![square(0.0, 0.0, 147.0)], vec![square(147.0, 0.0, 48.0)]];
     let line = Line {

@@ -35,8 +35,6 @@ struct Block {
 /// What is to be painted outside of a layer's polygons.
 struct Outside {
     style: u32,
-    /// The layer's name.
-    name: String,
     /// The members of all polygons, each as rings.
     members: Vec<Vec<Vec<Plan>>>,
 }
@@ -50,8 +48,7 @@ pub(super) fn of_layers(layers: &mut [Layer], terrain: &PlanBox) -> Result<DrawL
         .iter()
         .enumerate()
         .map(|(k, layer)| {
-            let style = table.outside_of(k, layer)?;
-            Some(Outside { style, name: layer.name.clone(), members: members_of(layer) })
+            table.outside_of(k, layer).map(|style| Outside { style, members: members_of(layer) })
         })
         .collect();
     let frame = frame_around(terrain);
@@ -65,9 +62,14 @@ pub(super) fn of_layers(layers: &mut [Layer], terrain: &PlanBox) -> Result<DrawL
         if some.is_empty() {
             break;
         }
-        let made =
-            parallel::map_owned(some, |block| made((&table.styles, &parts[block.layer], &frame), block));
-        made.into_iter().try_for_each(|block| all.append(block?))?;
+        let made = parallel::map_owned(some, |block| {
+            let layer = block.layer;
+            (layer, made((&table.styles, &parts[layer], &frame), block))
+        });
+        for (layer, block) in made {
+            let added = block.and_then(|block| all.append(block));
+            added.map_err(|error| error.in_layer(layer, &layers[layer].name))?;
+        }
     }
     all.take_styles(&table.styles);
     Ok(all)
@@ -177,14 +179,12 @@ impl DrawList {
     fn add_outside(
         &mut self,
         layer: usize,
-        Outside { style, name, members }: &Outside,
+        Outside { style, members }: &Outside,
         (rule, frame): (Rule, &PlanBox),
     ) -> Result<()> {
         let area = self.add_members(members);
         let first = self.chains.len();
-        let border = border_outside(members, frame, &|turns| rule.contains(turns));
-        let border = border.map_err(|error| error.reworded(|what| format!("layer `{name}`: {what}")))?;
-        self.add_rings(&border, 0, 0);
+        self.add_rings(&border_outside(members, frame, &|turns| rule.contains(turns))?, 0, 0);
         let border = self.chains_from(first);
         let (feature, number) = (NO_FEATURE, NO_FEATURE);
         self.items.push(Item {

@@ -10,8 +10,8 @@
 //!   that of all its polygons' members, its border that of what none of them holds, within a frame around the terrain.
 //! - *Areas.* An area has its feature's rings as they are, member by member, without those of fewer than three vertices, which enclose
 //!   nothing. What is inside of any member is inside.
-//! - *Borders.* Techniques know no members: where some overlap they draw what one border bounds (`overlay`), else the rings as they
-//!   are. Who judges them reads the members.
+//! - *Borders.* Techniques know no members: where some overlap or lie side by side they draw what one border bounds (`overlay`), else the
+//!   rings as they are. Who judges them reads the members.
 //! - *Strokes.* Consecutive vertices that are [the same](SAME_VERTEX) are one. A line that ends where it begins and has three distinct vertices
 //!   is a ring: joined there, without caps; with fewer it runs there and back. A ring of an outline is closed, one of two vertices there
 //!   and back; one of a single vertex is a dot, and so is a line of one.
@@ -44,7 +44,7 @@ pub struct Item {
     pub style: u32,
     /// The rings of its area, one member after the other; none where it has none.
     pub area: Range<u32>,
-    /// The rings that bound its area, taken together: those of the area, but where members overlap.
+    /// The rings that bound its area, taken together: those of the area, but where members overlap or lie side by side.
     pub border: Range<u32>,
     /// The chains that its stroke follows; none of a fill.
     pub strokes: Range<u32>,

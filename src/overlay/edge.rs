@@ -35,15 +35,8 @@ impl Edge {
         PlanBox::around([self.low, self.high])
     }
 
-    /// Whether it crosses the line to the east from just above a point, at which no edge passes but those that end there;
-    /// `along`: the line starts to the right of the way from the point to this one.
-    pub(super) fn is_east_of(&self, at: Plan, along: Option<Plan>) -> bool {
-        if order(self.low, at).is_gt() || order(self.high, at).is_le() {
-            return false;
-        }
-        match orient2d(self.low, self.high, at) {
-            side if side != 0.0 => side > 0.0,
-            _ => along.is_some_and(|to| orient2d(at, to, self.high) < 0.0),
-        }
+    /// Whether it crosses the line to the east from just above a point, right of all edges that start there; none passes through it.
+    pub(super) fn is_east_of(&self, at: Plan) -> bool {
+        order(self.low, at).is_le() && order(self.high, at).is_gt() && orient2d(self.low, self.high, at) > 0.0
     }
 }

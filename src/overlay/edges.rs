@@ -1,6 +1,5 @@
-//! The edges of members, and what lies around a point of them.
+//! The edges of members, and what turns around a point.
 
-use super::contact::contact;
 use super::edge::Edge;
 use crate::index::BoxTree;
 use crate::space::{Plan, PlanBox};
@@ -8,28 +7,23 @@ use crate::space::{Plan, PlanBox};
 /// The rings of a polygon.
 pub type Rings = Vec<Vec<Plan>>;
 
-/// Pairs of edges that are compared at most.
-pub(super) const MOST_PAIRS: usize = 1 << 28;
-
 /// Fewer vertices enclose nothing.
 const FEWEST: usize = 3;
 
-/// The members whose boxes overlap with another's.
-pub(super) fn entangled(members: &[Rings]) -> Vec<usize> {
-    let around = |rings: &Rings| PlanBox::around(borders(rings).flatten().copied());
-    let boxes: Vec<PlanBox> = members.iter().map(around).collect();
-    let overlap = |a: &PlanBox, b: &PlanBox| {
-        a.min.x < b.max.x && b.min.x < a.max.x && a.min.y < b.max.y && b.min.y < a.max.y
-    };
+/// Those of some members whose boxes meet another one's.
+pub(super) fn entangled(members: &[Rings], among: &[usize]) -> Vec<usize> {
+    let around = |member: &usize| PlanBox::around(borders(&members[*member]).flatten().copied());
+    let boxes: Vec<PlanBox> = among.iter().map(around).collect();
     let tree = BoxTree::new(&boxes);
-    let is_entangled = |member: &usize| {
-        let own = &boxes[*member];
-        !tree.query(own, |other| other as usize == *member || !overlap(own, &boxes[other as usize]))
+    let is_entangled = |k: usize| {
+        let own = &boxes[k];
+        !own.is_empty() && !tree.query(own, |other| other as usize == k || !own.meets(&boxes[other as usize]))
     };
-    (0..members.len()).filter(|member| !boxes[*member].is_empty() && is_entangled(member)).collect()
+    (0..among.len()).filter(|k| is_entangled(*k)).map(|k| among[k]).collect()
 }
 
-fn borders(rings: &Rings) -> impl Iterator<Item = &Vec<Plan>> {
+/// The rings that enclose something.
+pub(super) fn borders(rings: &Rings) -> impl Iterator<Item = &Vec<Plan>> {
     rings.iter().filter(|ring| ring.len() >= FEWEST)
 }
 
@@ -55,59 +49,19 @@ impl Edges {
         Self { tree: BoxTree::new(&boxes), all, east }
     }
 
-    /// Whether edges of different members share a point; true also where that would take long to know.
-    pub(super) fn are_in_contact(&self) -> bool {
-        let mut pairs = MOST_PAIRS;
-        self.all.iter().any(|edge| {
-            !self.tree.query(&edge.bounds(), |other| {
-                let other = &self.all[other as usize];
-                pairs -= 1;
-                pairs > 0 && (other.member == edge.member || contact(edge, other).is_none())
-            })
-        })
-    }
-
-    /// Whether a ring of a member lies in another member, where edges of different ones share no point.
-    pub(super) fn lie_in_another(
-        &self,
-        members: &[Rings],
-        among: &[usize],
-        is_inside: &(dyn Fn(i32) -> bool + Sync),
-    ) -> bool {
-        let mut around = Windings::default();
-        let mut lies_in_another = |member: u32, at: Plan| {
-            self.turns_around(at, None, &mut around);
-            around.0.iter().any(|(other, turns)| *other != member && is_inside(*turns))
-        };
-        among
-            .iter()
-            .any(|&member| borders(&members[member]).any(|ring| lies_in_another(member as u32, ring[0])))
-    }
-
-    /// How often each member turns around what is just above a point; `along`: and just right of the way to another one, where edges
-    /// share ends alone.
-    pub(super) fn turns_around(&self, at: Plan, along: Option<Plan>, windings: &mut Windings) {
-        windings.0.clear();
+    /// Calls `visit` with a member and how often it turns around what is just above a point, for each edge that a line to the east from
+    /// there crosses; returns how many edges were looked at.
+    pub(super) fn turns_above(&self, at: Plan, mut visit: impl FnMut(u32, i32)) -> usize {
         let level = PlanBox { min: at, max: Plan::new(self.east, at.y) };
+        let mut passed = 0;
         self.tree.query(&level, |edge| {
             let edge = &self.all[edge as usize];
-            if edge.is_east_of(at, along) {
-                windings.add(edge.member, edge.turns);
+            if edge.is_east_of(at) {
+                visit(edge.member, edge.turns);
             }
+            passed += 1;
             true
         });
-    }
-}
-
-/// How often members turn around a place: those that do, in their order.
-#[derive(Debug, Default)]
-pub(super) struct Windings(pub(super) Vec<(u32, i32)>);
-
-impl Windings {
-    pub(super) fn add(&mut self, member: u32, turns: i32) {
-        match self.0.binary_search_by_key(&member, |entry| entry.0) {
-            Ok(at) => self.0[at].1 += turns,
-            Err(at) => self.0.insert(at, (member, turns)),
-        }
+        passed
     }
 }

@@ -2,26 +2,33 @@
 
 use super::contact::{Contact, contact};
 use super::edge::{Edge, order};
-use super::edges::{Edges, MOST_PAIRS, Rings, Windings};
+use super::edges::{Edges, Rings};
+use super::faces::{Side, Sides};
 use crate::error::{Error, Result};
-use crate::parallel;
 use crate::space::Plan;
 
 /// Rounds of cutting: the second finds what the first one's rounding made cross, and hardly any is left for a third.
 const MOST_ROUNDS: usize = 64;
 
+/// Pairs of edges that are compared at most: so many, and so many for each edge. Boxes of neighbours meet; that of each edge meets those of
+/// many others only where much lies over much, and then whoever waits for it is told within seconds.
+const MOST_PAIRS: usize = 1 << 25;
+const MOST_PAIRS_OF_AN_EDGE: usize = 32;
+
 /// Pieces that edges are cut into.
 const MOST_PIECES: usize = 1 << 22;
 
-fn too_often() -> Error {
-    Error::unsupported("these polygons cross one another too often to be united")
-        .help("repair or simplify them; give each polygon of a multi-polygon a feature of its own")
+pub(super) fn too_often() -> Error {
+    Error::unsupported("these polygons lie over one another too often to be united").help(
+        "unite them beforehand, as `ogr2ogr -dialect sqlite -sql \"SELECT ST_UnaryUnion(geometry) FROM layer\" united.gpkg file` does, \
+         or simplify them, or give each polygon of a multi-polygon a feature of its own",
+    )
 }
 
 /// The edges cut where they meet: each one's pieces meet others at their ends alone, and equal ones of a member are one.
-pub(super) fn cut(edges: Edges) -> Result<Edges> {
-    let mut pieces: Vec<(Edge, bool)> = edges.all.into_iter().map(|edge| (edge, true)).collect();
-    let mut pairs = MOST_PAIRS;
+pub(super) fn cut(edges: Vec<Edge>) -> Result<Edges> {
+    let mut pieces: Vec<(Edge, bool)> = edges.into_iter().map(|edge| (edge, true)).collect();
+    let mut pairs = pieces.len().saturating_mul(MOST_PAIRS_OF_AN_EDGE).saturating_add(MOST_PAIRS);
     for _ in 0..MOST_ROUNDS {
         merge(&mut pieces);
         let (all, is_new): (Vec<Edge>, Vec<bool>) = pieces.into_iter().unzip();
@@ -108,47 +115,18 @@ fn merge(pieces: &mut Vec<(Edge, bool)>) {
     pieces.retain(|(edge, _)| edge.turns != 0);
 }
 
-/// Pieces of edges, each once, and how many members hold what is on each of its sides.
-pub(super) struct Sides {
-    pieces: Vec<(Plan, Plan)>,
-    /// Left and right of each piece.
-    held: Vec<(usize, usize)>,
-}
-
-/// The sides of edges that meet at their ends alone.
-pub(super) fn sides(edges: &Edges, is_inside: &(dyn Fn(i32) -> bool + Sync)) -> Sides {
-    // Those of several members that lie upon one another are one piece of the border.
-    let is_same = |a: &Edge, b: &Edge| a.low == b.low && a.high == b.high;
-    let groups: Vec<&[Edge]> = edges.all.chunk_by(is_same).collect();
-    let held = parallel::map(&groups, |group| {
-        let Edge { low, high, .. } = group[0];
-        let mut windings = Windings::default();
-        let count = |windings: &Windings| windings.0.iter().filter(|(_, turns)| is_inside(*turns)).count();
-        edges.turns_around(low, Some(high), &mut windings);
-        let right = count(&windings);
-        group.iter().for_each(|edge| windings.add(edge.member, edge.turns));
-        (count(&windings), right)
+/// The rings around what is inside of those members that `is_of` names, on their left; of those that share more than points,
+/// all or none.
+pub(super) fn border(edges: &Edges, sides: &Sides, is_of: impl Fn(u32) -> bool) -> Rings {
+    let directed = sides.pieces.iter().filter_map(|(first, side)| {
+        let Edge { low, high, .. } = edges.all[*first];
+        match side {
+            Side::Left(member) if is_of(*member) => Some((low, high)),
+            Side::Right(member) if is_of(*member) => Some((high, low)),
+            _ => None,
+        }
     });
-    Sides { pieces: groups.iter().map(|group| (group[0].low, group[0].high)).collect(), held }
-}
-
-impl Sides {
-    /// Whether a point is in two members.
-    pub(super) fn overlap(&self) -> bool {
-        self.held.iter().any(|(left, right)| *left > 1 || *right > 1)
-    }
-
-    /// The rings around what is inside of any member, on their left.
-    pub(super) fn border(&self) -> Rings {
-        let directed = self.pieces.iter().zip(&self.held).filter_map(|((low, high), (left, right))| {
-            match (*left > 0, *right > 0) {
-                (true, false) => Some((*low, *high)),
-                (false, true) => Some((*high, *low)),
-                _ => None,
-            }
-        });
-        rings(directed.collect())
-    }
+    rings(directed.collect())
 }
 
 /// Edges, of which as many leave each vertex as come to it, put together to rings.

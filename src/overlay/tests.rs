@@ -94,14 +94,75 @@ fn a_hole_is_a_hole_of_its_member_alone() {
 }
 
 #[test]
-fn members_beside_one_another_in_holes_and_along_shared_edges_stay_as_they_are() {
+fn members_beside_one_another_in_holes_and_at_corners_stay_as_they_are() {
     let in_a_hole = [vec![square(0.0, 0.0, 4.0), square(0.0, 0.0, 2.0)], vec![square(0.0, 0.0, 1.0)]];
-    let filling_a_hole = [vec![square(0.0, 0.0, 4.0), square(0.0, 0.0, 2.0)], vec![square(0.0, 0.0, 2.0)]];
-    let along_an_edge = [vec![square(-1.0, 0.0, 1.0)], vec![ring(&[(0.0, -1.0), (2.0, 3.0), (0.0, 1.0)])]];
+    let at_a_corner = [vec![square(0.0, 0.0, 1.0)], vec![square(2.0, 2.0, 1.0)]];
+    let on_an_edge = [vec![square(0.0, 0.0, 1.0)], vec![ring(&[(1.0, 0.0), (2.0, -1.0), (2.0, 1.0)])]];
     let around_a_corner = [vec![ring(&[(0.0, 0.0), (4.0, 0.0), (0.0, 4.0)])], vec![square(4.0, 4.0, 2.0)]];
-    for members in [in_a_hole, filling_a_hole, along_an_edge, around_a_corner] {
+    for members in [in_a_hole, at_a_corner, on_an_edge, around_a_corner] {
         assert_eq!(border(&members, even_odd), None, "{members:?}");
     }
+}
+
+#[test]
+fn members_on_both_sides_of_an_edge_are_united_and_the_edge_is_gone() {
+    let beside = [vec![square(0.0, 0.0, 1.0)], vec![square(2.0, 0.0, 1.0)]];
+    let filling_a_hole = [vec![square(0.0, 0.0, 4.0), square(0.0, 0.0, 2.0)], vec![square(0.0, 0.0, 2.0)]];
+    let along_a_part = [vec![square(-1.0, 0.0, 1.0)], vec![ring(&[(0.0, -0.5), (2.0, 3.0), (0.0, 0.5)])]];
+    for (members, total) in [(beside, 8.0), (filling_a_hole, 64.0), (along_a_part, 5.0)] {
+        for rule in [even_odd, non_zero] {
+            let rings = border(&members, rule).unwrap();
+            assert_eq!((rings.len(), area(&rings)), (1, total), "{members:?}");
+        }
+    }
+}
+
+#[test]
+fn what_touches_a_union_at_a_point_keeps_its_rings() {
+    // From the upper left corner, with the clock.
+    let corner = vec![ring(&[(3.0, 3.0), (5.0, 3.0), (5.0, 1.0), (3.0, 1.0)])];
+    let members = [vec![square(0.0, 0.0, 1.0)], corner.clone(), vec![square(2.0, 0.0, 1.0)]];
+    let rings = border(&members, even_odd).unwrap();
+    assert_eq!((rings.len(), &rings[1..]), (2, &corner[..]));
+}
+
+#[test]
+fn a_sheet_of_squares_side_by_side_is_one_ring() {
+    let members: Vec<Rings> =
+        (0..400).map(|k| vec![square(f64::from(k % 20) * 30.0, f64::from(k / 20) * 30.0, 15.0)]).collect();
+    let rings = border(&members, even_odd).unwrap();
+    assert_eq!((rings.len(), area(&rings)), (1, 360_000.0));
+}
+
+/// Bars of a comb, as one ring.
+fn comb(bars: i32, is_upright: bool) -> Vec<Plan> {
+    let length = f64::from(2 * bars) + 1.0;
+    let tooth = |k: i32| {
+        let at = f64::from(2 * k) + 0.25;
+        [(at, 0.0), (at, length), (at + 1.0, length), (at + 1.0, 0.0)]
+    };
+    let teeth = (0..bars).flat_map(tooth).chain([(length, -1.0), (0.25, -1.0)]);
+    teeth.map(|(x, y)| if is_upright { Plan::new(x, y) } else { Plan::new(y, x) }).collect()
+}
+
+#[test]
+fn much_that_lies_over_much_is_united_soon() {
+    // Each of these took the square of its number, or more.
+    let nested: Vec<Rings> = (0..1500).map(|k| vec![square(0.0, 0.0, f64::from(k + 1))]).collect();
+    assert_eq!(border(&nested, even_odd).map(|rings| area(&rings)), Some(9_000_000.0));
+    let same: Vec<Rings> = (0..20_000)
+        .map(|k| {
+            let mut ring = square(0.5, 0.5, 3.0);
+            ring.rotate_left(k % 4);
+            if k % 3 == 0 {
+                ring.reverse();
+            }
+            vec![ring]
+        })
+        .collect();
+    assert_eq!(border(&same, non_zero).map(|rings| rings.len()), Some(1));
+    let combs = [vec![comb(60, true)], vec![comb(60, false)]];
+    assert!(border(&combs, even_odd).is_some_and(|rings| rings.len() > 3000));
 }
 
 #[test]
