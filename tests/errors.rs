@@ -104,9 +104,9 @@ fn comb(bars: usize, is_upright: bool) -> String {
 fn members_that_cannot_be_united_are_blamed_on_their_layer_its_file_and_the_feature_and_not_on_the_terrain() {
     let (folder, path) = file(
         "s.toml",
-        b"schema = 1\nimage = { width = 8, height = 8 }\nterrain = { source = \"d.asc\" }\n\
+        b"schema = 1\nimage = { width = 8, height = 8 }\nterrain = { source = \"d.asc\", crs = \"EPSG:32632\" }\n\
           camera = { eye = [0, 0, 100], target = [0, 0, 0], up = [0, 1, 0] }\n\
-          [[layer]]\nname = \"combs\"\nsource = \"c.geojson\"\ncrs = \"none\"\nfill = { color = \"#000000\" }\n",
+          [[layer]]\nname = \"combs\"\nsource = \"c.geojson\"\ncrs = \"EPSG:32632\"\nfill = { color = \"#000000\" }\n",
     );
     let grid = "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1000\n1 2\n3 4\n";
     std::fs::write(folder.path().join("d.asc"), grid).unwrap();

@@ -166,7 +166,7 @@ fn a_point_is_found_in_its_member_whichever_is_asked_first() {
 fn members_side_by_side_are_painted_without_a_seam() {
     let place = |k: u32| (f64::from(k % 5) - 2.0, f64::from(k / 5) - 2.0);
     let members: Vec<_> =
-        (0..25).map(|k| vec![square(place(k).0 * 62.0 + 1.3, place(k).1 * 62.0 + 0.7, 31.0)]).collect();
+        (0..25).map(|k| vec![square(place(k).0 * 62.0 + 1.25, place(k).1 * 62.0 + 0.75, 31.0)]).collect();
     for technique in settings() {
         let stage = stage(vec![layer(members.clone(), filled(Rule::EvenOdd, 0.5))], &technique);
         for kind in Kind::ALL {

@@ -1,6 +1,7 @@
 //! The edges of members, and what turns around a point.
 
 use super::edge::Edge;
+use crate::error::Error;
 use crate::index::BoxTree;
 use crate::space::{Plan, PlanBox};
 
@@ -9,6 +10,14 @@ pub type Rings = Vec<Vec<Plan>>;
 
 /// Fewer vertices enclose nothing.
 const FEWEST: usize = 3;
+
+/// The refusal of polygons that would take too long, or too much memory.
+pub(super) fn too_often() -> Error {
+    Error::unsupported("these polygons lie over one another too often to be united").help(
+        "unite them beforehand, as `ogr2ogr -dialect sqlite -sql \"SELECT ST_UnaryUnion(geometry) FROM layer\" united.gpkg file` does, \
+         or simplify them, or give each polygon of a multi-polygon a feature of its own",
+    )
+}
 
 /// Those of some members whose boxes meet another one's.
 pub(super) fn entangled(members: &[Rings], among: &[usize]) -> Vec<usize> {

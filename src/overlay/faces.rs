@@ -4,8 +4,7 @@
 //! Only where a walk starts, once for all edges that hang together, is it asked what turns around the place.
 
 use super::edge::{Edge, order};
-use super::edges::Edges;
-use super::planar::too_often;
+use super::edges::{Edges, too_often};
 use crate::error::Result;
 use crate::predicate::orient2d;
 use crate::space::Plan;

@@ -2,9 +2,9 @@
 
 use super::contact::{Contact, contact};
 use super::edge::{Edge, order};
-use super::edges::{Edges, Rings};
+use super::edges::{Edges, Rings, too_often};
 use super::faces::{Side, Sides};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::space::Plan;
 
 /// Rounds of cutting: the second finds what the first one's rounding made cross, and hardly any is left for a third.
@@ -17,13 +17,6 @@ const MOST_PAIRS_OF_AN_EDGE: usize = 32;
 
 /// Pieces that edges are cut into.
 const MOST_PIECES: usize = 1 << 22;
-
-pub(super) fn too_often() -> Error {
-    Error::unsupported("these polygons lie over one another too often to be united").help(
-        "unite them beforehand, as `ogr2ogr -dialect sqlite -sql \"SELECT ST_UnaryUnion(geometry) FROM layer\" united.gpkg file` does, \
-         or simplify them, or give each polygon of a multi-polygon a feature of its own",
-    )
-}
 
 /// The edges cut where they meet: each one's pieces meet others at their ends alone, and equal ones of a member are one.
 pub(super) fn cut(edges: Vec<Edge>) -> Result<Edges> {
