@@ -166,6 +166,16 @@ impl Error {
         self
     }
 
+    /// Without the places in a scene that its reader never sees: one that a program wrote for itself.
+    #[must_use]
+    pub fn without_scene(mut self) -> Self {
+        self.0.named = None;
+        if self.0.path.is_none() {
+            self.0.position = None;
+        }
+        self
+    }
+
     /// What is wrong, without the place and the help.
     pub fn what(&self) -> &str {
         &self.0.what

@@ -19,7 +19,9 @@ pub(super) fn told(column: &ColumnSummary, features: usize) -> String {
     let values = match &column.distinct {
         _ if kind == ColumnKind::Empty => String::new(),
         Some(distinct) if distinct.len() == 1 => format!(", always {}", shown(&distinct[0].0)),
-        Some(distinct) if !is_number => format!(", {} different: {}", distinct.len(), counted(distinct)),
+        Some(distinct) if !is_number => {
+            format!(", {} different: {}", distinct.len(), counted(&column.frequent))
+        }
         _ => format!(", such as {}", listed(column.examples.iter().map(shown))),
     };
     let share = if kind == ColumnKind::Empty || column.values == features {
@@ -30,15 +32,9 @@ pub(super) fn told(column: &ColumnSummary, features: usize) -> String {
     format!("{name}: {kind}{range}{values}{share}")
 }
 
-/// Values, the most frequent first, and how often they are there.
-fn counted(distinct: &[(Attribute, usize)]) -> String {
-    listed(by_count(distinct).into_iter().map(|(value, count)| format!("{} ({count})", shown(value))))
-}
-
-fn by_count(distinct: &[(Attribute, usize)]) -> Vec<(&Attribute, usize)> {
-    let mut all: Vec<(&Attribute, usize)> = distinct.iter().map(|(value, count)| (value, *count)).collect();
-    all.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
-    all
+/// Values, and how often they are there.
+fn counted(values: &[(Attribute, usize)]) -> String {
+    listed(values.iter().map(|(value, count)| format!("{} ({count})", shown(value))))
 }
 
 fn listed(texts: impl Iterator<Item = String>) -> String {
@@ -67,7 +63,9 @@ const CLASS_COLORS: [&str; 12] = [
 
 /// Lines of a layer's table that its columns make possible, as comments.
 pub(super) fn offers(summary: &VectorSummary) -> String {
-    let classes: Vec<_> = summary.columns.iter().filter_map(classes).take(OFFERED).collect();
+    let mut columns: Vec<&ColumnSummary> = summary.columns.iter().collect();
+    columns.sort_by_key(|column| !TAGS.contains(&&column.name[..]));
+    let classes: Vec<_> = columns.into_iter().filter_map(classes).take(OFFERED).collect();
     let ramps = summary.columns.iter().filter_map(ramp).take(OFFERED);
     let maps = classes.iter().map(|(column, values)| map(column, values));
     let mut lines: Vec<String> = maps.chain(ramps).collect();
@@ -88,13 +86,18 @@ pub(super) fn offers(summary: &VectorSummary) -> String {
     )
 }
 
-/// The different values of a column of classes, texts or flags, the most frequent first.
+/// The columns of OpenStreetMap that say what a thing is, in many words.
+pub(super) const TAGS: [&str; 5] = ["highway", "waterway", "natural", "building", "landuse"];
+
+/// The different values of a column of classes, texts or flags, the most frequent first; of a column of tags the most frequent ones.
 fn classes(column: &ColumnSummary) -> Option<(&ColumnSummary, Vec<&Attribute>)> {
+    let is_short = |value: &&Attribute| value.text().is_none_or(|text| text.chars().count() <= LONGEST_CLASS);
     let is_class = matches!(column.kind, ColumnKind::Text | ColumnKind::Boolean);
-    let distinct = column.distinct.as_ref().filter(|all| all.len() > 1 && is_class)?;
-    let values: Vec<&Attribute> = by_count(distinct).into_iter().map(|(value, _)| value).collect();
-    let is_short = |text: &str| text.chars().count() <= LONGEST_CLASS;
-    values.iter().all(|value| value.text().is_none_or(is_short)).then_some((column, values))
+    let is_known = column.distinct.is_some() && column.frequent.iter().all(|(value, _)| is_short(&value));
+    if !is_class || column.frequent.len() < 2 || !(is_known || TAGS.contains(&&column.name[..])) {
+        return None;
+    }
+    Some((column, column.frequent.iter().map(|(value, _)| value).filter(is_short).collect()))
 }
 
 fn map(column: &ColumnSummary, values: &[&Attribute]) -> String {

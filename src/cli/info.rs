@@ -12,7 +12,7 @@ use drapery::scene_file::{
 };
 use drapery::source::dem::{self, DemOptions, DemSummary, PngEncoding};
 use drapery::source::load;
-use drapery::source::vector::{self, VectorSummary};
+use drapery::source::vector::{self, ColumnSummary, VectorSummary};
 use drapery::{Error, Result};
 use std::path::{Path, PathBuf};
 
@@ -213,7 +213,7 @@ fn of_layer(path: &Path, summary: &VectorSummary) -> Table {
     }
     columns(summary, &mut table);
     table.notes(&summary.notes);
-    if summary.polygons + summary.lines == 0 {
+    if summary.polygons + summary.lines + summary.points == 0 {
         table.row("note", "nothing in it can be drawn: a scene that names it is refused");
     }
     table
@@ -222,18 +222,18 @@ fn of_layer(path: &Path, summary: &VectorSummary) -> Table {
 /// The most columns that are told.
 const MOST_COLUMNS: usize = 40;
 
-/// All columns, or those that most features have a value in, in the file's order.
+/// All columns, or those that most features have a value in (of equals the first ones), in the file's order.
 fn columns(summary: &VectorSummary, table: &mut Table) {
-    let mut counts: Vec<usize> = summary.columns.iter().map(|column| column.values).collect();
-    counts.sort_unstable_by_key(|count| std::cmp::Reverse(*count));
-    let least = counts.get(MOST_COLUMNS).map_or(0, |beyond| beyond + 1);
-    let told_ones: Vec<_> = summary.columns.iter().filter(|column| column.values >= least).collect();
-    for column in &told_ones {
+    let mut columns: Vec<(usize, &ColumnSummary)> = summary.columns.iter().enumerate().collect();
+    columns.sort_by_key(|(_, column)| std::cmp::Reverse(column.values));
+    let others = columns.split_off(columns.len().min(MOST_COLUMNS));
+    columns.sort_by_key(|(place, _)| *place);
+    for (_, column) in columns {
         table.row("column", told(column, summary.features));
     }
-    match summary.columns.len() - told_ones.len() {
-        0 => {}
-        more => table.row("columns", format!("and {more} more, in fewer than {least} features each")),
+    if let Some((_, most)) = others.first() {
+        let (more, values) = (others.len(), counted(most.values, "feature"));
+        table.row("columns", format!("and {more} more, in at most {values} each"));
     }
 }
 
@@ -306,5 +306,35 @@ mod tests {
     fn numbers_end_where_they_say_nothing_more() {
         assert_eq!([1200.0, -0.5, 1e-12, -1e-12].map(number), ["1200", "-0.5", "0", "0"]);
         assert_eq!(number(1.0 / 1200.0), "0.00083333");
+    }
+
+    /// What is told of a layer of such features.
+    fn told_of(features: &str) -> String {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.json");
+        std::fs::write(&path, format!(r#"{{"type":"FeatureCollection","features":[{features}]}}"#)).unwrap();
+        of_vectors(&path).unwrap()[0].text()
+    }
+
+    #[test]
+    fn points_are_something_that_is_drawn() {
+        let feature =
+            |geometry: &str| format!(r#"{{"type":"Feature","properties":null,"geometry":{geometry}}}"#);
+        let points = told_of(&feature(r#"{"type":"Point","coordinates":[1,2]}"#));
+        assert!(points.contains("1 point") && !points.contains("nothing in it"), "{points}");
+        let empty = told_of(&feature("null"));
+        assert!(empty.contains("nothing in it can be drawn"), "{empty}");
+    }
+
+    #[test]
+    fn of_many_columns_that_all_features_have_the_first_are_told() {
+        let properties: Vec<String> = (0..50).map(|number| format!(r#""c{number:02}":1"#)).collect();
+        let feature = format!(
+            r#"{{"type":"Feature","properties":{{{}}},"geometry":{{"type":"Point","coordinates":[1,2]}}}}"#,
+            properties.join(",")
+        );
+        let told = told_of(&feature);
+        assert!(told.contains("c00: ") && told.contains("c39: ") && !told.contains("c40: "), "{told}");
+        assert!(told.contains("and 10 more, in at most 1 feature each"), "{told}");
     }
 }

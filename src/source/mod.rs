@@ -3,5 +3,6 @@
 pub mod dem;
 pub mod generate;
 pub mod load;
+mod packed;
 pub mod vector;
 mod zip;

@@ -1,7 +1,7 @@
 //! A camera for a first picture: from the south, the terrain (or what the layers show of it) as large as the picture.
 
 use drapery::math::{atan, max, min, tan};
-use drapery::scene::{Feature, Scene, Surface};
+use drapery::scene::{Feature, Posts, Scene, Surface};
 use drapery::space::{Plan, PlanBox, World};
 use glam::DVec3;
 
@@ -32,6 +32,19 @@ const RAISED: f64 = 0.05;
 /// Heights are drawn so many times as high at most.
 const MOST_EXAGGERATED: f64 = 50.0;
 
+/// Relief of a greater share is that of a plan which is not in metres...
+const STEEP: f64 = 0.5;
+/// ... and is lowered to about this.
+const LOWERED: f64 = 0.2;
+/// One in so many points may be nonsense.
+const FEW: usize = 200;
+/// A post is alone where no neighbour is nearer than this share of the relief.
+const LONE: f64 = 1.0 / 3.0;
+/// A gap between heights that is a greater share of the relief has nonsense beyond it.
+const GAP: f64 = 1.0 / 3.0;
+/// A tail of heights that is a greater share of the relief is nonsense.
+const TAIL: f64 = 2.0;
+
 /// A picture and its camera.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Framing {
@@ -47,6 +60,8 @@ pub(super) struct Framing {
     pub(super) target: DVec3,
     /// How many times as high as they are heights are drawn.
     pub(super) exaggeration: f64,
+    /// The relief as a multiple of the longer side of the plan.
+    steepness: f64,
     /// Metres of the plan that a pixel's width shows in the middle of the picture.
     pub(super) pixel: f64,
     /// The part of the plan that is framed, local.
@@ -54,8 +69,8 @@ pub(super) struct Framing {
 }
 
 impl Framing {
-    /// The framing of a scene's layers and terrain.
-    pub(super) fn of(scene: &Scene, surface: &Surface) -> Self {
+    /// The framing of a scene's layers and terrain; `is_to_scale` where the plan is known to be in metres, as the heights are.
+    pub(super) fn of(scene: &Scene, surface: &Surface, is_to_scale: bool) -> Self {
         let all = samples(surface, None);
         let whole = PlanBox::around(all.iter().map(|p| p.plan()));
         let seen = subject(&whole, scene.layers.iter().flat_map(|layer| &layer.features));
@@ -65,9 +80,14 @@ impl Framing {
             // There is no height: whoever draws such a terrain will say so.
             points.push(World::default());
         }
-        let exaggeration = exaggeration(&points);
-        points.iter_mut().for_each(|p| p.z *= exaggeration);
+        let steepness = steepness(&points);
+        let exaggeration = exaggeration(steepness, is_to_scale);
+        if let Surface::Grid(posts) = surface {
+            let framed = PlanBox::around(points.iter().map(|p| p.plan()));
+            add_summits(&mut points, posts, &framed);
+        }
         trim(&mut points);
+        points.iter_mut().for_each(|p| p.z *= exaggeration);
         let plan = PlanBox::around(points.iter().map(|p| p.plan()));
         let View { height, eye, target, nearest, pixel } = camera(&points, &plan);
         let step = step(pixel);
@@ -81,9 +101,23 @@ impl Framing {
             eye: rounded(eye),
             target: rounded(target),
             exaggeration,
+            steepness,
             pixel,
             plan,
         }
+    }
+
+    /// What to say of heights that are not drawn as they are.
+    pub(super) fn scale_note(&self) -> Option<String> {
+        let by = self.exaggeration;
+        (by != 1.0).then(|| match by > 1.0 {
+            true => format!("heights are low beside its extent, and drawn {by} times as high (vertical_scale; 1.0 is as they are)"),
+            false => format!(
+                "the size of its cells in metres is not known, and its heights are {:.1} times its extent: they are drawn {by} \
+                 times as high (vertical_scale; with the right terrain.crs or bounds, 1.0 is as they are)",
+                self.steepness
+            ),
+        })
     }
 
     /// How many decimals of its places matter.
@@ -191,31 +225,88 @@ fn subject<'a>(whole: &PlanBox, features: impl Iterator<Item = &'a Feature>) -> 
     }
 }
 
-/// Takes heights that are far out (a few posts of nonsense) to those that are not.
-fn trim(points: &mut [World]) {
+/// Adds the highest post around each sample: a summit is not to be cut off because it lies between samples.
+fn add_summits(points: &mut Vec<World>, posts: &Posts, within: &PlanBox) {
     let [low, high] = heights(points);
-    points.iter_mut().for_each(|p| p.z = min(max(p.z, low), high));
+    // In a grid of few posts a peak is like nothing beside it.
+    let far = if points.len() < FEW { f64::INFINITY } else { LONE * (high - low) };
+    let is_isolated = |i: usize, j: usize, z: f64| {
+        let beside = (j.saturating_sub(1)..(j + 2).min(posts.rows()))
+            .flat_map(|j| (i.saturating_sub(1)..(i + 2).min(posts.columns())).map(move |i| (i, j)));
+        let mut others = beside.filter(|at| *at != (i, j)).map(|(i, j)| posts.world(i, j).z);
+        !others.any(|other| (other - z).abs() <= far)
+    };
+    let (columns, rows) = posts_within(posts, within);
+    let blocks = |range: &std::ops::Range<usize>| (range.len().div_ceil(SAMPLES).max(1), range.end);
+    let ((east, last_column), (north, last_row)) = (blocks(&columns), blocks(&rows));
+    points.retain(|p| p.z <= high + far && p.z >= low - far);
+    for j0 in rows.step_by(north) {
+        for i0 in columns.clone().step_by(east) {
+            let mut summit: Option<World> = None;
+            for j in j0..(j0 + north).min(last_row) {
+                for i in i0..(i0 + east).min(last_column) {
+                    let p = posts.world(i, j);
+                    let is_higher = p.z.is_finite() && summit.is_none_or(|summit| p.z > summit.z);
+                    if is_higher && !is_isolated(i, j, p.z) {
+                        summit = Some(p);
+                    }
+                }
+            }
+            points.extend(summit);
+        }
+    }
+}
+
+/// Takes heights that are far out (a few posts of nonsense) to those that are not. Summits rise from what is below them: of the few
+/// highest and lowest those are nonsense that lie beyond a gap, or in a tail longer than all the rest.
+fn trim(points: &mut [World]) {
+    let mut all: Vec<f64> = points.iter().map(|p| p.z).collect();
+    all.sort_by(f64::total_cmp);
+    let [low, high] = heights(points);
+    let few = all.len() / FEW;
+    let relief = high - low;
+    let end = |tail: &mut dyn Iterator<Item = f64>, from: f64| {
+        let mut last = from;
+        for z in tail {
+            if (z - last).abs() > GAP * relief || (z - from).abs() > TAIL * relief {
+                return last;
+            }
+            last = z;
+        }
+        last
+    };
+    let top = end(&mut all[all.len() - few..].iter().copied(), high);
+    let bottom = end(&mut all[..few].iter().rev().copied(), low);
+    points.iter_mut().for_each(|p| p.z = min(max(p.z, bottom), top));
 }
 
 /// The heights that one in 200 points is below, and above.
 fn heights(points: &[World]) -> [f64; 2] {
     let mut heights: Vec<f64> = points.iter().map(|p| p.z).collect();
     heights.sort_by(f64::total_cmp);
-    let few = heights.len() / 200;
+    let few = heights.len() / FEW;
     let at = |k: usize| heights.get(k).copied().unwrap_or(0.0);
     [at(few), at(heights.len().saturating_sub(1 + few))]
 }
 
-/// How many times as high heights are to be drawn: 1, but on flat land.
-fn exaggeration(points: &[World]) -> f64 {
-    let plan = PlanBox::around(points.iter().map(|p| p.plan()));
-    let size = plan.max - plan.min;
+/// The relief as a multiple of the longer side of the plan.
+fn steepness(points: &[World]) -> f64 {
+    let size = PlanBox::around(points.iter().map(|p| p.plan()));
+    let size = size.max - size.min;
     let [low, high] = heights(points);
-    let (extent, relief) = (max(size.x, size.y), high - low);
-    if points.is_empty() || relief <= 1e-6 * extent || relief >= FLAT * extent {
+    let extent = max(size.x, size.y);
+    if extent > 0.0 { (high - low) / extent } else { 0.0 }
+}
+
+/// How many times as high heights are to be drawn: 1, but on flat land, and where the plan is not in metres.
+fn exaggeration(steepness: f64, is_to_scale: bool) -> f64 {
+    if steepness > STEEP && !is_to_scale {
+        return two_digits(LOWERED / steepness);
+    }
+    if steepness <= 1e-6 || steepness >= FLAT {
         return 1.0;
     }
-    let wanted = min(RAISED * extent / relief, MOST_EXAGGERATED);
+    let wanted = min(RAISED / steepness, MOST_EXAGGERATED);
     let steps = [2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 15.0, 20.0, 30.0, 40.0, 50.0];
     steps.into_iter().rev().find(|step| *step <= wanted).unwrap_or(2.0)
 }
@@ -307,5 +398,44 @@ mod tests {
     #[test]
     fn numbers_have_two_digits() {
         assert_eq!([145.6, 0.0123, 9.96, 0.0].map(two_digits), [150.0, 0.012, 10.0, 1.0]);
+    }
+
+    /// Heights of a hundred metres, and a few others, and the least and the greatest of them that are framed.
+    fn framed(others: &[f64]) -> [f64; 2] {
+        let heights = (0..2000).map(|k| f64::from(k) / 20.0).chain(others.iter().copied());
+        let mut points: Vec<World> = heights.map(|z| World { z, ..World::default() }).collect();
+        trim(&mut points);
+        points
+            .iter()
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], p| [min(low, p.z), max(high, p.z)])
+    }
+
+    #[test]
+    fn summits_are_framed_and_nonsense_is_not() {
+        assert_eq!(framed(&[110.0, 115.0, 130.0, 150.0]), [0.0, 150.0], "a summit");
+        assert_eq!(framed(&[9999.0]), [0.0, 99.95], "a height of nonsense");
+        assert_eq!(framed(&[-9999.0, -9998.0, 105.0]), [0.0, 105.0], "data that is none");
+    }
+
+    #[test]
+    fn heights_are_lowered_where_the_plan_is_not_in_metres() {
+        assert_eq!(exaggeration(7.3, false), 0.027);
+        assert_eq!([exaggeration(7.3, true), exaggeration(0.4, false)], [1.0, 1.0]);
+    }
+
+    #[test]
+    fn a_summit_between_samples_is_framed_and_a_lone_post_is_not() {
+        let summit = |height: fn(i32, i32) -> f64| {
+            let heights = (0..400 * 400).map(|k| height(k % 400, k / 400)).collect();
+            let steps = (glam::DVec2::X, glam::DVec2::Y);
+            let posts = Posts::new((400, 400), Plan::new(0.0, 0.0), steps, heights).unwrap();
+            let mut points = samples(&Surface::Grid(posts.clone()), None);
+            let all = PlanBox::around(points.iter().map(|p| p.plan()));
+            add_summits(&mut points, &posts, &all);
+            points.iter().fold(0.0, |high, p| max(high, p.z))
+        };
+        let cone = |i: i32, j: i32| 300.0 - f64::from(((i - 202).abs() + (j - 202).abs()).min(300));
+        assert_eq!(summit(cone), 300.0);
+        assert_eq!(summit(|i, j| if (i, j) == (202, 202) { 4140.0 } else { f64::from(i) }), 399.0);
     }
 }

@@ -74,20 +74,26 @@ fn keep(output: &Path, files: &[PathBuf]) -> Result<()> {
 
 /// The scene's text, and what the user should know: all that drawing it would say.
 fn starter(files: &Files, output: Option<&Path>, progress: &dyn Fn(&str)) -> Result<(String, Vec<String>)> {
-    let draft = Starter { files, place: &Place::here(), told: None }.text()?;
-    let draft = SceneFile::parse(&draft, None, &[])?;
-    let (scene, surface) = load::load(&draft, progress)?;
-    let framing = Framing::of(&scene, &surface);
+    // Nobody sees the draft: a place in it tells nothing.
+    let load = |text: &str| {
+        let scene = SceneFile::parse(text, None, &[])?;
+        load::load(&scene, progress)
+    };
+    let load = |text: &str| load(text).map_err(Error::without_scene);
+    let draft = Starter { files, place: &Place::here(), told: None };
+    let (scene, surface) = load(&draft.text()?)?;
+    let framing = Framing::of(&scene, &surface, draft.knows_crs());
+    let mut told = Told { scene: &scene, framing: &framing, notes: &scene.notes };
+    // What lies off the terrain depends on the widths, which the draft did not have.
+    let with_widths = match scene.notes.iter().any(|note| load::is_about_extent(note)) {
+        true => load(&Starter { told: Some(told), ..draft }.text()?)?.0.notes,
+        false => scene.notes.clone(),
+    };
+    told.notes = &with_widths;
     let place = output.map_or_else(|| Ok(Place::here()), Place::beside)?;
-    let told = Told { scene: &scene, framing: &framing };
     let text = Starter { files, place: &place, told: Some(told) }.text()?;
-    let exaggerated = (framing.exaggeration != 1.0).then(|| {
-        format!(
-            "terrain: heights are low beside its extent, and drawn {} times as high (vertical_scale; 1.0 is as they are)",
-            framing.exaggeration
-        )
-    });
-    let notes = scene.notes.iter().cloned().chain(exaggerated).chain(files.not_drawn());
+    let scale = framing.scale_note().map(|note| format!("terrain: {note}"));
+    let notes = with_widths.iter().cloned().chain(scale).chain(files.not_drawn());
     Ok((text, notes.collect()))
 }
 

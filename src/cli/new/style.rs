@@ -6,6 +6,7 @@ use super::theme::{Look, Theme, shaded, written};
 use crate::cli::written::{key, quoted_text};
 use drapery::math::{max, min};
 use drapery::scene::{Feature, Shape};
+use drapery::source::vector::{ColumnKind, ColumnSummary};
 use drapery::space::{Plan, PlanBox};
 
 /// Borders are so many pixels wide.
@@ -18,6 +19,8 @@ const CROWD: f64 = 0.10;
 const BORDER: f64 = 0.08;
 /// The least width in pixels.
 const LEAST: f64 = 0.3;
+/// The colour of areas whose tag says nothing.
+const UNKNOWN: [u8; 3] = [0xb5, 0xae, 0xa4];
 /// Classes of roads, from the most important: words of OpenStreetMap, which others use too. The number is the rank.
 const CLASSES: [(&str, usize); 16] = [
     ("motorway", 0),
@@ -121,7 +124,10 @@ pub(super) fn lines(layer: &Layer<'_>, look: &Look, widths: Widths) -> String {
     let mut text = String::new();
     let (fill, stroke) = (written(look.fill), written(look.stroke));
     if layer.summary.polygons > 0 {
-        text += &format!("fill = {{ color = \"{fill}\", opacity = {} }}\n", look.opacity);
+        let names_many = matches!(Theme::of(&layer.name), None | Some(Theme::Place));
+        let tags = tags(layer, &["natural", "landuse", "building"]).filter(|_| names_many);
+        let fill = tags.map_or(quoted_text(&fill), |column| by_theme(column, |look| look.fill, UNKNOWN));
+        text += &format!("fill = {{ color = {fill}, opacity = {} }}\n", look.opacity);
         text += &format!(
             "outline = {{ color = \"{stroke}\", width_m = {}, mode = \"inset\" }}   # or width_px = 1.5\n",
             widths.outline
@@ -143,26 +149,65 @@ pub(super) fn lines(layer: &Layer<'_>, look: &Look, widths: Widths) -> String {
     text
 }
 
-/// Colour and width of roads by their class, where a column tells that: one hue, the important ones darker and wider.
+/// Colour and width of lines by their class, where a column tells that. Of roads: one hue, the important ones darker and wider.
 fn by_class(layer: &Layer<'_>, look: &Look, width: f64) -> Option<(String, String)> {
-    if Theme::of(&layer.name) != Some(Theme::Road) {
+    match Theme::of(&layer.name) {
+        Some(Theme::Road) => layer.summary.columns.iter().find_map(|column| by_rank(column, look, width)),
+        None | Some(Theme::Place) => {
+            let column = tags(layer, &["highway", "waterway"])?;
+            let roads = Look { stroke: Theme::Road.look().stroke, ..*look };
+            by_rank(column, &roads, width)
+                .or_else(|| Some((by_theme(column, |look| look.stroke, look.stroke), width.to_string())))
+        }
+        Some(_) => None,
+    }
+}
+
+/// Colour and width of roads by a column of their classes.
+fn by_rank(column: &ColumnSummary, look: &Look, width: f64) -> Option<(String, String)> {
+    let texts = column.frequent.iter().filter_map(|(value, _)| value.text());
+    let classes: Vec<(&str, usize)> = texts.filter_map(|text| Some((text, rank(text)?))).collect();
+    if classes.len() < 2 {
         return None;
     }
-    let (column, classes) = layer.summary.columns.iter().find_map(|column| {
-        let texts: Vec<&str> =
-            column.distinct.as_ref()?.iter().filter_map(|(value, _)| value.text()).collect();
-        let classes: Vec<(&str, usize)> =
-            texts.iter().filter_map(|text| Some((*text, rank(text)?))).collect();
-        (classes.len() >= 2).then(|| (quoted_text(&column.name), classes))
-    })?;
     let color = |rank: usize| written(if rank <= 1 { shaded(look.stroke, 1) } else { look.stroke });
     let wide = |rank: usize| two_digits(width * RANKS[rank]);
     let map = |value: &dyn Fn(usize) -> String| {
-        let entries: Vec<String> =
-            classes.iter().map(|(text, rank)| format!("{} = {}", key(text), value(*rank))).collect();
-        format!("{{ by = {column}, map = {{ {} }}, default = {} }}", entries.join(", "), value(4))
+        let entries = classes.iter().map(|(text, rank)| (*text, value(*rank)));
+        mapped(column, entries, &value(4))
     };
     Some((map(&|rank| quoted_text(&color(rank))), map(&|rank| wide(rank).to_string())))
+}
+
+/// The column of tags that most features of a layer have a value in.
+fn tags<'a>(layer: &'a Layer<'_>, names: &[&str]) -> Option<&'a ColumnSummary> {
+    let columns = layer.summary.columns.iter().filter(|column| names.contains(&&column.name[..]));
+    columns.filter(|column| column.kind == ColumnKind::Text).max_by_key(|column| column.values)
+}
+
+/// Colours by a column of tags: each value has that of what it or the column names.
+fn by_theme(column: &ColumnSummary, of: impl Fn(Look) -> [u8; 3], default: [u8; 3]) -> String {
+    let kind = Theme::of(&column.name).filter(|kind| *kind != Theme::Field);
+    let entries = column.frequent.iter().filter_map(|(value, _)| {
+        let text = value.text()?;
+        let theme = Theme::of(text).or(kind)?;
+        Some((text, quoted_text(&written(of(theme.look())))))
+    });
+    mapped(column, entries, &quoted_text(&written(kind.map_or(default, |kind| of(kind.look())))))
+}
+
+/// A value of a style by a column.
+fn mapped<'a>(
+    column: &ColumnSummary,
+    entries: impl Iterator<Item = (&'a str, String)>,
+    default: &str,
+) -> String {
+    let entries: Vec<String> = entries.map(|(text, value)| format!("{} = {value}", key(text))).collect();
+    let by = quoted_text(&column.name);
+    match entries.is_empty() {
+        true => default.to_owned(),
+        false => format!("{{ by = {by}, map = {{ {} }}, default = {default} }}", entries.join(", ")),
+    }
 }
 
 /// How important a class of roads is.

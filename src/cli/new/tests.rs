@@ -234,3 +234,76 @@ fn points_are_discs_above_all_else() {
     assert_eq!(names, ["both", "towns"]);
     assert!(scene.layers[1].style.point.is_some() && scene.layers[1].style.line.is_none(), "{text}");
 }
+
+/// A collection of features of some properties and geometries.
+fn collection(features: &[(&str, &str)]) -> String {
+    let feature = |(properties, geometry): &(&str, &str)| {
+        format!(r#"{{"type":"Feature","properties":{properties},"geometry":{geometry}}}"#)
+    };
+    let features: Vec<String> = features.iter().map(feature).collect();
+    format!(r#"{{"type":"FeatureCollection","features":[{}]}}"#, features.join(","))
+}
+
+#[test]
+fn tags_of_many_values_give_colors() {
+    let line = r#"{"type":"LineString","coordinates":[[0,0],[100,50]]}"#;
+    let area = r#"{"type":"Polygon","coordinates":[[[0,0],[100,50],[0,50],[0,0]]]}"#;
+    let tags: Vec<String> = (0..300).map(|k| format!(r#"{{"highway":"odd{k}"}}"#)).collect();
+    let mut features = vec![(r#"{"highway":"primary"}"#, line); 3];
+    features.extend([(r#"{"highway":"residential"}"#, line); 2]);
+    features.extend([(r#"{"natural":"water"}"#, area), (r#"{"natural":"wood"}"#, area)]);
+    features.extend(tags.iter().map(|tag| (&tag[..], line)));
+    let folder = Folder::with(&[("dem.asc", GRID), ("city.json", &collection(&features))]);
+    let (text, _) = folder.starter(&["dem.asc", "city.json"]).unwrap();
+    assert!(text.contains("color = { by = \"highway\", map = { primary = "), "{text}");
+    assert!(
+        text.contains("fill = { color = { by = \"natural\", map = { water = \"#4a9bd9\", wood = "),
+        "{text}"
+    );
+    load::load(&parsed(&text), &|_| ()).unwrap();
+}
+
+#[test]
+fn what_lies_off_the_terrain_is_counted_with_the_widths_that_are_written() {
+    let line = |x: f64| format!(r#"{{"type":"LineString","coordinates":[[{x},0],[{x},6000]]}}"#);
+    let lines: Vec<String> = (0..200).map(|k| line(5990.0 + f64::from(k))).collect();
+    let features: Vec<(&str, &str)> = lines.iter().map(|line| ("{}", &line[..])).collect();
+    let lines = collection(&features).replacen(
+        '{',
+        r#"{"crs":{"type":"name","properties":{"name":"EPSG:32633"}},"#,
+        1,
+    );
+    let folder = Folder::with(&[("dem.asc", &slope(61, 100.0, 6.0)), ("dem.prj", UTM), ("a.json", &lines)]);
+    let (text, notes) = folder.starter(&["dem.asc", "a.json"]).unwrap();
+    let off = |notes: &[String]| notes.iter().find(|note| note.contains("off the terrain")).cloned();
+    let (scene, _) = load::load(&parsed(&text), &|_| ()).unwrap();
+    assert!(off(&notes).is_some(), "{notes:?}");
+    assert_eq!(off(&notes), off(&scene.notes), "{text}");
+}
+
+#[test]
+fn an_error_of_the_draft_names_no_place_in_it() {
+    let broken = r#"{"type":"LineString","coordinates":[[0,0],[1e300,50]]}"#;
+    let empty = r#"{"type":"FeatureCollection","features":[]}"#;
+    for layer in [broken, empty] {
+        let folder = Folder::with(&[("dem.asc", GRID), ("dem.prj", "EPSG:32633"), ("way.json", layer)]);
+        if let Err(error) = folder.starter(&["dem.asc", "way.json"]) {
+            assert!(!error.to_string().contains("of the scene"), "{error}");
+        }
+    }
+    let named =
+        Error::new("it is wrong").named_in(None, drapery::Position { line: 40, column: 10, length: 1 });
+    assert_eq!(named.without_scene().to_string(), "it is wrong");
+}
+
+#[test]
+fn heights_beyond_an_extent_of_unknown_length_are_lowered_with_a_word() {
+    let steep = slope(51, 1.0, 100.0);
+    let folder = Folder::with(&[("dem.asc", &steep)]);
+    let (text, notes) = folder.starter(&["dem.asc"]).unwrap();
+    let scale = parsed(&text).terrain.vertical_scale;
+    assert!((0.001..0.01).contains(&scale), "{text}");
+    assert!(notes.iter().any(|note| note.contains("times its extent")), "{notes:?}");
+    let folder = Folder::with(&[("dem.asc", &steep), ("dem.prj", UTM)]);
+    assert_eq!(parsed(&folder.starter(&["dem.asc"]).unwrap().0).terrain.vertical_scale, 1.0);
+}

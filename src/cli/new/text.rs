@@ -29,6 +29,7 @@ pub(super) struct Starter<'a> {
 pub(super) struct Told<'a> {
     pub(super) scene: &'a Scene,
     pub(super) framing: &'a Framing,
+    pub(super) notes: &'a [String],
 }
 
 const NO_LAYER: &str = r##"
@@ -121,27 +122,40 @@ shade = "hillshade"
 
     fn scale(&self) -> String {
         let by = self.told.map_or(1.0, |told| told.framing.exaggeration);
-        let why = "heights are low beside the extent: drawn so many times as high; 1.0 is as they are";
+        let why = match by > 1.0 {
+            true => "heights are low beside the extent: drawn so many times as high; 1.0 is as they are",
+            false => {
+                "the cells' size in metres is not known: heights beyond the extent are lowered; 1.0 is as they are"
+            }
+        };
         match by == 1.0 {
             true => "vertical_scale = 1.0\n".into(),
-            false => format!("{:<38} # {why}\n", format!("vertical_scale = {by:.1}")),
+            false => format!("{:<38} # {why}\n", format!("vertical_scale = {by:?}")),
         }
     }
 
-    /// The terrain's CRS, where its file does not state one and a layer on it does.
-    fn crs(&self) -> Result<String> {
-        let terrain = &self.files.terrain;
-        if terrain.plan().is_some() {
-            return Ok(String::new());
-        }
-        let ground = terrain.bounds;
-        let guess = self.files.layers.iter().find_map(|layer| {
+    /// The code of a layer's CRS that the terrain has too, by where the layer lies, and the layer's file.
+    fn guessed_crs(&self) -> Option<(&Path, u32)> {
+        let ground = self.files.terrain.bounds;
+        self.files.layers.iter().find_map(|layer| {
             let crs = layer.summary.crs.as_ref()?;
             let code = crs.epsg()?;
             let lies_on_it = layer.summary.bounds.meets(&ground) && can_hold(crs, &ground);
             lies_on_it.then_some((layer.path, code))
-        });
-        Ok(match guess {
+        })
+    }
+
+    /// Whether the scene has a CRS: without one nobody knows how long a cell is.
+    pub(super) fn knows_crs(&self) -> bool {
+        self.files.terrain.plan().is_some() || self.guessed_crs().is_some()
+    }
+
+    /// The terrain's CRS, where its file does not state one and a layer on it does.
+    fn crs(&self) -> Result<String> {
+        if self.files.terrain.plan().is_some() {
+            return Ok(String::new());
+        }
+        Ok(match self.guessed_crs() {
             Some((path, code)) => format!(
                 "crs = \"EPSG:{code}\"                    # the file does not say it: taken from {}, which lies on it\n",
                 self.place.quoted(path)?
@@ -156,7 +170,7 @@ shade = "hillshade"
     /// The table of a layer, the `number`-th of those that are drawn.
     fn layer(&self, layer: &Layer<'_>, number: usize, looks: &mut Looks) -> Result<String> {
         let look = looks.of(Theme::of(&layer.name));
-        let widths = self.told.map(|Told { scene, framing }| {
+        let widths = self.told.map(|Told { scene, framing, .. }| {
             let features = scene.layers.get(number).map_or(&[][..], |layer| &layer.features);
             Widths::of(&look, &Measures::of(features, &framing.plan), framing)
         });
@@ -174,7 +188,7 @@ shade = "hillshade"
 
     /// What loading said of a part of the scene, as comments.
     fn notes(&self, about: &str) -> String {
-        let notes = self.told.map_or(&[][..], |told| &told.scene.notes);
+        let notes = self.told.map_or(&[][..], |told| told.notes);
         let notes = notes.iter().filter_map(|note| note.strip_prefix(about));
         notes.map(|note| format!("# Note: {}\n", harmless(note))).collect()
     }

@@ -18,6 +18,7 @@ pub(super) struct Look {
 pub(super) enum Theme {
     Border,
     Water,
+    Land,
     Ice,
     Wood,
     Rail,
@@ -31,7 +32,7 @@ pub(super) enum Theme {
 }
 
 /// Words of names, in lower case: `*` stands for any ending. Where a word is of two kinds, the first one counts.
-const WORDS: [(Theme, &[&str]); 12] = [
+const WORDS: [(Theme, &[&str]); 13] = [
     (
         Theme::Border,
         &[
@@ -48,7 +49,9 @@ const WORDS: [(Theme, &[&str]); 12] = [
             "commune*",
             "communit*",
             "province*",
-            "region*",
+            "region",
+            "regions",
+            "regionen",
             "municip*",
             "grenz*",
             "gemeinde*",
@@ -73,8 +76,6 @@ const WORDS: [(Theme, &[&str]); 12] = [
             "reservoir*",
             "pond*",
             "canal*",
-            "coast*",
-            "shore*",
             "wetland*",
             "gewaess*",
             "gewäss*",
@@ -98,6 +99,10 @@ const WORDS: [(Theme, &[&str]); 12] = [
             "agua*",
             "lago*",
         ],
+    ),
+    (
+        Theme::Land,
+        &["coast*", "shore*", "land", "island*", "insel*", "kueste*", "küste*", "continent*", "gshhs*"],
     ),
     (Theme::Ice, &["glacier*", "gletscher*", "ice", "rgi*", "snow*", "firn*", "glims*"]),
     (
@@ -227,10 +232,13 @@ impl Theme {
         WORDS.iter().find(|(_, patterns)| has(patterns)).map(|(theme, _)| *theme)
     }
 
-    fn look(self) -> Look {
+    /// How it looks.
+    pub(super) fn look(self) -> Look {
         let look = |fill, opacity, stroke, width| Look { fill, opacity, stroke, width };
         match self {
             Self::Water => look([0x4a, 0x9b, 0xd9], 0.75, [0x1b, 0x63, 0xa5], 2.2),
+            // What lies inside a coast is land; the coast itself is drawn as water is.
+            Self::Land => look([0xcf, 0xc4, 0x8e], 0.45, [0x1b, 0x63, 0xa5], 2.2),
             Self::Ice => look([0xc4, 0xea, 0xf7], 0.75, [0x2a, 0x8c, 0xad], 2.0),
             Self::Wood => look([0x4f, 0xa0, 0x52], 0.45, [0x1e, 0x69, 0x2b], 2.0),
             Self::Road => look([0xe0, 0x7b, 0x39], 0.6, [0xd9, 0x4f, 0x1e], 2.8),
@@ -329,6 +337,9 @@ mod tests {
             ("gis_osm_railways_free_1", Some(Theme::Rail)),
             ("protected_areas", Some(Theme::Wood)),
             ("relAlr", Some(Theme::Danger)),
+            ("relMalRegional", Some(Theme::Danger)),
+            ("regions_2020", Some(Theme::Border)),
+            ("coastline", Some(Theme::Land)),
             ("rgi_oetztal", Some(Theme::Ice)),
             ("cb_2023_us_county_5m", Some(Theme::Border)),
             ("STRASSEN", Some(Theme::Road)),

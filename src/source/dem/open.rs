@@ -14,6 +14,7 @@ use super::site::{Input, Site};
 use super::vrt;
 use super::xyz::Xyz;
 use crate::error::{Error, Result};
+use crate::source::packed;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -80,7 +81,7 @@ fn open_site(site: &Site, options: &DemOptions, converts: bool) -> Result<DemFil
     if magic.is_empty() {
         return Err(Error::new("the file is empty").help("fetch it again"));
     }
-    refuse_packed(&magic)?;
+    packed::refuse(&magic)?;
     let extension = site.extension();
     let is_tiff = matches!(magic[..], [b'I', b'I', 42 | 43, 0, ..] | [b'M', b'M', 0, 42 | 43, ..]);
     if let (Some(band @ (0 | 2..)), false) = (options.band, is_tiff) {
@@ -147,21 +148,16 @@ pub(super) fn is_png(path: &Path) -> bool {
     begins(&site).unwrap_or(false) || site.in_archive().is_ok_and(|site| begins(&site).unwrap_or(false))
 }
 
-fn refuse_packed(magic: &[u8]) -> Result<()> {
-    let (kind, tool) = match magic {
-        [b'P', b'K', 3 | 5, ..] => ("a zip archive in another", "unzip"),
-        [0x1f, 0x8b, ..] => ("packed with gzip", "gunzip -k"),
-        [0xfd, b'7', b'z', b'X', b'Z', ..] => ("packed with xz", "xz -dk"),
-        [b'B', b'Z', b'h', ..] => ("packed with bzip2", "bunzip2 -k"),
-        _ => return Ok(()),
-    };
-    Err(Error::unsupported(format!("the file is {kind}")).help(format!("unpack it first: {tool} FILE")))
-}
-
 fn not_what_it_says(extension: &str) -> Error {
     Error::new(format!("the file is named .{extension} but does not begin like one"))
         .help("it may be a web page or half a download: look at its first bytes, fetch it again")
 }
+
+/// Rasters that GDAL makes a GeoTIFF of.
+const RASTERS: [&str; 21] = [
+    "adf", "bag", "bil", "bin", "bsq", "bt", "dem", "dt0", "dt1", "dt2", "flt", "grb", "grd", "h5", "hdf",
+    "img", "jp2", "nc", "rst", "sdat", "ter",
+];
 
 fn unknown(extension: &str) -> Error {
     let what = if extension.is_empty() {
@@ -169,7 +165,11 @@ fn unknown(extension: &str) -> Error {
     } else {
         format!("terrain files of the kind .{extension} are unknown")
     };
-    Error::unsupported(what).help(
-        "known are .tif .hgt .asc .png .xyz .vrt; convert others with: gdal_translate FILE OUT.tif -co COMPRESS=DEFLATE",
-    )
+    let help = if RASTERS.contains(&extension) {
+        "make a GeoTIFF of it: gdal_translate FILE OUT.tif -co COMPRESS=DEFLATE"
+    } else {
+        "read are terrain (.tif .hgt .asc .png .xyz .vrt), vectors (.geojson .json .geojsonl .shp .fgb .gpkg .osm.pbf) and a \
+         .zip of one; points x, y, height are a terrain when the file is named .xyz"
+    };
+    Error::unsupported(what).help(help)
 }

@@ -138,6 +138,9 @@ fn from_file<'a>(
         ));
     }
     let columns = Columns::of_file(&mut file, named);
+    if spec.crs.is_some() {
+        file.notes.retain(|note| note != vector::NO_PRJ);
+    }
     let crs = stated_crs(scene, spec)?.or(file.crs);
     notes.append(&mut file.notes);
     if let Some(words) = file.crs_not_read {

@@ -48,6 +48,7 @@ mod window;
 mod tests;
 
 pub use attributes::attributes;
+pub use off_terrain::is_about_extent;
 pub use place::{crs_of, default_plan_space, scale_error};
 
 use crate::error::Result;

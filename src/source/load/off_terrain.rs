@@ -20,6 +20,11 @@ pub(super) fn leave_out(terrain: &Terrain, layer: &mut Layer, count: usize, note
     }
 }
 
+/// Whether a note is on features that lie off the terrain: which ones do depends on how wide they are drawn.
+pub fn is_about_extent(note: &str) -> bool {
+    note.ends_with("meets the terrain") || note.ends_with("lie off the terrain and are left out")
+}
+
 /// How far beyond their vertices features of some styles may cover the plan; `None` where that depends on the view.
 pub(super) fn reach_of(styles: &[Style]) -> Option<f64> {
     let lines = |style: &Style| [style.line, style.point, style.outline.map(|outline| outline.line)];

@@ -566,3 +566,24 @@ fn points_are_drawn_where_a_layer_says_how_and_left_out_with_a_word_where_not() 
         .replace("source = \"points.json\"", "features = [{ points = [[1, 2], [3, 4]] }]");
     assert_eq!(kept(&inline), 1);
 }
+
+#[test]
+fn a_shapefile_whose_crs_the_scene_says_is_not_told_off_for_lacking_one() {
+    let point = |at: f64| {
+        let place = [at.to_le_bytes(), at.to_le_bytes()].concat();
+        [&1_u32.to_be_bytes()[..], &10_u32.to_be_bytes(), &1_u32.to_le_bytes(), &place].concat()
+    };
+    let mut shp =
+        [&9994_u32.to_be_bytes()[..], &[0; 20], &64_u32.to_be_bytes(), &1000_u32.to_le_bytes()].concat();
+    shp.extend(1_u32.to_le_bytes());
+    shp.extend([0; 64]);
+    shp.extend(point(20.0));
+    let folder = Folder::new().with("d.asc", grid((5, 5), (0.0, 0.0), 10.0, hills)).with("l.shp", shp);
+    let says = |crs: &str| {
+        let text = format!(
+            "terrain = {{ source = \"d.asc\", crs = \"EPSG:32632\" }}\n[[layer]]\nsource = \"l.shp\"\n{crs}\npoint = {{ color = \"#000000\", width_m = 4.0 }}"
+        );
+        folder.load(&text).unwrap().0.notes.iter().any(|note| note.contains("no .prj"))
+    };
+    assert!(says("") && !says("crs = \"EPSG:32632\""));
+}

@@ -7,6 +7,8 @@ use std::fmt;
 
 /// The most different values that are told one by one.
 const MOST_DISTINCT: usize = 12;
+/// The most different values that are counted.
+const MOST_COUNTED: usize = 256;
 /// How many values are told as examples.
 const EXAMPLES: usize = 3;
 
@@ -24,6 +26,9 @@ pub struct ColumnSummary {
     pub range: Option<[f64; 2]>,
     /// Every different value in ascending order, and how many features have it; `None` where there are more than 12.
     pub distinct: Option<Vec<(Attribute, usize)>>,
+    /// The most frequent values, at most 12, and how many features have each, the most frequent first; of more than 256 different
+    /// values those are counted that the file has first.
+    pub frequent: Vec<(Attribute, usize)>,
     /// The first different values in file order, at most 3.
     pub examples: Vec<Attribute>,
 }
@@ -86,8 +91,7 @@ pub(super) struct Tally {
     kind: ColumnKind,
     values: usize,
     range: Option<[f64; 2]>,
-    /// `None` once there are too many.
-    distinct: Option<BTreeMap<Attribute, usize>>,
+    counted: BTreeMap<Attribute, usize>,
     examples: Vec<Attribute>,
     /// The value of the feature that is being read: another may take its place.
     last: Option<(usize, Attribute)>,
@@ -99,7 +103,7 @@ impl Default for Tally {
             kind: ColumnKind::Empty,
             values: 0,
             range: None,
-            distinct: Some(BTreeMap::new()),
+            counted: BTreeMap::new(),
             examples: Vec::new(),
             last: None,
         }
@@ -129,11 +133,10 @@ impl Tally {
         if self.examples.len() < EXAMPLES && !self.examples.contains(&value) {
             self.examples.push(value.clone());
         }
-        if let Some(distinct) = &mut self.distinct {
-            *distinct.entry(value).or_default() += 1;
-            if distinct.len() > MOST_DISTINCT {
-                self.distinct = None;
-            }
+        if let Some(count) = self.counted.get_mut(&value) {
+            *count += 1;
+        } else if self.counted.len() < MOST_COUNTED {
+            self.counted.insert(value, 1);
         }
     }
 
@@ -141,8 +144,11 @@ impl Tally {
         if let Some((_, value)) = self.last.take() {
             self.count(value);
         }
-        let Self { kind, values, range, distinct, examples, last: _ } = self;
-        let distinct = distinct.map(|all| all.into_iter().collect());
-        ColumnSummary { name, kind, values, range, distinct, examples }
+        let Self { kind, values, range, counted, examples, last: _ } = self;
+        let mut frequent: Vec<(Attribute, usize)> = counted.into_iter().collect();
+        let distinct = (frequent.len() <= MOST_DISTINCT).then(|| frequent.clone());
+        frequent.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
+        frequent.truncate(MOST_DISTINCT);
+        ColumnSummary { name, kind, values, range, distinct, frequent, examples }
     }
 }

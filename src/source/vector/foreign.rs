@@ -34,12 +34,15 @@ const fn kind(
     Foreign { name, extensions, mark, way }
 }
 
-static KINDS: [Foreign; 17] = [
+static KINDS: [Foreign; 20] = [
     kind("KML", &["kml", "kmz"], b"<kml", Way::Layers),
     kind("GML", &["gml"], b"opengis.net/gml", Way::Layers),
     kind("GPX", &["gpx"], b"<gpx", Way::Layers),
     kind("OpenStreetMap XML", &["osm"], b"<osm ", Way::Layers),
     kind("TopoJSON", &["topojson"], b"{\"type\":\"Topology\"", Way::Layers),
+    kind("Esri JSON", &[], b"\"esriGeometry", Way::Layer),
+    kind("Esri JSON", &[], b"{\"displayFieldName\"", Way::Layer),
+    kind("Esri JSON", &[], b"{\"objectIdFieldName\"", Way::Layer),
     kind(
         "a table (CSV)",
         &["csv", "tsv"],

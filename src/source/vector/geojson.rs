@@ -15,7 +15,7 @@ mod properties;
 use super::collector::Collector;
 use crate::crs::Crs;
 use crate::error::{Error, Position, Result};
-use object::{Reading, add_object};
+use object::{OrNull, Reading, add_object};
 use serde::de::DeserializeSeed;
 
 /// The separator of RFC 8142, which no text of JSON can hold.
@@ -29,11 +29,19 @@ pub(super) fn read(mut bytes: Vec<u8>, found: Collector) -> Result<Collector> {
     let mut json = serde_json::Deserializer::from_slice(text);
     let mut first_crs = None;
     loop {
-        let parsed = (&mut reading).deserialize(&mut json);
+        let parsed = OrNull(&mut reading).deserialize(&mut json);
         let mut object = match (parsed, reading.failure.take()) {
             (_, Some(failure)) => return Err(failure),
             (Err(e), None) => return Err(malformed(e, &reading)),
-            (Ok(object), None) => object,
+            (Ok(Some(object)), None) => object,
+            (Ok(None), None) => {
+                reading.nulls += 1;
+                reading.found.next_feature();
+                if json.end().is_ok() {
+                    break;
+                }
+                continue;
+            }
         };
         let crs = object.crs.take();
         if *first_crs.get_or_insert_with(|| crs.clone()) != crs {

@@ -39,11 +39,13 @@ mod wkb;
 pub(super) use collector::is_drawable;
 pub use column_summary::{ColumnKind, ColumnSummary};
 pub use doubts::doubts;
+pub(super) use shapefile::NO_PRJ;
 pub use summary::{VectorSummary, describe};
 
 use crate::crs::Crs;
 use crate::error::{Error, Result};
 use crate::scene::{Column, Feature};
+use crate::source::packed;
 use attributes::Wanted;
 use collector::Collector;
 use shapefile::Parts;
@@ -193,8 +195,13 @@ fn format_of(path: &Path) -> Result<VectorFormat> {
         (_, None | Some(VectorFormat::GeoJson)) => foreign::by_content(&start),
         _ => None,
     };
-    if let Some(foreign) = foreign.or_else(|| foreign::by_name(path).filter(|_| found.is_none())) {
+    if let Some(foreign) =
+        foreign.or_else(|| foreign::by_name(path).filter(|kind| found.is_none() || !kind.stands_alone()))
+    {
         return Err(foreign.refuse(path));
+    }
+    if found.is_none() {
+        packed::refuse(&start)?;
     }
     match (promised, found) {
         (Some(promised), Some(found)) if promised == found => Ok(found),
@@ -266,8 +273,11 @@ fn told_by_content(start: &[u8]) -> Option<VectorFormat> {
     } else if start.starts_with(&9994_u32.to_be_bytes()) {
         Some(VectorFormat::Shapefile)
     } else {
-        let first = text.iter().find(|b| !b.is_ascii_whitespace() && **b != geojson::RECORD_SEPARATOR);
-        (first == Some(&b'{')).then_some(VectorFormat::GeoJson)
+        let is_space = |b: &u8| b.is_ascii_whitespace() || *b == geojson::RECORD_SEPARATOR;
+        let text = &text[text.iter().take_while(|b| is_space(b)).count()..];
+        // A text of a sequence may be `null`, the first one too.
+        let is_null = text.strip_prefix(b"null").is_some_and(|rest| rest.first().is_some_and(is_space));
+        (is_null || text.starts_with(b"{")).then_some(VectorFormat::GeoJson)
     }
 }
 

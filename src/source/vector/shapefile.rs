@@ -75,10 +75,13 @@ fn read_table(table: Result<Option<Rows<'_>>>, cpg: Option<&[u8]>, found: &mut C
     Ok(())
 }
 
+/// The note of a shapefile that comes without a .prj.
+pub(in crate::source) const NO_PRJ: &str = "there is no .prj beside the file, so its CRS is not known";
+
 /// A .prj that is missing is a note: the scene can name the CRS.
 fn read_prj(prj: Option<&[u8]>, found: &mut Collector) {
     let Some(bytes) = prj else {
-        return found.notes.push("there is no .prj beside the file, so its CRS is not known".to_owned());
+        return found.notes.push(NO_PRJ.to_owned());
     };
     let text = String::from_utf8_lossy(bytes);
     match text.trim_matches(['\u{feff}', '\0', ' ', '\r', '\n']) {

@@ -146,7 +146,7 @@ impl<'de> Visitor<'de> for Features<'_> {
 }
 
 /// An object, or `null`.
-struct OrNull<'a>(&'a mut Reading);
+pub(super) struct OrNull<'a>(pub(super) &'a mut Reading);
 
 impl<'de> DeserializeSeed<'de> for OrNull<'_> {
     type Value = Option<Object>;

@@ -75,3 +75,32 @@ fn a_geopackage_without_features_says_what_it_holds() {
         assert!(error.help_text().unwrap().contains("gdal_translate"), "{error}");
     }
 }
+
+#[test]
+fn parts_of_a_shapefile_and_packed_files_are_told_for_what_they_are() {
+    let index = [&9994_u32.to_be_bytes()[..], &[0; 96]].concat();
+    assert!(help("a.shx", &index).contains("name the .shp"));
+    for (name, bytes, tool) in [
+        ("a.geojson.gz", &b"\x1f\x8b\x08\0"[..], "gunzip"),
+        ("a.osm.bz2", b"BZh91AY", "bunzip2"),
+        ("a", b"\xfd7zXZ\0", "xz"),
+    ] {
+        assert!(help(name, bytes).contains(tool), "{name}");
+    }
+    let esri = br#"{"displayFieldName":"","fieldAliases":{},"features":[]}"#;
+    assert!(help("a.json", esri).contains("ogr2ogr"));
+}
+
+#[test]
+fn null_in_a_sequence_is_left_out_with_a_note_wherever_it_stands() {
+    let point = r#"{"type":"Feature","properties":null,"geometry":{"type":"Point","coordinates":[1,2]}}"#;
+    for text in [
+        format!("{point}\nnull\n{point}\n"),
+        format!("null\n{point}\n{point}"),
+        format!("{point}\n{point}\nnull"),
+    ] {
+        let read = read_bytes("a.geojsonl", text.as_bytes()).unwrap();
+        assert_eq!(read.features.len(), 2, "{text}");
+        assert!(read.notes.iter().any(|note| note.starts_with("1 x `null`")), "{:?}", read.notes);
+    }
+}
