@@ -193,7 +193,7 @@ fn by_theme(column: &ColumnSummary, of: impl Fn(Look) -> [u8; 3], default: [u8; 
         let theme = Theme::of(text).or(kind)?;
         Some((text, quoted_text(&written(of(theme.look())))))
     });
-    mapped(column, entries, &quoted_text(&written(kind.map_or(default, |kind| of(kind.look())))))
+    mapped(column, entries, &quoted_text(&written(default)))
 }
 
 /// A value of a style by a column.
