@@ -32,8 +32,8 @@ const RAISED: f64 = 0.05;
 /// Heights are drawn so many times as high at most.
 const MOST_EXAGGERATED: f64 = 50.0;
 
-/// Relief of a greater share is that of a plan which is not in metres...
-const STEEP: f64 = 0.5;
+/// Relief of a greater share, which no mountainside has (a steep one has half), is that of a plan which is not in metres...
+const STEEP: f64 = 1.0;
 /// ... and is lowered to about this.
 const LOWERED: f64 = 0.2;
 /// One in so many points may be nonsense.
@@ -420,7 +420,7 @@ mod tests {
     #[test]
     fn heights_are_lowered_where_the_plan_is_not_in_metres() {
         assert_eq!(exaggeration(7.3, false), 0.027);
-        assert_eq!([exaggeration(7.3, true), exaggeration(0.4, false)], [1.0, 1.0]);
+        assert_eq!([exaggeration(7.3, true), exaggeration(0.51, false)], [1.0, 1.0]);
     }
 
     #[test]
