@@ -209,6 +209,25 @@ fn info_says_what_a_terrain_holds_in_aligned_lines() {
 }
 
 #[test]
+fn info_says_of_a_crs_that_is_stated_and_cannot_be_used_why() {
+    let folder = valley();
+    let road = std::fs::read_to_string(folder.path().join("road.geojson")).unwrap();
+    let odd = road.replacen('{', r#"{"crs":{"type":"name","properties":{"name":"EPSG:6200"}},"#, 1);
+    std::fs::write(folder.path().join("odd.geojson"), odd).unwrap();
+    let projected = r#"PROJCS["x",GEOGCS["y",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563]]],PROJECTION["Barsoom"]]"#;
+    std::fs::write(folder.path().join("dem.prj"), projected).unwrap();
+    for (file, why) in [("odd.geojson", "EPSG:6200"), ("dem.asc", "'Barsoom'")] {
+        let text = done(called_in(&folder, &["info", file]));
+        let row = text.lines().find(|line| line.starts_with("  CRS ")).unwrap();
+        assert!(
+            row.contains("cannot be used") && row.contains(why) && row.contains("say in the scene"),
+            "{text}"
+        );
+        assert!(!text.contains("not stated"), "{text}");
+    }
+}
+
+#[test]
 fn info_on_what_is_no_data_file_exits_with_2() {
     let folder = valley();
     let said = refused(called_in(&folder, &["info", "dom.asc"]), 2);

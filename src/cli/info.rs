@@ -154,7 +154,14 @@ fn plan(summary: &DemSummary, table: &mut Table) {
     };
     let crs = match load::crs_of(hint) {
         Ok(crs) => crs,
-        Err(error) => return table.row("CRS", error.what()),
+        Err(error) => {
+            let why = error.what();
+            let text = format!(
+                "stated, but cannot be used: {why} (say in the scene as terrain.crs what its coordinates are in, or they are taken as \
+                 metres)"
+            );
+            return table.row("CRS", text);
+        }
     };
     table.row("CRS", crs.name());
     if let Some(note) = crs.note() {
@@ -207,9 +214,15 @@ fn of_layer(path: &Path, summary: &VectorSummary) -> Table {
     if !summary.bounds.is_empty() {
         table.row("span", spans([low.x, low.y, high.x, high.y]));
     }
-    match &summary.crs {
-        Some(crs) => table.row("CRS", crs.name()),
-        None => table.row("CRS", "not stated: taken for the scene's"),
+    match (&summary.crs, &summary.crs_not_read) {
+        (Some(crs), _) => table.row("CRS", crs.name()),
+        (None, Some(words)) => {
+            table.row(
+                "CRS",
+                format!("{words} (say in the scene as the layer's crs what its coordinates are in)"),
+            );
+        }
+        (None, None) => table.row("CRS", "not stated: taken for the scene's"),
     }
     columns(summary, &mut table);
     table.notes(&summary.notes);

@@ -52,16 +52,7 @@ impl<'a> Files<'a> {
         }
         Ok(Self { terrain: joined(terrains)?, layers: layers(vectors) })
     }
-
-    /// What to say of layers that a scene cannot have.
-    pub(super) fn not_drawn(&self) -> impl Iterator<Item = String> {
-        let told = |layer: &Layer<'_>| format!("layer `{}`: {}", layer.name, NOT_DRAWN);
-        self.layers.iter().filter(|layer| !layer.is_drawn()).map(told)
-    }
 }
-
-/// What is said of a layer in which nothing can be drawn.
-pub(super) const NOT_DRAWN: &str = "it holds nothing that is drawn, and is left out";
 
 /// One terrain of all files.
 fn joined(terrains: Vec<Terrain<'_>>) -> Result<Terrain<'_>> {
@@ -103,6 +94,11 @@ impl<'a> Terrain<'a> {
     pub(super) fn plan(&self) -> Option<PlanSpace> {
         let crs = load::crs_of(self.summary.crs_hint.as_ref()?).ok()?;
         load::default_plan_space(crs, self.summary.bounds).ok()
+    }
+
+    /// What is wrong with the CRS that the file states, where it cannot be used.
+    pub(super) fn crs_not_read(&self) -> Option<String> {
+        load::crs_of(self.summary.crs_hint.as_ref()?).err().map(|error| error.what().to_owned())
     }
 
     /// What the scene is called after.

@@ -307,3 +307,39 @@ fn heights_beyond_an_extent_of_unknown_length_are_lowered_with_a_word() {
     let folder = Folder::with(&[("dem.asc", &steep), ("dem.prj", UTM)]);
     assert_eq!(parsed(&folder.starter(&["dem.asc"]).unwrap().0).terrain.vertical_scale, 1.0);
 }
+
+#[test]
+fn a_layer_whose_crs_cannot_be_used_stands_there_as_a_comment_that_tells_what_to_do() {
+    let strange = BOTH.replacen('{', r#"{"crs":{"type":"name","properties":{"name":"EPSG:6200"}},"#, 1);
+    let folder =
+        Folder::with(&[("dem.asc", GRID), ("dem.prj", UTM), ("odd.json", &strange), ("both.json", BOTH)]);
+    let (text, notes) = folder.starter(&["dem.asc", "odd.json", "both.json"]).unwrap();
+    let note = notes.iter().find(|note| note.starts_with("layer `odd`: the CRS")).unwrap();
+    assert!(note.contains("cannot be used") && note.contains("ogr2ogr -t_srs"), "{note}");
+    assert_eq!(parsed(&text).layers.iter().map(|layer| &layer.name[..]).collect::<Vec<_>>(), ["both"]);
+    load::load(&parsed(&text), &|_| ()).unwrap();
+    // What the comment has is the layer, as soon as it says its CRS.
+    let (_, rest) = text.split_once("# [[layer]]\n").unwrap();
+    let (commented, others) = rest.split_once("\n\n").unwrap();
+    let table = commented.replace("\n# ", "\n").replacen("# ", "", 1).replace("EPSG:...", "EPSG:32633");
+    let whole = format!("{}[[layer]]\n{table}\n{others}", text.split_once("# [[layer]]\n").unwrap().0);
+    assert_eq!(parsed(&whole).layers[0].crs.as_deref(), Some("EPSG:32633"), "{whole}");
+    load::load(&parsed(&whole), &|_| ()).unwrap();
+    // Without a CRS of the terrain coordinates are taken as they are.
+    let folder = Folder::with(&[("dem.asc", GRID), ("odd.json", &strange)]);
+    let (text, _) = folder.starter(&["dem.asc", "odd.json"]).unwrap();
+    assert_eq!(parsed(&text).layers.len(), 1, "{text}");
+}
+
+#[test]
+fn a_terrain_that_states_a_crs_which_cannot_be_used_gets_no_other_and_says_why() {
+    let odd = UTM.replace("Transverse_Mercator", "Barsoom");
+    let metres = BOTH.replacen('{', r#"{"crs":{"type":"name","properties":{"name":"EPSG:32633"}},"#, 1);
+    let folder = Folder::with(&[("dem.asc", GRID), ("dem.prj", &odd), ("both.json", &metres)]);
+    let (text, _) = folder.starter(&["dem.asc", "both.json"]).unwrap();
+    let line = text.lines().find(|line| line.contains("crs = ")).unwrap();
+    assert!(
+        line.starts_with("# crs = ") && line.contains("cannot be used: the projection 'Barsoom'"),
+        "{line}"
+    );
+}

@@ -1,6 +1,6 @@
 //! The text of a starter scene.
 
-use super::files::{Files, Layer, NOT_DRAWN, Terrain};
+use super::files::{Files, Layer, Terrain};
 use super::framing::{Framing, WIDTH};
 use super::place::Place;
 use super::style::{self, Measures, Widths};
@@ -10,7 +10,7 @@ use crate::cli::info::encoding_name;
 use crate::cli::written::{harmless, quoted_text};
 use drapery::Result;
 use drapery::crs::Crs;
-use drapery::scene::Scene;
+use drapery::scene::{Feature, Scene};
 use drapery::space::{Plan, PlanBox};
 use glam::DVec3;
 use std::path::Path;
@@ -46,18 +46,36 @@ impl Starter<'_> {
         let mut looks = Looks::default();
         let mut drawn = 0;
         for layer in &self.files.layers {
-            if layer.is_drawn() {
-                text += &self.layer(layer, drawn, &mut looks)?;
-                drawn += 1;
-            } else {
-                let source = self.place.quoted(layer.path)?;
-                text += &format!("\n# {}, {source}: {NOT_DRAWN}\n", harmless(&layer.name));
+            match self.left_out(layer) {
+                None => {
+                    text += &self.layer(layer, drawn, &mut looks)?;
+                    drawn += 1;
+                }
+                Some(why) => text += &self.commented(layer, &why, &mut looks)?,
             }
         }
         if drawn == 0 {
             text += NO_LAYER;
         }
         Ok(text)
+    }
+
+    /// Why a layer is left out, where it is.
+    fn left_out(&self, layer: &Layer<'_>) -> Option<String> {
+        if !layer.is_drawn() {
+            return Some("it holds nothing that is drawn, and is left out".into());
+        }
+        let words = layer.summary.crs_not_read.as_ref().filter(|_| self.knows_crs())?;
+        Some(format!(
+            "{words}: it is left out; say as its `crs` in the scene what its coordinates are in (it stands there as a comment), or \
+             reproject it: ogr2ogr -t_srs EPSG:4326 OUT.gpkg FILE"
+        ))
+    }
+
+    /// What to say of layers that are left out.
+    pub(super) fn notes_of_left_out(&self) -> impl Iterator<Item = String> {
+        let told = |layer: &Layer<'_>| Some(format!("layer `{}`: {}", layer.name, self.left_out(layer)?));
+        self.files.layers.iter().filter_map(told)
     }
 
     /// All but the layers.
@@ -134,8 +152,12 @@ shade = "hillshade"
         }
     }
 
-    /// The code of a layer's CRS that the terrain has too, by where the layer lies, and the layer's file.
+    /// The code of a layer's CRS that the terrain has too, by where the layer lies, and the layer's file. Nothing where the terrain
+    /// states another.
     fn guessed_crs(&self) -> Option<(&Path, u32)> {
+        if self.files.terrain.summary.crs_hint.is_some() {
+            return None;
+        }
         let ground = self.files.terrain.bounds;
         self.files.layers.iter().find_map(|layer| {
             let crs = layer.summary.crs.as_ref()?;
@@ -161,29 +183,52 @@ shade = "hillshade"
                 self.place.quoted(path)?
             ),
             None => {
-                "# crs = \"EPSG:...\"                    # the file does not say it: say it if you know\n"
-                    .into()
+                let why = match self.files.terrain.crs_not_read() {
+                    Some(words) => {
+                        format!("what the file says cannot be used: {}; say it if you know", harmless(&words))
+                    }
+                    None => "the file does not say it: say it if you know".into(),
+                };
+                format!("# crs = \"EPSG:...\"                    # {why}\n")
             }
         })
     }
 
     /// The table of a layer, the `number`-th of those that are drawn.
     fn layer(&self, layer: &Layer<'_>, number: usize, looks: &mut Looks) -> Result<String> {
-        let look = looks.of(Theme::of(&layer.name));
-        let widths = self.told.map(|Told { scene, framing, .. }| {
-            let features = scene.layers.get(number).map_or(&[][..], |layer| &layer.features);
-            Widths::of(&look, &Measures::of(features, &framing.plan), framing)
-        });
-        let widths = widths.unwrap_or(Widths { line: 1.0, outline: 1.0, point: 1.0 });
+        let drawn = self.told.and_then(|told| told.scene.layers.get(number));
+        let features = drawn.map_or(&[][..], |layer| &layer.features);
+        let text = self.source_of(layer)? + &self.style(layer, features, looks);
+        Ok(text + &offers(&layer.summary) + &self.notes(&format!("layer `{}`: ", layer.name)))
+    }
+
+    /// A layer that is left out: why, and where it has something to draw its table, as comments.
+    fn commented(&self, layer: &Layer<'_>, why: &str, looks: &mut Looks) -> Result<String> {
         let source = self.place.quoted(layer.path)?;
-        let mut text = format!("\n[[layer]]\nname = {}\nsource = {source}\n", quoted_text(&layer.name));
-        if let Some(layer) = &layer.summary.layer {
-            text += &format!("layer = {}\n", quoted_text(layer));
+        let mut text = format!("\n# {}, {source}: {}\n", harmless(&layer.name), harmless(why));
+        if layer.is_drawn() {
+            let table = self.source_of(layer)? + "crs = \"EPSG:...\"\n" + &self.style(layer, &[], looks);
+            table.lines().filter(|line| !line.is_empty()).for_each(|line| text += &format!("# {line}\n"));
         }
-        text += &style::lines(layer, &look, widths);
-        text += &offers(&layer.summary);
-        text += &self.notes(&format!("layer `{}`: ", layer.name));
         Ok(text)
+    }
+
+    /// The head of a layer's table.
+    fn source_of(&self, layer: &Layer<'_>) -> Result<String> {
+        let source = self.place.quoted(layer.path)?;
+        let text = format!("\n[[layer]]\nname = {}\nsource = {source}\n", quoted_text(&layer.name));
+        let of_a_package =
+            layer.summary.layer.as_ref().map(|layer| format!("layer = {}\n", quoted_text(layer)));
+        Ok(text + &of_a_package.unwrap_or_default())
+    }
+
+    /// How a layer looks.
+    fn style(&self, layer: &Layer<'_>, features: &[Feature], looks: &mut Looks) -> String {
+        let look = looks.of(Theme::of(&layer.name));
+        let widths = self
+            .told
+            .map(|told| Widths::of(&look, &Measures::of(features, &told.framing.plan), told.framing));
+        style::lines(layer, &look, widths.unwrap_or(Widths { line: 1.0, outline: 1.0, point: 1.0 }))
     }
 
     /// What loading said of a part of the scene, as comments.

@@ -151,7 +151,10 @@ fn own_crs(
                 return Err(error.help("say it in the scene: terrain.crs = \"EPSG:...\""));
             }
             Err(error) => {
-                note(format!("{}; its coordinates are taken as they are, in metres", error.what()));
+                note(format!(
+                    "{}: its coordinates are taken as they are, in metres (`terrain.crs` says another CRS)",
+                    error.what()
+                ));
                 None
             }
         },

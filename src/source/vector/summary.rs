@@ -36,6 +36,8 @@ pub struct VectorSummary {
     pub bounds: PlanBox,
     /// The CRS the file states.
     pub crs: Option<Crs>,
+    /// What is wrong with the CRS the file states, where it cannot be used.
+    pub crs_not_read: Option<String>,
     /// Its columns of attributes, in the file's order.
     pub columns: Vec<ColumnSummary>,
     /// What the user should know.
@@ -86,12 +88,8 @@ fn summary(
         vertices: found.stored_vertices,
         bounds: PlanBox::around(parts().flatten().copied()),
         crs: found.crs,
+        crs_not_read: found.crs_not_read,
         columns: found.attributes.into_summaries(),
-        notes: found
-            .notes
-            .into_iter()
-            .chain(found.crs_not_read)
-            .chain(doubts.into_iter().flatten())
-            .collect(),
+        notes: found.notes.into_iter().chain(doubts.into_iter().flatten()).collect(),
     }
 }
