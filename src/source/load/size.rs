@@ -2,6 +2,7 @@
 
 use crate::overlay::union_border;
 use crate::scene::{Rule, Shape};
+use crate::source::vector::{inner_point, signed_area};
 use crate::space::{Plan, PlanBox};
 
 /// The length of a shape's polylines, or of its rings: the sum over the segments in their order.
@@ -38,7 +39,7 @@ pub(super) fn area(rings: &[Vec<Plan>], rule: Rule) -> f64 {
         rings.iter().map(|ring| Ring::new(ring)).filter(|r| r.area != 0.0).collect();
     rings.sort_by(|a, b| b.area.abs().total_cmp(&a.area.abs()));
     let enclosed = |(at, ring): (usize, &Ring<'_>)| {
-        let around: i32 = match ring.inner_point() {
+        let around: i32 = match inner_point(ring.points) {
             Some(p) => rings[..at].iter().map(|larger| larger.turns_around(p)).sum(),
             None => 0,
         };
@@ -58,14 +59,7 @@ struct Ring<'a> {
 
 impl<'a> Ring<'a> {
     fn new(points: &'a [Plan]) -> Self {
-        let twice = match points {
-            // From the first corner on, so that far away from the origin nothing cancels.
-            [first, rest @ ..] => {
-                rest.windows(2).map(|pair| (pair[0] - *first).perp_dot(pair[1] - *first)).sum::<f64>()
-            }
-            [] => 0.0,
-        };
-        Self { points, area: 0.5 * twice, bounds: PlanBox::around(points.iter().copied()) }
+        Self { points, area: 0.5 * signed_area(points), bounds: PlanBox::around(points.iter().copied()) }
     }
 
     fn edges(&self) -> impl Iterator<Item = (Plan, Plan)> {
@@ -77,16 +71,6 @@ impl<'a> Ring<'a> {
     fn crossings(&self, y: f64) -> impl Iterator<Item = (Plan, Plan, f64)> {
         let crossing = self.edges().filter(move |(a, b)| (a.y <= y) != (b.y <= y));
         crossing.map(move |(a, b)| (a, b, a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x)))
-    }
-
-    /// The middle of the widest piece of the ring's inside at half its height.
-    fn inner_point(&self) -> Option<Plan> {
-        let y = 0.5 * self.bounds.min.y + 0.5 * self.bounds.max.y;
-        let mut at: Vec<f64> = self.crossings(y).map(|(_, _, x)| x).collect();
-        at.sort_by(f64::total_cmp);
-        let pieces = at.chunks_exact(2).map(|piece| (piece[1] - piece[0], 0.5 * piece[0] + 0.5 * piece[1]));
-        let widest = pieces.max_by(|a, b| a.0.total_cmp(&b.0))?;
-        Some(Plan::new(widest.1, y))
     }
 
     /// How often the ring turns around a point, against the clock.

@@ -3,8 +3,6 @@
 //! By the wiki's *Map features* and the lists that renderers keep: keys that stand for areas, but for some of their values. What
 //! says `area=yes` or `area=no` is as it says; roads, railways and barriers that run in a circle are lines.
 
-use super::block::Tags;
-
 /// Keys whose closed ways are areas, and the values that are lines all the same.
 const AREAS: [(&str, &[&str]); 22] = [
     ("aeroway", &["taxiway"]),
@@ -43,8 +41,8 @@ const MORE: [(&str, &[&str]); 4] = [
 const LINES: [&str; 3] = ["highway", "railway", "barrier"];
 
 /// Whether a closed way with these tags is an area.
-pub(super) fn is_area(tags: &Tags<'_>) -> bool {
-    let value = |key: &str| tags.iter().find(|(own, _)| *own == key).map(|(_, value)| *value);
+pub(super) fn is_area<S: AsRef<str>>(tags: &[(S, S)]) -> bool {
+    let value = |key: &str| tags.iter().find(|(own, _)| own.as_ref() == key).map(|(_, value)| value.as_ref());
     let among = |list: &[(&str, &[&str])], is_listed: bool| {
         list.iter().any(|(key, values)| value(key).is_some_and(|value| values.contains(&value) == is_listed))
     };
@@ -61,7 +59,7 @@ mod tests {
 
     #[test]
     fn tags_tell_areas_from_lines_that_run_in_a_circle() {
-        let is = |tags: &[(&'static str, &'static str)]| is_area(&tags.to_vec());
+        let is = |tags: &[(&'static str, &'static str)]| is_area(tags);
         for area in [
             &[("building", "yes")][..],
             &[("natural", "water")],

@@ -26,6 +26,7 @@ pub(super) struct Way<'a> {
 
 /// A relation, of its members the ways: the id, and the role.
 pub(super) struct Relation<'a> {
+    pub(super) id: i64,
     pub(super) tags: Tags<'a>,
     pub(super) ways: Vec<(i64, &'a [u8])>,
 }
@@ -68,6 +69,15 @@ impl<'a> Block<'a> {
             }
         }
         Ok(())
+    }
+
+    /// Whether it has nodes, and whether it has ways.
+    pub(super) fn kinds(&self) -> (bool, bool) {
+        let has = |kinds: &[u64]| {
+            let mut fields = self.groups.iter().flat_map(|group| Fields::of(group).flatten());
+            fields.any(|(number, _)| kinds.contains(&number))
+        };
+        (has(&[1, 2]), has(&[3]))
     }
 
     /// Calls with each node: its id, its place, and whether it has tags.
@@ -148,8 +158,10 @@ impl<'a> Block<'a> {
     pub(super) fn relations(&self, mut take: impl FnMut(Relation<'a>) -> Result<()>) -> Result<()> {
         self.each(4, |element| {
             let [mut keys, mut values, mut roles, mut ids, mut kinds] = [&[][..]; 5];
+            let mut id = 0;
             for field in Fields::of(element) {
                 match field.ok_or_else(cut)? {
+                    (1, Value::Number(number)) => id = number.cast_signed(),
                     (2, Value::Bytes(bytes)) => keys = bytes,
                     (3, Value::Bytes(bytes)) => values = bytes,
                     (8, Value::Bytes(bytes)) => roles = bytes,
@@ -160,14 +172,14 @@ impl<'a> Block<'a> {
             }
             let mut ways = Vec::new();
             let (mut roles, mut kinds) = (packed(roles), packed(kinds));
-            for id in differences(ids) {
+            for member in differences(ids) {
                 let told = roles.next().flatten().zip(kinds.next().flatten());
-                let ((role, kind), id) = told.zip(id).ok_or_else(cut)?;
+                let ((role, kind), member) = told.zip(member).ok_or_else(cut)?;
                 if kind == WAY {
-                    ways.push((id, self.string(role)?));
+                    ways.push((member, self.string(role)?));
                 }
             }
-            take(Relation { tags: self.tags(keys, values)?, ways })
+            take(Relation { id, tags: self.tags(keys, values)?, ways })
         })
     }
 

@@ -88,12 +88,12 @@ impl Block {
         self.groups.extend(bytes(2, &bytes(3, &way)));
     }
 
-    fn relation(&mut self, tags: Tags<'_>, ways: &[(i64, &str)]) {
+    fn relation(&mut self, id: u64, tags: Tags<'_>, ways: &[(i64, &str)]) {
         let roles: Vec<u64> = ways.iter().map(|(_, role)| self.string(role)).collect();
         let ids: Vec<i64> = ways.iter().map(|(id, _)| *id).collect();
         let kinds = ways.iter().map(|_| 1);
         let relation =
-            [number(1, 1), self.tags(tags), packed(8, roles), differences(9, &ids), packed(10, kinds)];
+            [number(1, id), self.tags(tags), packed(8, roles), differences(9, &ids), packed(10, kinds)];
         self.groups.extend(bytes(2, &bytes(4, &relation.concat())));
     }
 
@@ -140,12 +140,13 @@ fn town() -> Block {
     block.way(14, &[("highway", "path")], &[1, 2, 999, 3, 100]);
     block.way(15, &[("building", "yes")], &[1, 2, 999, 1]);
     block.relation(
+        20,
         &[("type", "multipolygon"), ("natural", "water")],
         &[(10, "outer"), (12, "inner"), (11, "outer")],
     );
-    block.relation(&[("type", "multipolygon"), ("natural", "wood")], &[(10, "outer"), (77, "outer")]);
-    block.relation(&[("type", "route"), ("ref", "1")], &[(13, "")]);
-    block.relation(&[("type", "multipolygon")], &[(12, "outer")]);
+    block.relation(21, &[("type", "multipolygon"), ("natural", "wood")], &[(10, "outer"), (77, "outer")]);
+    block.relation(22, &[("type", "route"), ("ref", "1")], &[(13, "")]);
+    block.relation(23, &[("type", "multipolygon")], &[(77, "outer")]);
     block
 }
 
@@ -186,7 +187,7 @@ fn ways_are_lines_closed_ones_areas_by_their_tags_and_multipolygons_rings() {
             [
                 "1 point left out: nodes with tags are not drawn",
                 "2 ways lack nodes that the file does not hold: lines end there, areas are left out",
-                "1 areas of relations lack ways or nodes that the file does not hold, or do not close: left out",
+                "1 area lacking ways or nodes that the file does not hold, left out (relation 21)",
             ]
         );
     }
@@ -238,4 +239,161 @@ fn a_blob_that_unpacks_to_more_than_the_format_allows_is_refused() {
         refusal("a.pbf", &[header("DenseNodes"), bomb].concat())
             .contains("more bytes than the format allows")
     );
+}
+
+/// A file of one block.
+fn read_block(block: &Block, columns: &[&str]) -> VectorFile {
+    let bytes = [header("DenseNodes"), blob("OSMData", &block.content(), true)].concat();
+    let (_folder, path) = file("a.osm.pbf", &bytes);
+    read_columns(&path, None, &columns.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>()).unwrap()
+}
+
+/// Closed ways around squares with these corners and sides, way `k` over nodes `10 k` to `10 k + 3`; every second one runs with the clock.
+fn squares(tagged: &[Tags<'_>], squares: &[(f64, f64, f64)]) -> Block {
+    let mut block = Block::default();
+    for (k, (x, y, side)) in squares.iter().enumerate() {
+        let first = 10 * k as i64;
+        let mut ids: Vec<i64> = (first..first + 4).chain([first]).collect();
+        for (id, (dx, dy)) in ids.iter().zip([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]) {
+            block.node((*id, x + dx * side, y + dy * side));
+        }
+        if k % 2 == 1 {
+            ids.reverse();
+        }
+        block.way(k as u64, tagged.get(k).copied().unwrap_or(&[]), &ids);
+    }
+    block
+}
+
+/// The first corner and the turn (1: against the clock) of the rings of each member.
+fn members(shape: &Shape) -> Vec<Vec<(f64, f64, i8)>> {
+    let told = |rings: &Vec<Vec<Plan>>| -> Vec<(f64, f64, i8)> {
+        let ring = |ring: &Vec<Plan>| {
+            let low = crate::space::PlanBox::around(ring.iter().copied()).min;
+            (low.x, low.y, rings::signed_area(ring).signum() as i8)
+        };
+        rings.iter().map(ring).collect()
+    };
+    match shape {
+        Shape::Polygon(rings) => vec![told(rings)],
+        Shape::MultiPolygon(members) => members.iter().map(told).collect(),
+        _ => panic!("no area"),
+    }
+}
+
+const LAKE: Tags<'_> = &[("type", "multipolygon"), ("natural", "water")];
+
+#[test]
+fn rings_of_a_multipolygon_are_members_with_their_holes_and_turn_so() {
+    // Two shores, an island in the first, a pond on it, and a second island that touches the first along a side.
+    let places = [(0.0, 0.0, 8.0), (20.0, 0.0, 4.0), (1.0, 1.0, 4.0), (2.0, 2.0, 1.0), (5.0, 1.0, 2.0)];
+    let roles = ["outer", "outer", "inner", "outer", "inner"];
+    for is_told in [true, false] {
+        let mut block = squares(&[], &places);
+        let ways: Vec<(i64, &str)> =
+            (0..5).rev().map(|k| (k, if is_told { roles[k as usize] } else { "" })).collect();
+        block.relation(1, LAKE, &ways);
+        let read = read_block(&block, &[]);
+        let mut found = members(&read.features[0].shape);
+        found.sort_by(|a, b| a[0].partial_cmp(&b[0]).unwrap());
+        found.iter_mut().for_each(|rings| rings[1..].sort_by(|a, b| a.partial_cmp(b).unwrap()));
+        let shore = vec![(0.0, 0.0, 1), (1.0, 1.0, -1), (5.0, 1.0, -1)];
+        assert_eq!(found, [shore, vec![(2.0, 2.0, 1)], vec![(20.0, 0.0, 1)]], "{is_told}");
+        assert_eq!(read.notes, [""; 0], "{is_told}");
+    }
+}
+
+#[test]
+fn roles_that_rings_contradict_are_not_followed_and_told() {
+    let places = [(0.0, 0.0, 8.0), (1.0, 1.0, 4.0)];
+    for roles in [["inner", "outer"], ["outer", "outer"], ["inner", "inner"]] {
+        let mut block = squares(&[], &places);
+        block.relation(7, LAKE, &[(0, roles[0]), (1, roles[1])]);
+        let read = read_block(&block, &[]);
+        assert_eq!(members(&read.features[0].shape), [[(0.0, 0.0, 1), (1.0, 1.0, -1)]]);
+        assert_eq!(
+            read.notes,
+            [
+                "1 area with roles that are not how the rings lie in one another: the rings are followed (relation 7)"
+            ]
+        );
+    }
+}
+
+#[test]
+fn a_way_that_is_listed_twice_bounds_its_area_once() {
+    let mut block = squares(&[], &[(0.0, 0.0, 8.0)]);
+    block.relation(7, LAKE, &[(0, "outer"), (0, "outer")]);
+    assert_eq!(members(&read_block(&block, &[]).features[0].shape), [[(0.0, 0.0, 1)]]);
+}
+
+#[test]
+fn areas_that_do_not_close_are_told_by_their_ids() {
+    let mut block = town();
+    for id in 30..35 {
+        block.relation(id, LAKE, &[(10, "outer")]);
+    }
+    let notes = read_block(&block, &[]).notes;
+    assert!(
+        notes.contains(
+            &"5 areas whose ways do not close to rings, left out (relations 30, 31, 32, ...)".to_owned()
+        ),
+        "{notes:?}"
+    );
+}
+
+#[test]
+fn a_relation_without_tags_has_those_of_its_outer_ways_which_are_nothing_themselves() {
+    let wood: Tags<'_> = &[("landuse", "forest"), ("name", "old")];
+    let pond: Tags<'_> = &[("natural", "water")];
+    let places = [(0.0, 0.0, 8.0), (1.0, 1.0, 2.0), (4.0, 4.0, 2.0), (20.0, 0.0, 1.0)];
+    let read_with = |tags: [Tags<'_>; 4], own: Tags<'_>| {
+        let mut block = squares(&tags, &places);
+        block.relation(9, own, &[(0, "outer"), (1, "inner"), (2, "inner"), (3, "outer")]);
+        let read = read_block(&block, &["landuse", "name", "osm_id", "osm_type"]);
+        let value = |name: &str, feature: &Feature| {
+            let column = read.columns.iter().find(|column| column.name == name);
+            column.map_or(Attribute::Null, |column| column.value(feature.index).clone())
+        };
+        let told = |f: &Feature| {
+            (value("osm_id", f), value("landuse", f), value("name", f), members(&f.shape).len())
+        };
+        read.features.iter().map(told).collect::<Vec<_>>()
+    };
+    let (text, none) = (|text: &str| Attribute::Text(text.into()), Attribute::Null);
+    let id = Attribute::Integer;
+    let untold: Tags<'_> = &[("type", "multipolygon"), ("source", "survey")];
+    // An inner way with the very tags is but a hole, one with others a feature of its own.
+    let new = [&wood[..1], &wood[..1], pond, wood];
+    assert_eq!(
+        read_with(new, untold),
+        [(id(2), none.clone(), none.clone(), 1), (id(9), text("forest"), none.clone(), 2)]
+    );
+    // Outer ways that share no area, or have none, stay what they are.
+    assert_eq!(
+        read_with([wood, &[], &[], pond], untold),
+        [(id(0), text("forest"), text("old"), 1), (id(3), none.clone(), none.clone(), 1)]
+    );
+    // A relation with tags has its own, and its ways keep theirs.
+    let named = read_with([wood, &[], &[], &[]], LAKE);
+    assert_eq!(named, [(id(0), text("forest"), text("old"), 1), (id(9), none.clone(), none, 2)]);
+}
+
+#[test]
+fn a_broken_relation_takes_no_tags_from_its_ways() {
+    let mut block = squares(&[&[("landuse", "forest")]], &[(0.0, 0.0, 8.0)]);
+    block.relation(9, &[("type", "multipolygon")], &[(0, "outer"), (99, "inner")]);
+    let read = read_block(&block, &[]);
+    assert_eq!((read.features.len(), read.notes.len()), (1, 1), "{:?}", read.notes);
+}
+
+#[test]
+fn elements_have_their_id_and_type_as_columns_whatever_their_tags_say() {
+    let mut block =
+        squares(&[&[("building", "yes"), ("osm_id", "5"), ("osm_type", "x")]], &[(0.0, 0.0, 8.0)]);
+    block.relation(0, LAKE, &[(0, "outer")]);
+    let read = read_block(&block, &["osm_id", "osm_type"]);
+    let values: Vec<&[Attribute]> = read.columns.iter().map(|column| &column.values[..]).collect();
+    let kinds = ["way", "relation"].map(|kind| Attribute::Text(kind.into()));
+    assert_eq!(values, [&[Attribute::Integer(0), Attribute::Integer(0)][..], &kinds[..]]);
 }
