@@ -25,6 +25,7 @@
 mod build;
 mod by_column;
 mod canon;
+mod case_study;
 mod check;
 mod keys;
 mod names;
@@ -43,6 +44,7 @@ pub use by_column::{
     Bounds, ByColumn, Condition, FillSpec, LineSpec, Order, OrderKey, OutlineSpec, PaintSpec, Scale,
     StyleSetting, StyleSpec, Test, WidthSpec,
 };
+pub use case_study::{Amount, DataGroup, Group, Study};
 pub use keys::SCHEMA;
 pub use overrides::Override;
 pub use schema::schema;

@@ -46,6 +46,7 @@ words! {
         Paths = "paths",
         Mosaic = "mosaic",
         Parcels = "parcels",
+        CaseStudy = "case-study",
     }
 }
 

@@ -1,6 +1,7 @@
 //! What a scene file says, as plain data: checked, but no file that it names has been opened.
 
 use super::by_column::{Condition, Order, OrderKey, StyleSpec};
+use super::case_study::{DataGroup, Study};
 use crate::error::Position;
 use crate::parameter::words;
 use crate::scene::{
@@ -287,7 +288,7 @@ pub struct VectorGenerator {
     pub kind: VectorKind,
     /// Picks the shapes.
     pub seed: u64,
-    /// How many segments (roads, paths) or polygons (parcels; mosaic, before its classes are told apart).
+    /// How many segments (roads, paths) or polygons (parcels; mosaic, before its classes are told apart); a case study says itself how many.
     pub count: usize,
     /// The rectangle x0, y0, x1, y1 of the plan to fill; `None`: the terrain's.
     pub window: Option<[f64; 4]>,
@@ -314,5 +315,14 @@ pub enum VectorKind {
         class: Option<(u32, u32)>,
         /// The share of polygons with a hole, 0..=1.
         holes: f64,
+    },
+    /// Data like a case study's of Zechmeister 2020, 5.1.
+    CaseStudy {
+        /// The study.
+        study: Study,
+        /// Which of its groups.
+        data: &'static DataGroup,
+        /// How much of it: 1 is as much as there, on the same window all the denser.
+        scale: f64,
     },
 }

@@ -64,6 +64,9 @@ line = { color = "#ff7f00", width_px = 3 }
 [[layer]]
 generate = { kind = "mosaic", class = [0, 3], holes = 0.2 }
 fill = { color = "#112233", invert = true }
+[[layer]]
+generate = { kind = "case-study", study = "graz", group = "roads", scale = 0.25, seed = 9 }
+line = { color = "#112233", width_m = 3 }
 [technique.clipmap]
 virtual_size = 4096
 clip_size = 512
@@ -517,6 +520,26 @@ fn another_schema_number_says_which_one_this_program_reads() {
 }
 
 #[test]
+fn a_generated_layer_has_the_keys_of_its_kind_alone() {
+    for (generator, said) in [
+        (r#"kind = "roads", holes = 0.5"#, "`holes` goes with kind = \"mosaic\" only"),
+        (r#"kind = "mosaic", segment_m = 5"#, "`segment_m` goes with kind = \"roads\" or \"paths\" only"),
+        (r#"kind = "parcels", study = "rc""#, "`study` goes with kind = \"case-study\" only"),
+        (r#"kind = "case-study", study = "rc", count = 5"#, "`count` goes with other kinds"),
+        (r#"kind = "case-study""#, "goes with a `study`\n"),
+        (r#"kind = "case-study", study = "austria""#, "must be \"il\" or"),
+        (r#"kind = "case-study", study = "rc", scale = 9"#, "`layer.0.generate.scale`"),
+        (r#"kind = "case-study", study = "rc", group = "floods""#, "study `rc` has no group `floods`"),
+    ] {
+        let text = format!(
+            "schema = 1\nterrain.generate = {{ kind = \"plane\" }}\n[[layer]]\ngenerate = {{ {generator} }}\nfill = {{ color = \"#123\" }}"
+        );
+        let error = parse(&text).expect_err(&text).to_string();
+        assert!(error.contains(said), "{generator}\n{error}");
+    }
+}
+
+#[test]
 fn two_layers_of_one_name_are_refused() {
     let error = layer(
         "fill = { color = \"#000000\" }\n[[layer]]\nsource = \"b/a.fgb\"\nfill = { color = \"#000000\" }",
@@ -577,7 +600,7 @@ fn an_error_in_an_override_names_the_override() {
             "override `image.width=0`: `image.width` must be a whole number from 1 to 65536; found 0",
         ),
         ("image.width.x=0", "64 has no part `x`"),
-        ("layer.9.name=a", "there is no number 9: there are 5, counted from 0"),
+        ("layer.9.name=a", "there is no number 9: there are 6, counted from 0"),
         ("layer.roda.name=a", "help: did you mean `roads`?"),
         ("layer.lake.name=a", "help: did you mean `lakes`?"),
         ("image.wall=", "there is no `wall` to remove"),

@@ -4,7 +4,9 @@ use super::by_column::{conditions, order};
 use super::style::style;
 use super::{data_file, rectangle, stem};
 use crate::error::Result;
+use crate::parameter::Named;
 use crate::scene::Shape;
+use crate::scene_file::case_study::{Group, Study};
 use crate::scene_file::names::VectorName;
 use crate::scene_file::section::{Section, Taken, as_scalar, bug};
 use crate::scene_file::spec::{InlineFeature, LayerSource, LayerSpec, VectorGenerator, VectorKind};
@@ -98,18 +100,23 @@ fn open(mut ring: Vec<Plan>) -> Vec<Plan> {
     ring
 }
 
+/// Keys that some kinds of generator alone have, those kinds, and how they are told.
+const GENERATOR_KEYS: [(&[&str], &[VectorName], &str); 4] = [
+    (&["class", "holes"], &[VectorName::Mosaic], "kind = \"mosaic\" only"),
+    (&["segment_m"], &[VectorName::Roads, VectorName::Paths], "kind = \"roads\" or \"paths\" only"),
+    (&["study", "group", "scale"], &[VectorName::CaseStudy], "kind = \"case-study\" only"),
+    (
+        &["count"],
+        &[VectorName::Roads, VectorName::Paths, VectorName::Mosaic, VectorName::Parcels],
+        "other kinds than \"case-study\" only, which has `scale`",
+    ),
+];
+
 fn generator(section: &mut Section<'_>) -> Result<VectorGenerator> {
     let name = section.name("kind")?.unwrap_or(VectorName::Roads);
-    let foreign: &[(&[&str], &str)] = match name {
-        VectorName::Roads | VectorName::Paths => &[(&["class", "holes"], "kind = \"mosaic\" only")],
-        VectorName::Mosaic => &[(&["segment_m"], "kind = \"roads\" or \"paths\" only")],
-        VectorName::Parcels => &[
-            (&["class", "holes"], "kind = \"mosaic\" only"),
-            (&["segment_m"], "kind = \"roads\" or \"paths\" only"),
-        ],
-    };
-    for (keys, with) in foreign {
-        if let Some((key, place)) = section.first_of(keys) {
+    for (keys, of, with) in GENERATOR_KEYS {
+        let foreign = if of.contains(&name) { None } else { section.first_of(keys) };
+        if let Some((key, place)) = foreign {
             return Err(section.error_at(place, format!("`{key}` goes with {with}")));
         }
     }
@@ -117,6 +124,7 @@ fn generator(section: &mut Section<'_>) -> Result<VectorGenerator> {
         VectorName::Roads => VectorKind::Roads { segment_m: section.number("segment_m")? },
         VectorName::Paths => VectorKind::Paths { segment_m: section.number("segment_m")? },
         VectorName::Parcels => VectorKind::Parcels,
+        VectorName::CaseStudy => case_study(section)?,
         VectorName::Mosaic => {
             VectorKind::Mosaic { class: class(section)?, holes: section.number("holes")?.unwrap_or(0.1) }
         }
@@ -127,6 +135,27 @@ fn generator(section: &mut Section<'_>) -> Result<VectorGenerator> {
         count: count(section, name)?,
         window: rectangle(section, "window")?,
     })
+}
+
+/// Which data of which study, and how much of it.
+fn case_study(section: &mut Section<'_>) -> Result<VectorKind> {
+    let Some(study) = section.name::<Study>("study")? else {
+        let words: Vec<&str> = Study::NAMES.iter().map(|(word, _)| *word).collect();
+        let error = section.error_at(section.place(), "`kind = \"case-study\"` goes with a `study`");
+        return Err(error.help(format!("say which: {}", words.join(", "))));
+    };
+    let named =
+        section.text_at("group")?.and_then(|taken| Some((Group::from_name(&taken.value)?, taken.place)));
+    let data = match named {
+        None => &study.groups()[0],
+        Some((group, place)) => study.group(group).ok_or_else(|| {
+            let words: Vec<&str> = study.groups().iter().map(|data| data.group.word()).collect();
+            let error =
+                section.error_at(&place, format!("study `{}` has no group `{}`", study.word(), group.word()));
+            error.help(format!("it has {}", words.join(", ")))
+        })?,
+    };
+    Ok(VectorKind::CaseStudy { study, data, scale: section.number("scale")?.unwrap_or(0.01) })
 }
 
 /// Polygons have many vertices each: fewer of them fit into memory than segments of roads.

@@ -4,8 +4,12 @@ use super::by_column::{COLOR, CONDITION, OPACITY, ORDER, ORDER_NAME, WIDTH};
 use super::{POSITIVE, SEED, SHARE};
 use crate::parameter::{Range, Rule as Keys, Shape, TableShape, choice, key};
 use crate::scene::{Cap, OutlineMode, Rule};
+use crate::scene_file::case_study::{Group, Study};
 use crate::scene_file::names::{JoinName, VectorName};
 use crate::scene_file::spec::Edges;
+
+/// How many times as much as a whole case study a layer may hold.
+const MOST_OF_A_STUDY: f64 = 8.0;
 
 pub(super) static LAYER: TableShape = TableShape {
     keys: &[
@@ -94,6 +98,13 @@ static GENERATE_LAYER: TableShape = TableShape {
             "mosaic: [k, n]: only class k (from 0) of n classes. Default: all.",
         ),
         key("holes", SHARE, "mosaic: the share of polygons with a lake as a hole. Default: 0.1."),
+        key("study", choice::<Study>(), "case-study: which of Zechmeister 2020, 5.1."),
+        key("group", choice::<Group>(), "case-study: which of its data groups. Default: the lowest."),
+        key(
+            "scale",
+            Shape::Number(Range::UpTo(MOST_OF_A_STUDY)),
+            "case-study: how much of the study's data, 1 is all; at most 8. Default: 0.01.",
+        ),
     ],
     rules: &[],
 };

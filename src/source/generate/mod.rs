@@ -4,6 +4,9 @@
 //! features of a rectangle of the plan. Refuses nothing that a scene file can say, but numbers whose products
 //! overflow.
 
+mod apportion;
+mod case_study;
+mod jagged;
 mod mosaic;
 mod noise;
 mod parcels;
@@ -35,18 +38,27 @@ pub fn features(generator: &VectorGenerator, terrain: PlanBox) -> Vec<Feature> {
         VectorKind::Paths { segment_m } => paths::paths(generator, segment_m, window),
         VectorKind::Parcels => parcels::parcels(generator, window),
         VectorKind::Mosaic { class, holes } => mosaic::mosaic(generator, class, holes, window),
+        VectorKind::CaseStudy { study, data, scale } => {
+            case_study::shapes(study, data, scale, generator.seed, window)
+        }
     };
     shapes.into_iter().enumerate().map(|(index, shape)| Feature { index, style: 0, shape }).collect()
 }
 
-/// The column of attributes that the generator's features have: the `class` of a mosaic's polygons, as [`features`] numbers
-/// them, with the same arguments.
-pub fn column(generator: &VectorGenerator, terrain: PlanBox) -> Option<Column> {
-    let VectorKind::Mosaic { class, .. } = generator.kind else {
-        return None;
-    };
-    let classes = mosaic::classes(generator, class, window(generator, terrain));
-    Some(Column { name: "class".into(), values: classes.into_iter().map(Attribute::Integer).collect() })
+/// The columns of attributes that the generator's `features` have: the `class` of a mosaic's polygons, the `class` and `area_m2` of a case study's;
+/// `features` are those that [`features()`] made of the same arguments.
+pub fn columns(generator: &VectorGenerator, terrain: PlanBox, features: &[Feature]) -> Vec<Column> {
+    match generator.kind {
+        VectorKind::Mosaic { class, .. } => {
+            let classes = mosaic::classes(generator, class, window(generator, terrain));
+            vec![Column {
+                name: "class".into(),
+                values: classes.into_iter().map(Attribute::Integer).collect(),
+            }]
+        }
+        VectorKind::CaseStudy { data, .. } => case_study::columns(data, generator.seed, features),
+        VectorKind::Roads { .. } | VectorKind::Paths { .. } | VectorKind::Parcels => Vec::new(),
+    }
 }
 
 /// The rectangle to fill.

@@ -1,5 +1,6 @@
 //! Land use: polygons that share their edges exactly.
 
+use super::jagged::jagged;
 use super::random::{at, scramble, signed, unit};
 use crate::math::{cos, sin};
 use crate::scene::Shape;
@@ -116,23 +117,13 @@ impl Grid {
         self.edge(self.corner(column, row), self.corner(column, row + 1), self.hash(5, column, row), straight)
     }
 
-    /// Displaces middles of middles to the side, each time half as far.
+    /// A jagged way.
     fn edge(&self, from: Plan, to: Plan, hash: u64, straight: bool) -> Vec<Plan> {
         if straight {
             return vec![from];
         }
-        let mut vertices = vec![from; PIECES + 1];
-        vertices[PIECES] = to;
-        let mut step = PIECES;
-        while step > 1 {
-            for middle in (step / 2..PIECES).step_by(step) {
-                let (a, b) = (vertices[middle - step / 2], vertices[middle + step / 2]);
-                let side = 0.16 * signed(scramble(hash ^ middle as u64));
-                vertices[middle] = a + (b - a) * 0.5 + (b - a).perp() * side;
-            }
-            step /= 2;
-        }
-        vertices.pop();
+        let mut vertices = Vec::with_capacity(PIECES);
+        jagged(&mut vertices, (from, to), PIECES, 0.16, hash);
         vertices
     }
 

@@ -81,7 +81,8 @@ pub(super) fn direction(random: &mut Sequence) -> DVec2 {
     normalized(DVec2::new(random.signed(), random.signed())).unwrap_or(DVec2::X)
 }
 
-fn normalized(v: DVec2) -> Option<DVec2> {
+/// A vector's direction; `None` for that of no length.
+pub(super) fn normalized(v: DVec2) -> Option<DVec2> {
     let length = (v.x * v.x + v.y * v.y).sqrt();
     (length > 0.0).then(|| DVec2::new(v.x / length, v.y / length))
 }

@@ -114,8 +114,9 @@ fn generated<'a>(
     let generator = VectorGenerator { window: generator.window.map(local), ..*generator };
     let features = generate::features(&generator, terrain.bounds);
     let is_asked = !spec.columns().is_empty();
-    let column = is_asked.then(|| generate::column(&generator, terrain.bounds)).flatten();
-    let columns = Columns::of_generator(column.into_iter().collect(), scene);
+    let columns =
+        if is_asked { generate::columns(&generator, terrain.bounds, &features) } else { Vec::new() };
+    let columns = Columns::of_generator(columns, scene);
     Found { features, columns, map: Map::AsIs, shift: spec.offset }
 }
 
