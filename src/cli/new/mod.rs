@@ -3,6 +3,7 @@
 mod files;
 mod framing;
 mod place;
+mod rounding;
 mod style;
 mod text;
 mod theme;

@@ -1,7 +1,8 @@
 //! The style of a layer in a starter scene: colours by what it shows, widths by what the camera shows.
 
 use super::files::Layer;
-use super::framing::{Framing, two_digits};
+use super::framing::Framing;
+use super::rounding::two_digits;
 use super::theme::{Look, Theme, shaded, written};
 use crate::cli::written::{key, quoted_text};
 use drapery::math::{max, min};
