@@ -150,6 +150,33 @@ fn edge_normals_with_the_pedal_rule_agree_with_the_winding_number_along_a_straig
     assert_eq!(by(PointInPolygon::EdgeNormals).image, by(PointInPolygon::Winding).image);
 }
 
+/// The pixels of a picture, 16 m wide, that are black by one rule alone.
+fn seam(layer: &dyn Fn() -> Layer) -> usize {
+    let by = |point_in_polygon| ascii(&nadir(16, vec![layer()], Settings { point_in_polygon, ..exact() }));
+    let (normals, winding) = (by(PointInPolygon::EdgeNormals).concat(), by(PointInPolygon::Winding).concat());
+    let differ = normals.bytes().zip(winding.bytes()).filter(|(a, b)| a != b);
+    differ.inspect(|(normals, winding)| assert!(normals > winding, "{normals} {winding}")).count()
+}
+
+/// Code A sums over all edges of an item in the pixel: those of another part, in the middle of what is covered, count against it.
+#[test]
+fn parts_of_one_item_that_overlap_without_being_united_have_a_seam_by_edge_normals_and_none_by_winding() {
+    let disc = Line { color: BLACK, width: Width::Metres(8.0), join: Join::Round, cap: Cap::Round };
+    let dots = |points: &[(f64, f64)]| {
+        layer(Shape::Points(plan(points)), Style { point: Some(disc), ..Style::default() })
+    };
+    assert!(seam(&|| dots(&[(-2.0, 0.0), (2.0, 0.3)])) >= 8);
+    let square = |x0: f64, x1: f64| vec![plan(&[(x0, -5.3), (x1, -5.3), (x1, 5.4), (x0, 5.4)])];
+    let members = |x: f64| {
+        let fill = Fill { color: BLACK, rule: Rule::EvenOdd };
+        let shape = Shape::MultiPolygon(vec![square(-5.3, 0.3), square(x, 5.4)]);
+        layer(shape, Style { fill: Some(fill), ..Style::default() })
+    };
+    assert_eq!(seam(&|| members(0.3)), 0, "an edge that is shared is none");
+    let apart = seam(&|| members(0.3_f64.next_up()));
+    assert!((8..=16).contains(&apart), "a seam one pixel wide: {apart}");
+}
+
 #[test]
 fn plan_points_on_a_plane_and_a_ramp_are_those_of_the_closed_form() {
     let perspective = Projection::Perspective { fov_y_deg: 50.0 };
