@@ -1,11 +1,11 @@
-//! A run that is killed at any moment leaves nothing that the next run to the same place does not clear.
+//! A run that is killed or interrupted at any moment leaves nothing that the next run to the same place does not clear.
 #![cfg(feature = "cli")]
 #![allow(clippy::unwrap_used, reason = "helpers of tests are no tests to the lint")]
 
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::Instant;
 
 const SCENE: &str = r##"
@@ -53,44 +53,89 @@ fn all_below(folder: &Path) -> BTreeSet<PathBuf> {
     found
 }
 
-/// Kills runs at moments from their begin to their end, into one place, then lets one run to its end.
-#[allow(clippy::disallowed_methods, reason = "a run is killed at shares of the time that it takes")]
-fn kill_then_run(arguments: &[&str]) {
+/// On Unix: SIGKILL, which nothing can answer. The run may have ended.
+fn kill(run: &mut Child) {
+    run.kill().unwrap();
+}
+
+/// Stops runs at moments from their begin to their end, into one place, then lets one run to its end. What stopped runs end with. In
+/// `deep/er/out` there is nothing or everything, whenever.
+#[allow(clippy::disallowed_methods, reason = "a run is stopped at shares of the time that it takes")]
+fn stop_then_run(arguments: &[&str], stop: fn(&mut Child)) -> Vec<ExitStatus> {
     let sound = place();
     let begin = Instant::now();
-    call(sound.path(), arguments).status().unwrap();
+    let ended = call(sound.path(), arguments).status().unwrap();
+    assert!(ended.code().is_some_and(|code| code < 2), "{arguments:?} {ended:?}");
     let whole = begin.elapsed();
+    let all = all_below(sound.path());
+    // But for what waits in a part, until it is whole.
+    let made = |all: &BTreeSet<PathBuf>| -> Vec<PathBuf> {
+        let out = all.iter().filter(|path| path.starts_with("deep/er/out"));
+        out.filter(|path| !path.to_string_lossy().contains(".part")).cloned().collect()
+    };
 
-    let killed = place();
-    for moment in 1..=MOMENTS {
-        let mut run = call(killed.path(), arguments).spawn().unwrap();
+    let stopped = place();
+    let end_at = |moment: u32| {
+        let mut run = call(stopped.path(), arguments).spawn().unwrap();
         std::thread::sleep(whole * moment / MOMENTS);
-        // On Unix: SIGKILL, which nothing can answer. It may have ended.
-        run.kill().unwrap();
-        run.wait().unwrap();
-    }
-    call(killed.path(), arguments).status().unwrap();
-    assert_eq!(all_below(killed.path()), all_below(sound.path()), "{arguments:?}");
+        stop(&mut run);
+        let ended = run.wait().unwrap();
+        let there = made(&all_below(stopped.path()));
+        assert!(there.is_empty() || there == made(&all), "{arguments:?} {there:?}");
+        ended
+    };
+    let ended = (1..=MOMENTS).map(end_at).collect();
+    call(stopped.path(), arguments).status().unwrap();
+    assert_eq!(all_below(stopped.path()), all, "{arguments:?}");
+    ended
 }
+
+const RENDER: [&str; 4] = ["render", "scene.toml", "-o", "deep/er/out"];
+const EXPORT: [&str; 6] = ["export", "scene.toml", "-t", "clipmap", "-o", "deep/er/out"];
+const REPORT: [&str; 6] = ["report", "scene.toml", "--repeat", "1", "-o", "deep/er/out"];
 
 #[test]
 fn render() {
-    kill_then_run(&["render", "scene.toml", "-o", "deep/er/out"]);
+    stop_then_run(&RENDER, kill);
 }
 
 #[test]
 fn export() {
-    kill_then_run(&["export", "scene.toml", "-t", "clipmap", "-o", "deep/er/out"]);
+    stop_then_run(&EXPORT, kill);
 }
 
 #[test]
 fn report() {
-    kill_then_run(&["report", "scene.toml", "-t", "inverse-projection", "-o", "deep/er/out"]);
+    stop_then_run(&REPORT, kill);
 }
 
 #[test]
 fn golden_bless() {
-    kill_then_run(&["golden", "bless"]);
+    stop_then_run(&["golden", "bless"], kill);
+}
+
+/// Ctrl-C is the end of a run at once, by the signal itself: who waits for it (a shell, make) knows that it was interrupted.
+#[cfg(unix)]
+#[test]
+fn interrupted() {
+    use std::os::unix::process::ExitStatusExt;
+    const SIGINT: i32 = 2;
+    let interrupt = |run: &mut Child| {
+        let sent = Command::new("kill").args(["-INT", &run.id().to_string()]).stderr(Stdio::null()).status();
+        sent.unwrap();
+    };
+    let mut idle = Command::new("sleep").arg("2").spawn().unwrap();
+    interrupt(&mut idle);
+    if idle.wait().unwrap().signal() != Some(SIGINT) {
+        // What runs in the background of a script ignores the signal, and so does what it starts.
+        return eprintln!("skipped: interrupts are ignored here");
+    }
+    for arguments in [&RENDER[..], &EXPORT, &REPORT] {
+        let ended = stop_then_run(arguments, interrupt);
+        assert!(ended.iter().any(|ended| ended.signal() == Some(SIGINT)), "{arguments:?} {ended:?}");
+        let is_one = |ended: &ExitStatus| ended.success() || ended.signal() == Some(SIGINT);
+        assert!(ended.iter().all(is_one), "{arguments:?} {ended:?}");
+    }
 }
 
 /// The moment between two calls of the system, which no sleep meets: what stands there then is made by hand.
