@@ -46,6 +46,15 @@ use glam::DVec2;
 use proj_string::Definition;
 use projection::Projection;
 
+/// A turn around the globe in the coordinates of a CRS.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Turn {
+    /// By how much x grows, in the CRS's unit.
+    pub length: f64,
+    /// The y of the northern pole: a quarter of that in degrees, infinite on Mercator's cylinder.
+    pub pole: f64,
+}
+
 /// A coordinate reference system.
 ///
 /// ```
@@ -201,6 +210,30 @@ impl Crs {
     /// Degrees in a unit of its coordinates; `None` where they are lengths.
     pub fn degrees_per_unit(&self) -> Option<f64> {
         self.is_geographic().then_some(self.unit)
+    }
+
+    /// A turn around the globe, where places whose x is so much greater are the same: in degrees and on Mercator's cylinder.
+    pub fn turn(&self) -> Option<Turn> {
+        if let Some(degrees) = self.degrees_per_unit() {
+            let length = 360.0 / degrees;
+            return Some(Turn { length, pole: 0.25 * length });
+        }
+        let (_, turn) = self.projection.cylinder()?;
+        Some(Turn { length: turn / self.unit, pole: f64::INFINITY })
+    }
+
+    /// An x, and the degrees east of Greenwich there, from which both count turns.
+    fn middle(&self) -> (f64, f64) {
+        let zero = self.projection.cylinder().map_or(0.0, |(zero, _)| zero / self.unit);
+        (zero, self.prime_meridian + self.projection.central_meridian())
+    }
+
+    /// The point on the turn around that middle, where it lies so far off that nothing would be found there; its own bits where not.
+    fn on_a_known_turn(&self, p: DVec2) -> DVec2 {
+        let Some(turn) = self.turn() else { return p };
+        let turns = (p.x - self.middle().0) / turn.length;
+        let known = if self.is_geographic() { 1.5 } else { 0.5 + 1e-10 };
+        if turns.abs() <= known { p } else { DVec2::new(p.x - turn.length * turns.round(), p.y) }
     }
 
     /// What the user should know before trusting positions to the metre.

@@ -245,14 +245,13 @@ impl PlanFrom {
         self.plan.plan_from_native(there)
     }
 
-    /// Whether a place a turn away is a turn away for [`Self::apply_unrolled`]: on the local plane of the file's own CRS, and on
-    /// Mercator's cylinder.
+    /// Whether a place a turn away is a turn away for [`Self::apply_unrolled`]: in the file's own CRS, and on Mercator's cylinder.
     pub fn keeps_turns(&self) -> bool {
-        self.file.is_geographic() && (self.same || self.plan.crs().projection.cylinder().is_some())
+        self.file.turn().is_some() && (self.same || self.plan.crs().projection.cylinder().is_some())
     }
 
-    /// The same as [`Self::apply`] for coordinates whose longitudes have been unrolled, where turns are kept; a latitude over a pole is
-    /// beyond it on the local plane.
+    /// The same as [`Self::apply`] for coordinates that are on any turn around the globe ([`Crs::turn`]), which is kept where
+    /// [`Self::keeps_turns`] says so; a latitude over a pole is beyond it on the local plane.
     ///
     /// # Errors
     /// When the point lies outside the domain of either CRS or is not finite.
@@ -262,9 +261,9 @@ impl PlanFrom {
             let placed = Some((p - origin) * scale).filter(|q| q.is_finite());
             return placed.ok_or_else(|| not_on_the_globe(p, self.plan.crs()));
         }
-        let q = self.apply(p)?;
-        let Some((zero, turn)) = self.cylinder() else { return Ok(q) };
-        let expected = zero + (p.x - self.central_meridian()) * self.file.unit / 360.0 * turn;
+        let q = self.apply(self.file.on_a_known_turn(p))?;
+        let Some((zero, turn, own)) = self.cylinder() else { return Ok(q) };
+        let expected = zero + (p.x - self.central_meridian()) / own * turn;
         Ok(DVec2::new(q.x + turn * ((expected - q.x) / turn).round(), q.y))
     }
 
@@ -278,24 +277,27 @@ impl PlanFrom {
             let placed = Some(p / scale + origin).filter(|q| q.is_finite());
             return placed.ok_or_else(|| not_on_the_globe(p, self.plan.crs()));
         }
-        let Some((zero, turn)) = self.cylinder() else { return self.invert(p) };
+        let Some((zero, turn, own)) = self.cylinder() else { return self.invert(p) };
         let turns = ((p.x - zero) / turn).round();
         let q = self.invert(DVec2::new(p.x - turns * turn, p.y))?;
-        let whole = 360.0 / self.file.unit;
-        let expected = self.central_meridian() + (p.x - zero) / turn * whole;
-        Ok(DVec2::new(q.x + whole * ((expected - q.x) / whole).round(), q.y))
+        let expected = self.central_meridian() + (p.x - zero) / turn * own;
+        Ok(DVec2::new(q.x + own * ((expected - q.x) / own).round(), q.y))
     }
 
-    /// The longitude in the middle of the plan, in the unit of a file in degrees: half a turn from there a projection may have a seam.
+    /// The x of the plan's middle longitude in a file that counts turns ([`Crs::turn`]): half a turn from there a projection may have a
+    /// seam.
     pub fn central_meridian(&self) -> f64 {
         let to = self.plan.crs();
         let central = self.plan.center().map_or(to.projection.central_meridian(), |(lon, _)| lon);
-        (central + to.prime_meridian - self.file.prime_meridian) / self.file.unit
+        let (zero, meridian) = self.file.middle();
+        let per_degree = self.file.turn().map_or(1.0, |turn| turn.length / 360.0);
+        zero + (central + to.prime_meridian - meridian) * per_degree
     }
 
-    /// The x of the central meridian and the length of a turn, where turns are kept on a cylinder.
-    fn cylinder(&self) -> Option<(f64, f64)> {
-        self.plan.crs().projection.cylinder().filter(|_| self.file.is_geographic())
+    /// The x of the central meridian and the length of a turn, and that of a turn in the file, where turns are kept on a cylinder.
+    fn cylinder(&self) -> Option<(f64, f64, f64)> {
+        let (zero, turn) = self.plan.crs().projection.cylinder()?;
+        Some((zero, turn, self.file.turn()?.length))
     }
 
     /// The point in the file's CRS of a plan point: the inverse of [`Self::apply`].

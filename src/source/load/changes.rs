@@ -13,6 +13,8 @@ pub(super) struct Changes {
     pub(super) along: usize,
     /// Features that reach farther beyond a pole than anything does.
     pub(super) beyond: usize,
+    /// Features that are written unusually many turns off.
+    pub(super) turned: usize,
 }
 
 impl Changes {
@@ -22,6 +24,7 @@ impl Changes {
         self.edges += other.edges;
         self.along += other.along;
         self.beyond += other.beyond;
+        self.turned += other.turned;
     }
 
     /// Says so; chords are off by at most `tolerance` metres.
@@ -36,6 +39,13 @@ impl Changes {
             format!(
                 "features that reach beyond a pole: {} (longitude comes first, then latitude)",
                 self.beyond
+            ),
+        );
+        tell(
+            self.turned,
+            format!(
+                "features written more than one and a half turns of longitude off, moved by whole turns: {}",
+                self.turned
             ),
         );
         tell(self.around, format!("rings around a pole, closed by way of it: {}", self.around));

@@ -5,7 +5,8 @@
 //! Refuses: coordinates that are no place in the file's CRS; features without a place in the plan are left out, and only where that is
 //! so for all of them it is an error.
 //!
-//! 1. In degrees, rings and lines are unrolled ([`unroll`]), and taken on those turns on which they come near the terrain.
+//! 1. In degrees and on Mercator's cylinder, rings and lines are unrolled ([`unroll`]), and taken on those turns on which they come near
+//!    the terrain.
 //! 2. Into another projection, what lies beyond its horizon ([`Region::horizon`]) is cut off: it may have no place in the plan, or a
 //!    wrong one. The cut runs farther from the terrain than any stroke reaches. Around a pole, where all meridians meet, it is a parallel.
 //! 3. An edge that is straight in the file is a curve in the plan: it is followed ([`Follow`]).
@@ -16,20 +17,21 @@ use super::follow::Follow;
 use super::place::Map;
 use super::unroll::{self, Unrolled};
 use super::window::{Region, on_the_globe};
-use crate::crs::PlanFrom;
+use crate::crs::{PlanFrom, Turn};
 use crate::error::{Error, Result};
 use crate::math::max;
 use crate::parallel;
 use crate::scene::{Feature, Shape};
 use crate::scene_file::Edges;
+use crate::source::vector::MOST_TURNS;
 use crate::space::{Plan, PlanBox};
 use glam::DVec2;
 
 /// Latitudes of a file may be so many quarter turns: what is beyond a pole is drawn nowhere.
 const MOST_QUARTERS: f64 = 2.0;
 
-/// Longitudes may be so many turns.
-const MOST_TURNS: f64 = 1.5;
+/// Longitudes of more turns are told.
+const USUAL_TURNS: f64 = 1.5;
 
 /// Degrees beyond a pole that rounding and the outer edges of cells explain.
 const BEYOND_A_POLE: f64 = 1.0;
@@ -95,12 +97,20 @@ enum Taken {
     Nowhere(Error),
 }
 
+/// What is known of a feature's coordinates.
+enum Checked {
+    /// They are places; whether one lies beyond a pole, and one unusually many turns off.
+    Place { beyond: bool, turned: bool },
+    /// One is so many turns off that nobody can have meant it.
+    Nowhere(Error),
+}
+
 /// The way of a layer's features.
 struct Way<'a> {
     map: &'a Map,
     shift: DVec2,
-    /// What a turn of longitude is in the file's unit, where its coordinates are degrees and the plan has a CRS.
-    turn: Option<f64>,
+    /// What a turn of longitude is in the file's coordinates, where they have one and the plan has a CRS.
+    turn: Option<Turn>,
     /// The box in the file's coordinates of what features must come near to be seen; `None`: unknown.
     near: Option<Region>,
     /// Where the map can be used; `None`: everywhere, or nobody knows.
@@ -113,17 +123,17 @@ impl<'a> Way<'a> {
         let shift = onto.shift;
         let plain = Self { map, shift, turn: None, near: None, horizon: None, follow: None };
         let Map::From(from) = map else { return plain };
-        let turn = from.file().degrees_per_unit().map(|degrees| 360.0 / degrees);
+        let turn = from.file().turn();
         let terrain = PlanBox { min: onto.terrain.min + -shift, max: onto.terrain.max + -shift };
         let size = onto.terrain.max - onto.terrain.min;
         let longest = max(size.x, size.y);
         let reach = onto.reach.unwrap_or(longest);
         // A hundredth, lest a feature that just touches be thrown away by rounding.
-        let near = Region::of(from, &terrain.grown(reach + 0.01 * longest), turn);
+        let near = Region::of(from, &terrain.grown(reach + 0.01 * longest));
         if from.affine().is_some() {
             return Self { turn, near: near.filter(|_| turn.is_some()), ..plain };
         }
-        let horizon = Region::horizon(from, &terrain, turn, reach + 0.1 * longest);
+        let horizon = Region::horizon(from, &terrain, reach + 0.1 * longest);
         let seam = || turn.map(|turn| Region::between_seams(from.central_meridian(), turn));
         let horizon = horizon.or_else(seam);
         let follow = (onto.edges == Edges::Projected).then(|| Follow {
@@ -137,7 +147,10 @@ impl<'a> Way<'a> {
     fn taken(&self, feature: Feature) -> Result<Taken> {
         let Feature { index, style, shape } = feature;
         let mut changes = Changes::default();
-        let beyond = self.checked(&shape).map_err(|error| error.in_feature(index))?;
+        let (beyond, turned) = match self.checked(&shape).map_err(|error| error.in_feature(index))? {
+            Checked::Place { beyond, turned } => (beyond, turned),
+            Checked::Nowhere(error) => return Ok(Taken::Nowhere(error.in_feature(index))),
+        };
         let shape = match shape {
             Shape::Polygon(rings) => self.rings(rings, &mut changes).map(Shape::Polygon),
             Shape::MultiPolygon(members) => {
@@ -150,6 +163,7 @@ impl<'a> Way<'a> {
         };
         changes.cut = changes.cut.min(1);
         changes.beyond = usize::from(beyond);
+        changes.turned = usize::from(turned);
         Ok(match shape {
             Err(error) => Taken::Nowhere(error.in_feature(index)),
             Ok(shape) if shape.parts().all(Vec::is_empty) => Taken::Away(changes),
@@ -157,18 +171,27 @@ impl<'a> Way<'a> {
         })
     }
 
-    /// Refuses what is no place in degrees; tells whether a vertex lies beyond a pole.
-    fn checked(&self, shape: &Shape) -> Result<bool> {
-        let (Some(turn), Map::From(map)) = (self.turn, self.map) else { return Ok(false) };
-        let mut beyond = false;
+    /// Refuses latitudes that are none; tells whether a vertex lies beyond a pole, or many turns off.
+    fn checked(&self, shape: &Shape) -> Result<Checked> {
+        let (mut beyond, mut turned) = (false, false);
+        let (Some(turn), Map::From(map)) = (self.turn, self.map) else {
+            return Ok(Checked::Place { beyond, turned });
+        };
         for p in shape.parts().flatten() {
-            let quarters = p.y.abs() / (0.25 * turn);
-            if !(quarters <= MOST_QUARTERS && p.x.abs() <= MOST_TURNS * turn) {
+            let (quarters, turns) = (p.y.abs() / turn.pole, p.x.abs() / turn.length);
+            if quarters > MOST_QUARTERS {
                 map.apply(p.to_vec())?;
             }
+            if turns > MOST_TURNS {
+                let words = format!("({}, {}) is not a place in {}", p.x, p.y, map.file().name());
+                let help =
+                    format!("places may be {MOST_TURNS} turns of longitude off: check the coordinates");
+                return Ok(Checked::Nowhere(Error::new(words).help(help)));
+            }
             beyond |= quarters > 1.0 + BEYOND_A_POLE / 90.0;
+            turned |= turns > USUAL_TURNS;
         }
-        Ok(beyond)
+        Ok(Checked::Place { beyond, turned })
     }
 
     fn rings(&self, rings: Vec<Vec<Plan>>, changes: &mut Changes) -> Result<Vec<Vec<Plan>>> {
@@ -181,7 +204,7 @@ impl<'a> Way<'a> {
             Some(turn) => {
                 for ring in unroll::rings(rings, turn) {
                     changes.around += usize::from(ring.around != 0);
-                    self.near_rings(&ring, turn, (&mut near, changes));
+                    self.near_rings(&ring, turn.length, (&mut near, changes));
                 }
             }
         }
@@ -193,7 +216,9 @@ impl<'a> Way<'a> {
         for line in lines {
             match self.turn {
                 None => near.extend(self.cut_line(line, changes)),
-                Some(turn) => self.near_lines(&unroll::line(line, turn), turn, (&mut near, changes)),
+                Some(turn) => {
+                    self.near_lines(&unroll::line(line, turn), turn.length, (&mut near, changes));
+                }
             }
         }
         near.iter().map(|line| self.placed(line, None, changes)).collect()
@@ -390,7 +415,7 @@ impl<'a> Way<'a> {
         let mut p = on_the_globe(p.to_vec(), Some(turn));
         if let Some(horizon) = self.horizon.filter(|horizon| horizon.pole != 0.0) {
             // Both ends of a turn are one place.
-            p.x -= turn * ((p.x - horizon.bounds.min.x) / turn).floor();
+            p.x -= turn.length * ((p.x - horizon.bounds.min.x) / turn.length).floor();
         }
         map.apply_unrolled(p).map(Plan::from)
     }
@@ -404,9 +429,9 @@ fn towards_the_pole(horizon: &Region) -> Side {
 }
 
 /// Edges of a file that are longer than this may pass the terrain on another side than their chords.
-fn long(map: &PlanFrom, horizon: Option<&Region>, turn: Option<f64>) -> f64 {
+fn long(map: &PlanFrom, horizon: Option<&Region>, turn: Option<Turn>) -> f64 {
     match (turn, horizon) {
-        (Some(turn), _) => turn / 72.0,
+        (Some(turn), _) => turn.length / 72.0,
         (None, Some(horizon)) => {
             let size = horizon.bounds.max - horizon.bounds.min;
             max(size.x, size.y) / 16.0

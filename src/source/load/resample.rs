@@ -1,10 +1,11 @@
 //! A grid in one CRS -> a grid along the axes of a plan in another.
 //!
 //! Bilinear between the four posts of the source around each place; no data where any of the four has none. The posts
-//! stand at whole multiples of the cell from the anchor, the cell keeps the source's resolution.
+//! stand at whole multiples of the cell from the anchor, the cell keeps the source's resolution. A source may lie on any turn of
+//! longitude, across the antimeridian or all around the globe: there its last column is followed by its first.
 
 use super::extent::middle;
-use crate::crs::PlanFrom;
+use crate::crs::{PlanFrom, Turn};
 use crate::error::{Error, Result};
 use crate::math::max;
 use crate::parallel;
@@ -35,9 +36,10 @@ pub(super) fn resample(source: &Posts, map: &PlanFrom) -> Result<Resampled> {
         .help("leave `crs` out, or read a part of the terrain (`window`)"));
     }
     let (columns, rows) = (size.x as usize, size.y as usize);
+    let turned = Turned::of(source, map);
     let row = |j: usize| -> Vec<f64> {
         let place = |i: usize| anchor + (low + DVec2::new(i as f64, j as f64)) * cell;
-        (0..columns).map(|i| height(source, map, place(i))).collect()
+        (0..columns).map(|i| height(source, map, &turned, place(i))).collect()
     };
     let heights = parallel::map_indices(rows, row).concat();
     if heights.iter().all(|z| z.is_nan()) {
@@ -55,7 +57,7 @@ fn image_of_border(source: &Posts, map: &PlanFrom) -> Result<PlanBox> {
     let across = (0..=last_j).flat_map(|j| [(0, j), (last_i, j)]);
     let mut bounds = PlanBox::EMPTY;
     for (i, j) in along.chain(across) {
-        bounds.include(Plan::from(map.apply(source.plan(i, j).to_vec())?));
+        bounds.include(Plan::from(map.apply_unrolled(source.plan(i, j).to_vec())?));
     }
     Ok(bounds)
 }
@@ -63,7 +65,7 @@ fn image_of_border(source: &Posts, map: &PlanFrom) -> Result<PlanBox> {
 /// The source's spacing in the plan, at its middle, to three digits.
 fn cell(source: &Posts, map: &PlanFrom) -> Result<DVec2> {
     let middle = source.plan((source.columns() - 1) / 2, (source.rows() - 1) / 2);
-    let at = |p: Plan| map.apply(p.to_vec());
+    let at = |p: Plan| map.apply_unrolled(p.to_vec());
     let east = at(middle + source.east())? - at(middle)?;
     let north = at(middle + source.north())? - at(middle)?;
     let lengths = DVec2::new(east.length(), north.length());
@@ -76,30 +78,57 @@ fn three_digits(v: f64) -> f64 {
     format!("{v:.2e}").parse().unwrap_or(v)
 }
 
+/// The turns of longitude that a grid counts in.
+struct Turned {
+    turn: Option<Turn>,
+    /// Whether the grid goes around the globe, so that a step east of its last column is its first one.
+    is_closed: bool,
+}
+
+impl Turned {
+    fn of(source: &Posts, map: &PlanFrom) -> Self {
+        let turn = map.file().turn();
+        let is_a_turn = |turn: Turn| {
+            let width = source.east() * source.columns() as f64;
+            width.y == 0.0 && (width.x - turn.length).abs() < CLOSED * source.east().x
+        };
+        Self { turn, is_closed: turn.is_some_and(is_a_turn) }
+    }
+
+    /// A displacement from the first post, on the turn around the grid's middle.
+    fn within(&self, source: &Posts, off: DVec2) -> DVec2 {
+        let Some(turn) = self.turn else { return off };
+        let half = source.east().x * 0.5 * (source.columns() - 1) as f64;
+        let turns = ((off.x - half) / turn.length).round();
+        DVec2::new(off.x - turn.length * turns, off.y)
+    }
+}
+
+/// A grid whose columns make a turn but for this share of a cell goes around the globe.
+const CLOSED: f64 = 0.01;
+
 /// The source's height at a place of the plan; NaN outside and beside holes.
-fn height(source: &Posts, map: &PlanFrom, plan: DVec2) -> f64 {
-    let Ok(place) = map.invert(plan) else {
+fn height(source: &Posts, map: &PlanFrom, turned: &Turned, plan: DVec2) -> f64 {
+    let Ok(place) = map.invert_unrolled(plan) else {
         return f64::NAN;
     };
-    let off = place - source.first.to_vec();
-    let off = if map.file().is_geographic() { within_a_turn(source, off) } else { off };
+    let off = turned.within(source, place - source.first.to_vec());
     let area = source.east().perp_dot(source.north());
     let column = snapped(off.perp_dot(source.north()) / area);
     let row = snapped(source.east().perp_dot(off) / area);
-    let (Some((i, f)), Some((j, g))) = (split(column, source.columns()), split(row, source.rows())) else {
+    let (columns, rows) = (source.columns(), source.rows());
+    let (column, cells) = match turned.is_closed {
+        true if column < 0.0 => (column + columns as f64, columns),
+        true => (column, columns),
+        false => (column, columns - 1),
+    };
+    let (Some((i, f)), Some((j, g))) = (split(column, cells), split(row, rows - 1)) else {
         return f64::NAN;
     };
-    let z = |i: usize, j: usize| source.heights()[j * source.columns() + i];
+    let z = |i: usize, j: usize| source.heights()[j * columns + i % columns];
     let south = z(i, j) * (1.0 - f) + z(i + 1, j) * f;
     let north = z(i, j + 1) * (1.0 - f) + z(i + 1, j + 1) * f;
     south * (1.0 - g) + north * g
-}
-
-/// A displacement in degrees, turned to the longitudes that the grid counts in.
-fn within_a_turn(source: &Posts, off: DVec2) -> DVec2 {
-    let half = source.east().x * 0.5 * (source.columns() - 1) as f64;
-    let turns = ((off.x - half) / 360.0).round();
-    DVec2::new(off.x - 360.0 * turns, off.y)
 }
 
 /// A place of the grid, moved to the post that it misses by rounding only.
@@ -110,11 +139,10 @@ fn snapped(v: f64) -> f64 {
 }
 
 /// The cell, and how far into it.
-fn split(v: f64, posts: usize) -> Option<(usize, f64)> {
-    let last = (posts - 1) as f64;
-    if !(v >= 0.0 && v <= last) {
+fn split(v: f64, cells: usize) -> Option<(usize, f64)> {
+    if !(v >= 0.0 && v <= cells as f64) {
         return None;
     }
-    let cell = (v as usize).min(posts - 2);
+    let cell = (v as usize).min(cells - 1);
     Some((cell, v - cell as f64))
 }

@@ -309,7 +309,7 @@ fn a_missing_file_is_shown_in_the_scene_with_what_was_meant() {
 fn an_error_in_a_data_file_names_the_file_the_feature_and_the_scene_line() {
     let line = r#"{"type":"FeatureCollection","features":[
         {"type":"Feature","properties":{},"geometry":{"type":"LineString","coordinates":[[9.5,46],[9.6,46]]}},
-        {"type":"Feature","properties":{},"geometry":{"type":"LineString","coordinates":[[9.5,46],[500000,46]]}}]}"#;
+        {"type":"Feature","properties":{},"geometry":{"type":"LineString","coordinates":[[9.5,46],[9.6,5000000]]}}]}"#;
     let folder = Folder::new()
         .with("d.asc", grid((5, 5), (500_000.0, 5_100_000.0), 100.0, hills))
         .with("l.geojson", line);
@@ -318,7 +318,7 @@ fn an_error_in_a_data_file_names_the_file_the_feature_and_the_scene_line() {
             "terrain = { source = \"d.asc\", crs = \"EPSG:32632\" }\n[[layer]]\nsource = \"l.geojson\"\nline = { color = \"#000000\", width_m = 4.0 }",
         )
         .to_string();
-    assert!(said.contains("l.geojson: feature 1: (500000, 46) is not a place in"), "{said}");
+    assert!(said.contains("l.geojson: feature 1: (9.6, 5000000) is not a place in"), "{said}");
     assert!(said.contains(&format!("named in {}:4:10", folder.path("s.toml").display())), "{said}");
 }
 

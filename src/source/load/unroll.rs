@@ -1,6 +1,6 @@
-//! Rings and lines in degrees on the unrolled globe: consecutive longitudes follow one another, whatever turn they are written in.
+//! Rings and lines on the unrolled globe: consecutive longitudes follow one another, whatever turn they are written in.
 //!
-//! Input: rings or a line as a file has them, longitudes anywhere. Output: the same vertices, each with the number of turns that it is
+//! Input: rings or a line as a file has them, longitudes anywhere, in degrees or as metres of Mercator's cylinder. Output: the same vertices, each with the number of turns that it is
 //! moved by. Refuses: nothing.
 //!
 //! What a jump of more than half a turn between two vertices means is not written in a file:
@@ -11,11 +11,15 @@
 //! - a ring that comes back a turn off runs around a pole: that along which the file closes it, else the one on its side of the equator.
 //!   The file's way along the meridian to the pole and back is left out: nothing ends there.
 
+use crate::crs::Turn;
 use crate::math::min;
 use crate::space::{Plan, PlanBox};
 
 /// So near to a pole, degrees, longitudes mean nothing.
 const AT_POLE: f64 = 1e-6;
+
+/// What is narrower than this share of a turn, a metre, is a writer's rounding.
+const NOTHING: f64 = 2.5e-8;
 
 /// The vertices of a frame of the world lie so near to its sides, degrees, ...
 const FRAME_MARGIN: f64 = 2.0;
@@ -39,8 +43,8 @@ pub(super) struct Unrolled {
 
 impl Unrolled {
     /// What stays as it is written.
-    pub(super) fn as_written(written: Vec<Plan>, turn: f64) -> Self {
-        Self { turns: vec![0; written.len()], written, turn, around: 0, pole: 0.0 }
+    fn as_written(written: Vec<Plan>, turn: Turn) -> Self {
+        Self { turns: vec![0; written.len()], written, turn: turn.length, around: 0, pole: 0.0 }
     }
 
     /// By how much longitude grows from a ring's first vertex to its first vertex.
@@ -82,8 +86,8 @@ impl Unrolled {
     }
 }
 
-/// The rings of one polygon; a pole lies at a quarter of `turn`.
-pub(super) fn rings(rings: Vec<Vec<Plan>>, turn: f64) -> Vec<Unrolled> {
+/// The rings of one polygon.
+pub(super) fn rings(rings: Vec<Vec<Plan>>, turn: Turn) -> Vec<Unrolled> {
     let mut all: Vec<Unrolled> = rings.into_iter().map(|written| ring(written, turn)).collect();
     let around = || all.iter().filter(|ring| ring.around != 0);
     // Two rings that enclose one pole leave the band between them, whichever pole that is.
@@ -100,7 +104,7 @@ pub(super) fn rings(rings: Vec<Vec<Plan>>, turn: f64) -> Vec<Unrolled> {
     all
 }
 
-fn ring(written: Vec<Plan>, turn: f64) -> Unrolled {
+fn ring(written: Vec<Plan>, turn: Turn) -> Unrolled {
     if is_frame(&written, turn) {
         return Unrolled::as_written(written, turn);
     }
@@ -113,22 +117,22 @@ fn ring(written: Vec<Plan>, turn: f64) -> Unrolled {
     let unrolled = follow(written, turn, true);
     let width = |bounds: PlanBox| bounds.max.x - bounds.min.x;
     let as_written = width(PlanBox::around(unrolled.written.iter().copied()));
-    let is_nothing = unrolled.around == 0 && width(unrolled.bounds()) < 1e-9 * turn;
-    if is_nothing && as_written > 0.5 * turn {
+    let is_nothing = unrolled.around == 0 && width(unrolled.bounds()) < NOTHING * turn.length;
+    if is_nothing && as_written > 0.5 * turn.length {
         return Unrolled::as_written(unrolled.written, turn);
     }
     unrolled
 }
 
 /// A line. One of two vertices a whole turn apart is a parallel.
-pub(super) fn line(written: Vec<Plan>, turn: f64) -> Unrolled {
+pub(super) fn line(written: Vec<Plan>, turn: Turn) -> Unrolled {
     match written[..] {
-        [a, b] if (a.x - b.x).abs() >= turn => Unrolled::as_written(written, turn),
+        [a, b] if (a.x - b.x).abs() >= turn.length * (1.0 - NOTHING) => Unrolled::as_written(written, turn),
         _ => follow(written, turn, false),
     }
 }
 
-fn follow(written: Vec<Plan>, turn: f64, is_ring: bool) -> Unrolled {
+fn follow(written: Vec<Plan>, turn: Turn, is_ring: bool) -> Unrolled {
     let mut turns = Vec::with_capacity(written.len());
     let mut at = 0;
     for (k, p) in written.iter().enumerate() {
@@ -141,26 +145,26 @@ fn follow(written: Vec<Plan>, turn: f64, is_ring: bool) -> Unrolled {
         (Some(first), Some(last)) if is_ring => at + step(*last, *first, turn),
         _ => 0,
     };
-    Unrolled { written, turns, turn, around, pole: 0.0 }
+    Unrolled { written, turns, turn: turn.length, around, pole: 0.0 }
 }
 
 /// Over how many turns one goes from one vertex to the next.
-fn step(from: Plan, to: Plan, turn: f64) -> i64 {
+fn step(from: Plan, to: Plan, turn: Turn) -> i64 {
     let plain = to.x - from.x;
-    if plain.abs() <= 0.5 * turn || (pole(from, turn) != 0.0 && pole(to, turn) != 0.0) {
+    if plain.abs() <= 0.5 * turn.length || (pole(from, turn) != 0.0 && pole(to, turn) != 0.0) {
         return 0;
     }
-    -((plain / turn).round() as i64)
+    -((plain / turn.length).round() as i64)
 }
 
 /// The pole that a vertex is at: 1, -1, or 0 for none.
-fn pole(p: Plan, turn: f64) -> f64 {
-    let is_there = p.y.abs() > 0.25 * turn - AT_POLE * turn / 360.0;
+fn pole(p: Plan, turn: Turn) -> f64 {
+    let is_there = p.y.abs() > turn.pole - AT_POLE * turn.length / 360.0;
     if is_there { 1_f64.copysign(p.y) } else { 0.0 }
 }
 
 /// A ring that goes along one of the poles for a turn, less its vertices there, and that pole.
-fn without_the_way_along_a_pole(ring: &[Plan], turn: f64) -> Option<(Vec<Plan>, f64)> {
+fn without_the_way_along_a_pole(ring: &[Plan], turn: Turn) -> Option<(Vec<Plan>, f64)> {
     let n = ring.len();
     let start = ring.iter().position(|p| pole(*p, turn) == 0.0)?;
     let mut along: Option<(usize, usize, f64)> = None;
@@ -169,7 +173,7 @@ fn without_the_way_along_a_pole(ring: &[Plan], turn: f64) -> Option<(Vec<Plan>, 
         let at = |k: usize| ring[(start + k) % n];
         let side = pole(at(k), turn);
         let length = (k..n).take_while(|k| pole(at(*k), turn) == side).count();
-        if side != 0.0 && (at(k + length - 1).x - at(k).x).abs() > 0.5 * turn {
+        if side != 0.0 && (at(k + length - 1).x - at(k).x).abs() > 0.5 * turn.length {
             if along.is_some() {
                 return None;
             }
@@ -184,8 +188,8 @@ fn without_the_way_along_a_pole(ring: &[Plan], turn: f64) -> Option<(Vec<Plan>, 
 }
 
 /// Whether a ring is a frame of the world.
-fn is_frame(ring: &[Plan], turn: f64) -> bool {
-    let degree = turn / 360.0;
+fn is_frame(ring: &[Plan], turn: Turn) -> bool {
+    let degree = turn.length / 360.0;
     let PlanBox { min: low, max: high } = PlanBox::around(ring.iter().copied());
     let margin = FRAME_MARGIN * degree;
     let is_on_a_side = |p: &Plan| {
@@ -193,7 +197,7 @@ fn is_frame(ring: &[Plan], turn: f64) -> bool {
         let along = min(p.y - low.y, high.y - p.y);
         min(across, along) <= margin
     };
-    high.x - low.x >= turn - 2.0 * margin
+    high.x - low.x >= turn.length - 2.0 * margin
         && high.y - low.y > FRAME_HEIGHT * degree
         && ring.iter().all(is_on_a_side)
 }
@@ -202,12 +206,14 @@ fn is_frame(ring: &[Plan], turn: f64) -> bool {
 mod tests {
     use super::*;
 
+    const DEGREES: Turn = Turn { length: 360.0, pole: 90.0 };
+
     fn plan(points: &[(f64, f64)]) -> Vec<Plan> {
         points.iter().map(|&(x, y)| Plan::new(x, y)).collect()
     }
 
     fn one(points: &[(f64, f64)]) -> Unrolled {
-        rings(vec![plan(points)], 360.0).remove(0)
+        rings(vec![plan(points)], DEGREES).remove(0)
     }
 
     fn xs(unrolled: &Unrolled) -> Vec<f64> {
@@ -273,7 +279,7 @@ mod tests {
     #[test]
     fn rings_around_the_globe_on_both_sides_of_the_equator_enclose_the_same_pole() {
         let circle = |y: f64| plan(&[(-180.0, y), (-90.0, y), (0.0, y), (90.0, y)]);
-        let band = rings(vec![circle(10.0), circle(-12.0)], 360.0);
+        let band = rings(vec![circle(10.0), circle(-12.0)], DEGREES);
         assert_eq!([band[0].pole, band[1].pole], [-1.0, -1.0]);
     }
 
@@ -294,17 +300,17 @@ mod tests {
 
     #[test]
     fn a_line_goes_on_over_the_antimeridian_and_a_parallel_is_whole() {
-        let line_over = line(plan(&[(170.0, 0.0), (180.0, 0.0), (-180.0, 0.0), (-170.0, 1.0)]), 360.0);
+        let line_over = line(plan(&[(170.0, 0.0), (180.0, 0.0), (-180.0, 0.0), (-170.0, 1.0)]), DEGREES);
         assert_eq!(xs(&line_over), [170.0, 180.0, 180.0, 190.0]);
         let parallel = plan(&[(-180.0, 10.0), (180.0, 10.0)]);
-        assert_eq!(xs(&line(parallel, 360.0)), [-180.0, 180.0]);
+        assert_eq!(xs(&line(parallel, DEGREES)), [-180.0, 180.0]);
     }
 
     #[test]
     fn what_needs_no_other_turn_keeps_its_bits() {
         let odd = [(10.1, 45.3), (10.7, 45.300_000_000_1), (-169.0, 46.0)];
         assert_eq!(one(&odd).moved(0).collect::<Vec<_>>(), plan(&odd));
-        assert_eq!(line(plan(&odd), 360.0).moved(0).collect::<Vec<_>>(), plan(&odd));
+        assert_eq!(line(plan(&odd), DEGREES).moved(0).collect::<Vec<_>>(), plan(&odd));
         // There and back again, too.
         let over = one(&[(0.1, 1.0), (-170.3, 2.0), (179.7, 3.0)]);
         assert_eq!(over.moved(0).collect::<Vec<_>>()[2], Plan::new(179.7 - 360.0, 3.0));

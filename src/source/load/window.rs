@@ -3,7 +3,7 @@
 //! Input: the map from a file to the plan, a rectangle of the plan. Output: boxes in the file's coordinates. Nothing is refused: where
 //! no box can be told there is none.
 
-use crate::crs::PlanFrom;
+use crate::crs::{PlanFrom, Turn};
 use crate::math::{cos, max, min};
 use crate::space::{Plan, PlanBox};
 use glam::DVec2;
@@ -30,10 +30,10 @@ pub(super) struct Region {
 }
 
 impl Region {
-    /// The image of a rectangle of the plan; `turn` is a whole turn of longitude in the file's unit, where that is an angle. `None` where
-    /// a part of the rectangle has no place there.
-    pub(super) fn of(map: &PlanFrom, rectangle: &PlanBox, turn: Option<f64>) -> Option<Self> {
-        let quarter = turn.map_or(f64::INFINITY, |turn| 0.25 * turn);
+    /// The image of a rectangle of the plan. `None` where a part of the rectangle has no place in the file.
+    pub(super) fn of(map: &PlanFrom, rectangle: &PlanBox) -> Option<Self> {
+        let turn = map.file().turn();
+        let quarter = turn.map_or(f64::INFINITY, |turn| turn.pole);
         // Where turns are kept no two longitudes meet.
         let turn = turn.filter(|_| !map.keeps_turns());
         let size = rectangle.max - rectangle.min;
@@ -46,14 +46,14 @@ impl Region {
         for (i, j) in (0..=SAMPLES).flat_map(|i| (0..=SAMPLES).map(move |j| (i, j))) {
             let mut p = at(i, j)?;
             if let Some(turn) = turn {
-                p.x -= turn * ((p.x - middle.x) / turn).round();
+                p.x -= turn.length * ((p.x - middle.x) / turn.length).round();
             }
             bounds.include(Plan::from(p));
         }
         let mut pole = 0.0;
-        if let Some(turn) = turn {
+        if let Some(turn) = turn.filter(|turn| turn.pole.is_finite()) {
             let holds = |pole: f64| {
-                let place = map.apply(DVec2::new(middle.x, pole * 0.25 * turn)).ok();
+                let place = map.apply(DVec2::new(middle.x, pole * turn.pole)).ok();
                 place.is_some_and(|p| rectangle.contains(&PlanBox::around([Plan::from(p)])))
             };
             pole = match (holds(1.0), holds(-1.0)) {
@@ -63,8 +63,8 @@ impl Region {
                 (false, false) => 0.0,
             };
             if pole != 0.0 {
-                bounds.include(Plan::new(middle.x - 0.5 * turn, pole * 0.25 * turn));
-                bounds.include(Plan::new(middle.x + 0.5 * turn, pole * 0.25 * turn));
+                bounds.include(Plan::new(middle.x - 0.5 * turn.length, pole * turn.pole));
+                bounds.include(Plan::new(middle.x + 0.5 * turn.length, pole * turn.pole));
             }
         }
         let margin = (bounds.max - bounds.min) * if map.affine().is_none() { MARGIN } else { 0.0 };
@@ -78,38 +78,34 @@ impl Region {
             bounds.max.y += if pole < 0.0 { margin.y } else { 0.0 };
         }
         let is_whole = bounds.min.is_finite() && bounds.max.is_finite();
-        let is_wound = turn.is_some_and(|turn| pole == 0.0 && bounds.max.x - bounds.min.x >= turn);
+        let is_wound = turn.is_some_and(|turn| pole == 0.0 && bounds.max.x - bounds.min.x >= turn.length);
         (is_whole && !is_wound).then_some(Self { bounds, pole })
     }
 
     /// All of the globe between the two sides of a seam, opposite to a longitude.
-    pub(super) fn between_seams(longitude: f64, turn: f64) -> Self {
+    pub(super) fn between_seams(longitude: f64, turn: Turn) -> Self {
         // A bit less, lest the eastern side becomes the western one.
-        let half = DVec2::new(0.5 * turn * (1.0 - 1e-9), 0.25 * turn);
+        let half = DVec2::new(0.5 * turn.length * (1.0 - 1e-9), turn.pole);
         let middle = Plan::new(longitude, 0.0);
         Self { bounds: PlanBox { min: middle + -half, max: middle + half }, pole: 0.0 }
     }
 
     /// The largest region around a rectangle of the plan in which the map can be used, at least that of the rectangle grown by `least`.
-    pub(super) fn horizon(
-        map: &PlanFrom,
-        rectangle: &PlanBox,
-        turn: Option<f64>,
-        least: f64,
-    ) -> Option<Self> {
+    pub(super) fn horizon(map: &PlanFrom, rectangle: &PlanBox, least: f64) -> Option<Self> {
         let mut far = FARTHEST;
         while far > least {
-            let region = Self::of(map, &rectangle.grown(far), turn);
-            if let Some(region) = region.filter(|region| region.is_smooth(map, turn)) {
+            let region = Self::of(map, &rectangle.grown(far));
+            if let Some(region) = region.filter(|region| region.is_smooth(map)) {
                 return Some(region);
             }
             far *= 0.25;
         }
-        Self::of(map, &rectangle.grown(least), turn)
+        Self::of(map, &rectangle.grown(least))
     }
 
     /// Whether the map has a place for all of the region, without a seam, and leads back from there.
-    fn is_smooth(&self, map: &PlanFrom, turn: Option<f64>) -> bool {
+    fn is_smooth(&self, map: &PlanFrom) -> bool {
+        let turn = map.file().turn();
         let PlanBox { min: low, max: high } = self.bounds;
         let size = high - low;
         let file = |i: usize, j: usize| {
@@ -122,8 +118,10 @@ impl Region {
             let Ok(back) = map.invert_unrolled(q) else { return false };
             let mut off = back - p;
             if let Some(turn) = turn {
-                off.x -= turn * (off.x / turn).round();
-                off.x *= cos(p.y / turn * std::f64::consts::TAU);
+                off.x -= turn.length * (off.x / turn.length).round();
+                // In degrees a step along a parallel is shorter than one along a meridian; on a cylinder they are alike.
+                off.x *=
+                    if turn.pole.is_finite() { cos(p.y / turn.length * std::f64::consts::TAU) } else { 1.0 };
             }
             if !(off.abs().cmple(1e-6 * size).all()) {
                 return false;
@@ -145,9 +143,9 @@ impl Region {
 }
 
 /// A place in degrees that misses a pole by rounding, or lies beyond it, at the pole.
-pub(super) fn on_the_globe(p: DVec2, turn: Option<f64>) -> DVec2 {
+pub(super) fn on_the_globe(p: DVec2, turn: Option<Turn>) -> DVec2 {
     let Some(turn) = turn else { return p };
-    DVec2::new(p.x, p.y.clamp(-0.25 * turn, 0.25 * turn))
+    DVec2::new(p.x, p.y.clamp(-turn.pole, turn.pole))
 }
 
 #[cfg(test)]
@@ -159,7 +157,7 @@ mod tests {
     fn horizon(plan: &str, (x, y): (f64, f64)) -> Option<Region> {
         let plan = PlanSpace::projected(Crs::parse(plan).ok()?).ok()?;
         let map = plan.plan_from(&Crs::crs84().ok()?).ok()?;
-        Region::horizon(&map, &PlanBox::around([Plan::new(x, y)]).grown(1000.0), Some(360.0), 5000.0)
+        Region::horizon(&map, &PlanBox::around([Plan::new(x, y)]).grown(1000.0), 5000.0)
     }
 
     #[test]

@@ -38,6 +38,7 @@ mod wkb;
 
 pub(super) use collector::is_drawable;
 pub use column_summary::{ColumnKind, ColumnSummary};
+pub(super) use doubts::MOST_TURNS;
 pub use doubts::doubts;
 pub(super) use rings::{inner_point, signed_area};
 pub(super) use shapefile::NO_PRJ;

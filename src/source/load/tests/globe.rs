@@ -444,3 +444,71 @@ fn points_in_degrees_are_where_they_are_on_every_turn_and_around_a_pole() {
         }
     }
 }
+
+#[test]
+fn mercator_metres_may_be_written_on_any_turn_too() {
+    const TURN: f64 = 40_075_016.685_578_49;
+    let crs = r#""crs":{"type":"name","properties":{"name":"EPSG:3857"}},"#;
+    let fiji = (20_000_000.0, -1_940_000.0, 20_074_000.0, -1_890_000.0);
+    let wrapped = {
+        let (west, south, east, north) = (fiji.0, fiji.1, fiji.2 - TURN, fiji.3);
+        format!("[[{west},{south}],[{east},{south}],[{east},{north}],[{west},{north}],[{west},{south}]]")
+    };
+    let shifted = [-2.0, -1.0, 0.0, 1.0, 2.0, 7.0].map(|turns| turns * TURN);
+    let shifted = shifted.map(|by| rectangle(fiji.0 + by, fiji.1, fiji.2 + by, fiji.3));
+    let globes = [
+        Globe::degrees(180.0, -17.0),
+        Globe::metres("EPSG:3832", 3_339_585.0, -1_900_000.0, 20_000.0),
+        Globe::metres("EPSG:3857", 20_037_508.0, -1_920_000.0, 20_000.0),
+        Globe::metres("EPSG:3857", -20_037_508.0, -1_920_000.0, 20_000.0),
+        Globe::around("EPSG:32701", 180.0, -17.0, 20_000.0),
+    ];
+    for globe in globes {
+        for ring in shifted.iter().chain([&wrapped]) {
+            let scene = globe.filled(&polygon(ring).replacen('{', &format!("{{{crs}"), 1));
+            for (lon, covered) in [(179.6, false), (179.7, true), (-179.7, true), (-179.6, false)] {
+                assert_eq!(globe.covers(&scene, lon, -17.0), covered, "{} {ring}: {lon}", globe.crs);
+            }
+        }
+        // A mask of the square of the world, as map tiles cut it, and of whole metres.
+        for edge in [20_037_508.342_789_244, 20_037_508.34, 20_037_508.0] {
+            let mask = format!("{},{wrapped}", rectangle(-edge, -edge, edge, edge));
+            let scene = globe.filled(&polygon(&mask).replacen('{', &format!("{{{crs}"), 1));
+            for (lon, covered) in [(179.6, true), (179.7, false), (-179.7, false), (-179.6, true)] {
+                assert_eq!(globe.covers(&scene, lon, -17.0), covered, "{} {edge}: {lon}", globe.crs);
+            }
+        }
+    }
+}
+
+#[test]
+fn longitudes_many_turns_off_are_told_and_absurd_ones_are_left_out_with_a_note() {
+    let feature =
+        |ring: String| format!(r#"{{"type":"Feature","properties":{{}},"geometry":{}}}"#, polygon(&ring));
+    let pair = |one: String, two: String| {
+        format!(r#"{{"type":"FeatureCollection","features":[{},{}]}}"#, feature(one), feature(two))
+    };
+    let near = |by: f64| rectangle(10.3 + by, 45.3, 10.7 + by, 45.7);
+    for globe in &PLANS {
+        for by in [720.0, -720.0, 3240.0, 540.0 + 180.0] {
+            let scene = globe.filled(&pair(near(by), near(0.0)));
+            assert_eq!(scene.layers[0].features.len(), 2, "{} {by}", globe.crs);
+            for one in scene.layers[0].features.chunks(1) {
+                let (at, out) = (globe.local(&scene, 10.31, 45.5), globe.local(&scene, 10.29, 45.5));
+                let holds = |at: Plan| rings(one).iter().any(|ring| encloses(ring, at));
+                assert!(holds(at) && !holds(out), "{} {by}", globe.crs);
+            }
+            assert!(says(&scene, "moved by whole turns: 1"), "{:?}", scene.notes);
+            assert!(!says(&scene, "off the globe"), "{:?}", scene.notes);
+        }
+        for by in [1e6, -1e300] {
+            let scene = globe.filled(&pair(near(0.0), near(by)));
+            assert_eq!(scene.layers[0].features.len(), 1, "{}", globe.crs);
+            assert!(
+                says(&scene, "1 of 2 features have no place in the plan and are left out"),
+                "{:?}",
+                scene.notes
+            );
+        }
+    }
+}

@@ -56,3 +56,80 @@ fn heights_of_no_stated_unit_in_a_crs_of_feet_are_told() {
     let metres = notes("EPSG:32618");
     assert!(!metres.iter().any(|n| n.contains("vertical_scale")), "{metres:?}");
 }
+
+/// A hill that goes around the globe without a seam, by degrees.
+fn around(lon: f64, lat: f64) -> f64 {
+    1000.0 + 300.0 * crate::math::cos((lon - 170.0).to_radians()) + 2.0 * lat
+}
+
+/// The posts of a terrain in one CRS on a plan in another, each with its place in degrees on WGS 84.
+fn resampled(file: String, crs: &str, plan: &str) -> Vec<(DVec2, f64)> {
+    let folder = Folder::new().with("d.asc", file);
+    let text = format!("crs = \"{plan}\"\nterrain = {{ source = \"d.asc\", crs = \"{crs}\" }}");
+    let (scene, surface) = folder.load(&text).unwrap();
+    let posts = posts(surface);
+    let space = PlanSpace::projected(Crs::parse(plan).unwrap()).unwrap();
+    let map = space.plan_from(&Crs::crs84().unwrap()).unwrap();
+    let all = (0..posts.rows()).flat_map(|j| (0..posts.columns()).map(move |i| (i, j)));
+    let place = |(i, j): (usize, usize)| {
+        let at = posts.plan(i, j).to_vec() + scene.origin.truncate();
+        (map.invert_unrolled(at).unwrap(), posts.world(i, j).z)
+    };
+    all.map(place).collect()
+}
+
+#[test]
+fn a_terrain_across_the_antimeridian_is_resampled_whole() {
+    let plans = ["EPSG:32701", "EPSG:32760", "EPSG:3832", "EPSG:3857", "EPSG:3994"];
+    for (plan, west) in plans.into_iter().flat_map(|plan| [179.0, -181.0].map(|west| (plan, west))) {
+        let found = resampled(grid((21, 11), (west, -17.5), 0.1, around), "EPSG:4326", plan);
+        let turned = |lon: f64| lon - 360.0 * (lon / 360.0).floor();
+        let mut seen = [0, 0];
+        for (at, z) in &found {
+            let lon = turned(at.x);
+            if (179.1..180.9).contains(&lon) && (-17.4..-16.6).contains(&at.y) {
+                assert!((z - around(lon, at.y)).abs() < 0.01, "{plan} from {west}: {at} {z}");
+                seen[usize::from(lon > 180.0)] += 1;
+            }
+        }
+        assert!(
+            seen[0] > 40 && seen[1] > 40 && found.len() < 400,
+            "{plan} from {west}: {seen:?} of {}",
+            found.len()
+        );
+    }
+}
+
+#[test]
+fn a_terrain_in_mercator_metres_across_the_antimeridian_is_resampled_whole() {
+    let to_degrees = 180.0 / 20_037_508.342_789_244;
+    let height = |x: f64, y: f64| around(x * to_degrees, y / 1e5);
+    for west in [19_930_000.0, -20_150_000.0] {
+        let found =
+            resampled(grid((45, 21), (west, -2_000_000.0), 5000.0, height), "EPSG:3857", "EPSG:32701");
+        let inside = |at: &DVec2| (at.y + 17.2).abs() < 0.3 && (at.x.abs() - 180.0).abs() < 0.7;
+        let (east, western): (Vec<_>, Vec<_>) =
+            found.iter().filter(|(at, _)| inside(at)).partition(|(at, _)| at.x > 0.0);
+        assert!(east.len() > 100 && western.len() > 100, "{} {}", east.len(), western.len());
+        for (at, z) in east.iter().chain(&western) {
+            let y = Crs::parse("EPSG:3857").unwrap().native_from_geographic(*at).unwrap().y;
+            assert!((z - around(at.x, y / 1e5)).abs() < 0.01, "{west}: {at} {z}");
+        }
+    }
+}
+
+#[test]
+fn a_terrain_of_the_whole_globe_has_no_gap_where_its_columns_meet() {
+    for (plan, lat) in [("EPSG:3031", -80.0), ("EPSG:3413", 60.0)] {
+        for west in [-179.5, 0.5] {
+            let found = resampled(grid((360, 20), (west, lat), 1.0, around), "EPSG:4326", plan);
+            let inside = |at: &DVec2| at.y > lat + 1.0 && at.y < lat + 18.0;
+            let mut near_the_seam = 0;
+            for (at, z) in found.iter().filter(|(at, _)| inside(at)) {
+                assert!((z - around(at.x, at.y)).abs() < 0.1, "{plan} from {west}: {at} {z}");
+                near_the_seam += usize::from((at.x.abs() - 180.0).abs() < 0.5 || at.x.abs() < 0.5);
+            }
+            assert!(near_the_seam > 20, "{plan} {near_the_seam}");
+        }
+    }
+}
