@@ -90,7 +90,7 @@ impl Crs {
         }
         let known = epsg::known(code).ok_or_else(|| {
             Error::unsupported(format!("EPSG:{code} is not a CRS known here"))
-                .help("write it as a PROJ string or as WKT, or reproject the data")
+                .help("write it as a PROJ string or as WKT (a compound one by the codes of its parts: EPSG:4326+3855), or reproject the data")
         })?;
         let definition = Definition::parse(&known.proj)?;
         let mut crs = Self::from_definition(&definition).map_err(|e| {

@@ -1,7 +1,8 @@
 //! Esri ASCII grids (`.asc`): a few keys, then all heights from the north-west.
 //!
 //! Keys in any order and letter case: `ncols`, `nrows`; `xllcorner` or `xllcenter`, `yllcorner` or `yllcenter`; `cellsize`, or
-//! `dx` and `dy`; `NODATA_value`, which is -9999 where it is left out (Esri's rule). A `.prj` file beside it gives the CRS.
+//! `dx` and `dy`; `NODATA_value`, which is -9999 where it is left out (Esri's rule), and may be a word (`*`, `NA`) that then stands
+//! among the heights, too. A `.prj` file beside it gives the CRS.
 //! It refuses words that are no numbers, and too few or too many of them, each by line and column.
 
 use super::failure::unreadable;
@@ -25,6 +26,8 @@ pub(super) struct AsciiGrid<R> {
     length: u64,
     header: Header,
     nodata: Nodata,
+    /// The word that stands where there is no data.
+    no_height: Option<String>,
 }
 
 impl<R: Read + Seek> AsciiGrid<R> {
@@ -36,12 +39,13 @@ impl<R: Read + Seek> AsciiGrid<R> {
         let (keys, first) = Keys::read(&mut words)?;
         let prj = site.map(prj_beside).transpose()?.flatten();
         let declared = keys.get("nodata_value").unwrap_or(-9999.0);
+        let no_height = keys.no_height.clone();
         let header = Header {
             format: "Esri ASCII grid",
             sample: "text".into(),
             compression: "none".into(),
             layout: "rows".into(),
-            nodata: Some(declared.to_string()),
+            nodata: Some(no_height.clone().unwrap_or_else(|| declared.to_string())),
             frame: keys.frame()?,
             is_placed: true,
             unit: prj.as_deref().and_then(unit_of_prj),
@@ -56,6 +60,7 @@ impl<R: Read + Seek> AsciiGrid<R> {
             length,
             header,
             nodata: Nodata::new([Some(declared), beside, user], Precision::Double),
+            no_height,
         })
     }
 
@@ -73,7 +78,7 @@ impl<R: Read + Seek> AsciiGrid<R> {
             .help("it may be half a download: fetch it again, or correct ncols and nrows")
             .at(self.words.end()));
         };
-        Ok(self.nodata.height(height_of(&word)?))
+        Ok(self.nodata.height(height_of(&word, self.no_height.as_deref())?))
     }
 
     fn refuse_more(&mut self) -> Result<()> {
@@ -124,8 +129,13 @@ impl<R: Read + Seek> GridFile for AsciiGrid<R> {
     }
 }
 
-/// The header's keys, where they stand and what they say.
-struct Keys(BTreeMap<&'static str, (f64, Position)>);
+/// The header's keys.
+struct Keys {
+    /// Where they stand and what they say; NaN where that is a word.
+    numbers: BTreeMap<&'static str, (f64, Position)>,
+    /// The word that stands for no data, where it is no number.
+    no_height: Option<String>,
+}
 
 const KEYS: [&str; 10] = [
     "ncols",
@@ -143,7 +153,7 @@ const KEYS: [&str; 10] = [
 impl Keys {
     /// Reads keys up to the first height, which it returns, too.
     fn read<R: Read>(words: &mut Words<BufReader<R>>) -> Result<(Self, (f64, Position))> {
-        let mut keys = BTreeMap::new();
+        let mut keys = Self { numbers: BTreeMap::new(), no_height: None };
         loop {
             let Some(word) = words.next()? else {
                 return Err(Error::new("the file ends before the first height")
@@ -151,19 +161,26 @@ impl Keys {
                     .at(words.end()));
             };
             let at = word.position();
-            if word.number().is_some() {
-                return Ok((Self(keys), (height_of(&word)?, at)));
+            if word.number().is_some() || stands_for(&word, keys.no_height.as_deref()) {
+                let height = height_of(&word, keys.no_height.as_deref())?;
+                return Ok((keys, (height, at)));
             }
             let name = known_key(&word)?;
-            let value = key_value(words, name)?;
-            if keys.insert(name, (value, at)).is_some() {
+            let value = match key_value(words, name)? {
+                Value::Number(value) => value,
+                Value::NoHeight(word) => {
+                    keys.no_height = Some(word);
+                    f64::NAN
+                }
+            };
+            if keys.numbers.insert(name, (value, at)).is_some() {
                 return Err(Error::new(format!("`{name}` is given twice")).at(at));
             }
         }
     }
 
     fn get(&self, name: &str) -> Option<f64> {
-        self.0.get(name).map(|(value, _)| *value)
+        self.numbers.get(name).map(|(value, _)| *value)
     }
 
     fn need(&self, names: &[&str]) -> Result<f64> {
@@ -179,7 +196,7 @@ impl Keys {
             return Ok(value as usize);
         }
         let error = Error::new(format!("`{name} {value}` is not a count of posts"));
-        Err(match self.0.get(name) {
+        Err(match self.numbers.get(name) {
             Some((_, at)) => error.at(*at),
             None => error,
         })
@@ -230,21 +247,41 @@ fn known_key(word: &Word<'_>) -> Result<&'static str> {
     })
 }
 
-/// The number after a key.
-fn key_value<R: Read>(words: &mut Words<BufReader<R>>, name: &str) -> Result<f64> {
-    if let Some(word) = words.next()? {
-        return word.number().ok_or_else(|| {
-            Error::new(format!("`{name}` is followed by `{}`, which is no number", word.text()))
-                .help(number_help(&word.text()))
-                .at(word.position())
-        });
+/// What a key says.
+enum Value {
+    Number(f64),
+    /// A word for no data.
+    NoHeight(String),
+}
+
+/// What stands after a key.
+fn key_value<R: Read>(words: &mut Words<BufReader<R>>, name: &str) -> Result<Value> {
+    let Some(word) = words.next()? else {
+        return Err(Error::new(format!("the file ends after `{name}`")).at(words.end()));
+    };
+    let text = word.text();
+    // What has digits is a number misspelled, but for C's names of NaN (`1.#QNAN`).
+    let is_a_word = || text.contains('#') || !text.contains(|c: char| c.is_ascii_digit());
+    match word.number() {
+        Some(number) => Ok(Value::Number(number)),
+        None if name == "nodata_value" && is_a_word() && known_key(&word).is_err() => {
+            Ok(Value::NoHeight(text))
+        }
+        None => Err(Error::new(format!("`{name}` is followed by `{text}`, which is no number"))
+            .help(number_help(&text))
+            .at(word.position())),
     }
-    Err(Error::new(format!("the file ends after `{name}`")).at(words.end()))
+}
+
+/// Whether a word is the one for no data, in any letter case.
+fn stands_for(word: &Word<'_>, no_height: Option<&str>) -> bool {
+    no_height.is_some_and(|wanted| word.text().eq_ignore_ascii_case(wanted))
 }
 
 /// A height; NaN is no data.
-fn height_of(word: &Word<'_>) -> Result<f64> {
+fn height_of(word: &Word<'_>, no_height: Option<&str>) -> Result<f64> {
     match word.number() {
+        None if stands_for(word, no_height) => Ok(f64::NAN),
         Some(height) if !height.is_infinite() => Ok(height),
         _ => Err(Error::new(format!("`{}` is not a height", word.text()))
             .help(number_help(&word.text()))

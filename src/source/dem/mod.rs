@@ -58,6 +58,7 @@ pub use content::{Dem, MAX_POINTS, MAX_POSTS};
 pub use geo_keys::CrsHint;
 pub use options::{DemOptions, PngEncoding};
 pub use summary::{DemSummary, describe, describe_guessing};
+pub(super) use vertical::VerticalUnit;
 
 use crate::error::Result;
 use crate::scene::Surface;

@@ -60,10 +60,8 @@ impl Sidecar {
         let mut bands = dataset.children().filter(|n| n.has_tag_name(band_tag));
         let band = bands.find(|n| n.attribute("band").unwrap_or("1") == number);
         let srs = xml::text_of(dataset, "SRS").unwrap_or_default();
-        let of_code =
-            srs.strip_prefix("EPSG:").and_then(|code| VerticalUnit::of_crs_code(code.parse().ok()?));
         let said = Self {
-            unit: of_code.or_else(|| VerticalUnit::of_wkt(srs)),
+            unit: VerticalUnit::of_crs_text(srs),
             crs: Some(srs).filter(|t| !t.is_empty()).map(crs),
             place: xml::text_of(dataset, "GeoTransform").map(place).transpose()?,
             ..Self::default()

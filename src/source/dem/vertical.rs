@@ -6,13 +6,15 @@ use std::ops::Range;
 
 /// What one step of stored heights is.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum VerticalUnit {
+pub(in crate::source) enum VerticalUnit {
     /// So many metres, below 0 for depths; in words.
     Metres(f64, String),
     /// A word that names no length known here.
     Unknown(String),
     /// A vertical CRS that is described by its name alone.
     Unsaid(String),
+    /// So many metres, and a zero that lies elsewhere than the CRS's own, which is told and not applied; in words.
+    Shifted(f64, String),
 }
 
 /// Metres of an international and of a US survey foot.
@@ -21,9 +23,9 @@ const SURVEY_FOOT: f64 = 1200.0 / 3937.0;
 
 impl VerticalUnit {
     /// The factor from stored heights to metres.
-    pub(super) fn metres(&self) -> f64 {
+    pub(in crate::source) fn metres(&self) -> f64 {
         match self {
-            Self::Metres(metres, _) => *metres,
+            Self::Metres(metres, _) | Self::Shifted(metres, _) => *metres,
             Self::Unknown(_) | Self::Unsaid(_) => 1.0,
         }
     }
@@ -38,14 +40,16 @@ impl VerticalUnit {
     }
 
     /// The unit in words.
-    pub(super) fn words(&self) -> &str {
+    pub(in crate::source) fn words(&self) -> &str {
         match self {
-            Self::Metres(_, words) | Self::Unknown(words) | Self::Unsaid(words) => words,
+            Self::Metres(_, words) | Self::Unknown(words) | Self::Unsaid(words) | Self::Shifted(_, words) => {
+                words
+            }
         }
     }
 
     /// What a user should know of it.
-    pub(super) fn note(&self) -> Option<String> {
+    pub(in crate::source) fn note(&self) -> Option<String> {
         match self {
             Self::Metres(1.0, _) => None,
             Self::Metres(metres, words) if *metres < 0.0 => Some(format!(
@@ -57,6 +61,10 @@ impl VerticalUnit {
             Self::Unknown(word) => Some(format!(
                 "the file's unit of heights, `{word}`, is no length known here: they are taken as metres (`vertical_scale` \
                  makes up for it)"
+            )),
+            Self::Shifted(metres, words) => Some(format!(
+                "the file's heights are in {words}: they are converted to metres (x {metres}), and the shift is not applied \
+                 (`terrain.offset` moves them)"
             )),
             Self::Unsaid(name) => Some(format!(
                 "the file's vertical CRS, `{name}`, is described by its name alone, which does not say the unit of heights: they are \
@@ -148,11 +156,29 @@ impl VerticalUnit {
         })
     }
 
+    /// The unit of the vertical part of a CRS as people write it (`EPSG:2263+6360`, a compound code, well-known text); `None` where
+    /// there is none.
+    pub(in crate::source) fn of_crs_text(text: &str) -> Option<Self> {
+        let text = text.trim();
+        let codes =
+            text.get(5..).filter(|_| text.get(..5).is_some_and(|start| start.eq_ignore_ascii_case("EPSG:")));
+        let Some(codes) = codes else {
+            vertical_part(&text.to_ascii_uppercase())?;
+            return Some(Self::of_wkt(text).unwrap_or_else(|| Self::of_unit_code(9001)));
+        };
+        match codes.split_once('+') {
+            Some((_, vertical)) => {
+                let code = vertical.parse().ok()?;
+                Some(Self::of_crs_code(code).unwrap_or_else(|| Self::of_unit_code(9001)))
+            }
+            None => Self::of_crs_code(codes.parse().ok()?),
+        }
+    }
+
     /// The unit of the vertical CRS in a well-known text; `None` where there is none, or it is in metres upwards.
     pub(super) fn of_wkt(text: &str) -> Option<Self> {
         let upper = text.to_ascii_uppercase();
-        let vertical =
-            ["VERT_CS", "VERTCRS", "VERTICALCRS", "VERTCS"].iter().find_map(|k| node(&upper, k))?;
+        let vertical = vertical_part(&upper)?;
         let unit = ["LENGTHUNIT", "UNIT"].iter().find_map(|k| node(vertical, k));
         let mut parts = unit.unwrap_or_default().splitn(3, ',').map(|part| part.trim().trim_matches('"'));
         let name = parts.next().unwrap_or_default();
@@ -160,25 +186,35 @@ impl VerticalUnit {
         let known = Self::of_word(name).filter(|unit| matches!(unit, Self::Metres(..)));
         let metres = metres.or(known.map(|unit| unit.metres())).unwrap_or(1.0);
         let axis = node(vertical, "AXIS").unwrap_or_default();
-        let down = axis.split(',').any(|part| part.trim() == "DOWN") || esri_direction(vertical) < 0.0;
-        let metres = if down { -metres } else { metres };
-        (metres != 1.0).then(|| {
-            Self::Metres(metres, if name.is_empty() { "metres".into() } else { name.to_ascii_lowercase() })
-        })
+        let is_down = axis.split(',').any(|part| part.trim() == "DOWN")
+            || esri_parameter(vertical, "DIRECTION").is_some_and(|direction| direction < 0.0);
+        let metres = if is_down { -metres } else { metres };
+        let words = if name.is_empty() { "metres".into() } else { name.to_ascii_lowercase() };
+        match esri_parameter(vertical, "VERTICAL_SHIFT") {
+            Some(shift) if shift != 0.0 => {
+                Some(Self::Shifted(metres, format!("{words} from a zero that is shifted by {shift}")))
+            }
+            _ => (metres != 1.0).then_some(Self::Metres(metres, words)),
+        }
     }
 }
 
-/// Which way a vertical CRS of Esri's programs counts: below 0 for downwards.
-fn esri_direction(vertical: &str) -> f64 {
-    let (mut from, mut direction) = (0, 1.0);
+/// The vertical CRS in a well-known text, in capitals.
+fn vertical_part(text: &str) -> Option<&str> {
+    ["VERT_CS", "VERTCRS", "VERTICALCRS", "VERTCS"].iter().find_map(|k| node(text, k))
+}
+
+/// A number that a vertical CRS of Esri's programs states: its direction (below 0 for downwards), or how its zero is shifted.
+fn esri_parameter(vertical: &str, name: &str) -> Option<f64> {
+    let (mut from, mut value) = (0, None);
     while let Some(found) = span(vertical, "PARAMETER", from) {
         from = found.end;
         let mut parts = vertical[found].split(',').map(|part| part.trim().trim_matches('"'));
-        if parts.next() == Some("DIRECTION") {
-            direction = parts.next().and_then(|number| number.parse().ok()).unwrap_or(direction);
+        if parts.next() == Some(name) {
+            value = parts.next().and_then(|number| number.parse().ok()).or(value);
         }
     }
-    direction
+    value
 }
 
 /// What stands between the brackets of the first node of a keyword, outside quotes.
@@ -270,6 +306,41 @@ mod tests {
         assert_eq!(esri("-1.0", r#""Foot",0.3048"#), Some(-0.3048));
         assert_eq!(esri("1.0", r#""Meter",1.0"#), None);
         assert_eq!(esri("down", r#""Meter",1.0"#), None);
+    }
+
+    #[test]
+    fn a_shifted_zero_of_esri_is_told_and_its_unit_counts() {
+        let esri = |shift: &str, unit: &str| {
+            let text = format!(
+                r#"VERTCS["NAVD88",VDATUM["n"],PARAMETER["Vertical_Shift",{shift}],PARAMETER["Direction",1.0],UNIT[{unit}]]"#
+            );
+            VerticalUnit::of_wkt(&text)
+        };
+        assert_eq!(esri("0.0", r#""Meter",1.0"#), None);
+        let shifted = esri("-12.5", r#""Foot",0.3048"#).unwrap();
+        let note = shifted.note().unwrap();
+        assert!(
+            shifted.metres() == 0.3048 && note.contains("shifted by -12.5") && note.contains("not applied"),
+            "{note}"
+        );
+        assert!(!VerticalUnit::agree(Some(&shifted), None));
+    }
+
+    #[test]
+    fn the_vertical_part_of_a_crs_that_people_write_has_a_unit() {
+        let of = |text: &str| metres(VerticalUnit::of_crs_text(text));
+        assert_eq!(of("EPSG:2263+6360"), Some(SURVEY_FOOT));
+        assert_eq!(of(" epsg:4326+5773 "), Some(1.0));
+        assert_eq!(of("EPSG:26918+5715"), Some(-1.0));
+        assert_eq!(
+            [of("EPSG:4326"), of("EPSG:2263"), of("+proj=utm +zone=33"), of("EPSG:"), of("é")],
+            [None; 5]
+        );
+        let wkt = |unit: &str| {
+            format!(r#"COMPD_CS["x",GEOGCS["g"],VERT_CS["v",VERT_DATUM["n",2005],UNIT[{unit}]]]"#)
+        };
+        assert_eq!(of(&wkt(r#""metre",1"#)), Some(1.0));
+        assert_eq!(of(&wkt(r#""foot",0.3048"#)), Some(0.3048));
     }
 
     #[test]

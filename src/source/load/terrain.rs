@@ -9,7 +9,7 @@ use crate::error::{Error, Result};
 use crate::math::{max, min};
 use crate::scene::{Posts, Surface};
 use crate::scene_file::{DataFile, HeightEncoding, SceneFile, TerrainSource};
-use crate::source::dem::{self, Dem, DemOptions, PngEncoding};
+use crate::source::dem::{self, Dem, DemOptions, PngEncoding, VerticalUnit};
 use crate::source::generate;
 use crate::source::vector::is_vector;
 use crate::space::{Plan, PlanBox, World};
@@ -71,6 +71,13 @@ fn asked_plan(scene: &SceneFile, notes: &mut Vec<String>) -> Result<Option<PlanS
     let space = parsed.map_err(|error| of_key(scene, "crs", error))?;
     let note = space.as_ref().and_then(|space| space.crs().note());
     notes.extend(note.map(|text| format!("crs: {text}")));
+    let vertical = scene.crs.as_deref().and_then(VerticalUnit::of_crs_text);
+    if vertical.is_some_and(|unit| unit.metres() != 1.0) {
+        notes.push(
+            "crs: heights of a scene are in metres, upwards, whatever the vertical part of `crs` is in"
+                .into(),
+        );
+    }
     Ok(space)
 }
 
@@ -103,12 +110,25 @@ fn from_files(
         let paths: Vec<PathBuf> = files.iter().map(|file| file.path.clone()).collect();
         dem::read_together(&paths, &options(scene))
     };
-    let dem = read.map_err(|error| named.blame(error))?;
+    let mut dem = read.map_err(|error| named.blame(error))?;
     let note = &mut |text: String| notes.push(format!("terrain: {text}"));
     dem.notes.iter().for_each(|text| note(text.clone()));
     let own = own_crs(scene, &dem, asked.is_some(), note).map_err(|error| named.blame(error))?;
-    if let Some(text) = own.as_ref().filter(|_| !dem.states_unit).and_then(unit_of_heights) {
-        note(text);
+    match scene.terrain.crs.as_deref().and_then(VerticalUnit::of_crs_text) {
+        Some(unit) if dem.states_unit => {
+            if unit.metres() != 1.0 {
+                note(format!(
+                    "the file says itself in which unit its heights are: that of `terrain.crs`, {}, is not used",
+                    unit.words()
+                ));
+            }
+        }
+        Some(unit) => {
+            unit.note().into_iter().for_each(&mut *note);
+            stretch(&mut dem.surface, unit.metres())?;
+        }
+        None if dem.states_unit => {}
+        None => own.as_ref().and_then(unit_of_heights).into_iter().for_each(&mut *note),
     }
     let extent = bounds(&dem.surface);
     let (space, map) = plan_and_map(asked, own, extent, note).map_err(|error| named.blame(error))?;

@@ -100,3 +100,30 @@ fn headers_without_sense_are_refused() {
         assert!(error.contains(expected) && error.contains("a.asc"), "{error}");
     }
 }
+
+#[test]
+fn a_word_may_stand_for_no_data() {
+    for (word, there) in
+        [("*", "*"), ("NA", "na"), ("null", "NULL"), ("nan", "NaN"), ("-1.#IND", "-1.#ind"), ("--", "--")]
+    {
+        for heights in [format!("1 2 3\n4 {there} 6\n"), format!("{there} 2 3\n4 5 6\n")] {
+            let text = GRID.replace("-1\n1 2 3\n4 -1 6\n", &format!("{word}\n{heights}"));
+            let summary = with_file("a.asc", text.as_bytes(), |p| describe(&p, &DemOptions::default()));
+            let summary = summary.unwrap_or_else(|error| panic!("{word}: {error}"));
+            assert_eq!(summary.nodata_count, 1, "{text}");
+            assert_eq!(summary.nodata.as_deref().map(str::to_lowercase), Some(word.to_lowercase()));
+        }
+    }
+    // Not a key, a number misspelled, or a word that nobody declares.
+    let wrong = |nodata: &str, height: &str| {
+        error(
+            &GRID
+                .replace("NODATA_value -1", &format!("NODATA_value {nodata}"))
+                .replace("4 -1", &format!("4 {height}")),
+        )
+    };
+    assert!(wrong("ncols", "5").what().contains("`nodata_value` is followed by `ncols`"));
+    assert!(wrong("-9999,0", "5").what().contains("which is no number"));
+    assert!(wrong("*", "NA").what().contains("`NA` is not a height"));
+    assert!(wrong("-1", "*").what().contains("`*` is not a height"));
+}

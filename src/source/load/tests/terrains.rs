@@ -57,6 +57,41 @@ fn heights_of_no_stated_unit_in_a_crs_of_feet_are_told() {
     assert!(!metres.iter().any(|n| n.contains("vertical_scale")), "{metres:?}");
 }
 
+#[test]
+fn the_vertical_part_of_a_crs_that_the_scene_states_is_the_unit_of_heights() {
+    let folder = Folder::new().with("d.asc", grid((5, 4), (980_000.0, 200_000.0), 10.0, |_, _| 1000.0));
+    let load = |text: &str| {
+        let (scene, surface) = folder.load(text).unwrap();
+        (posts(surface).world(1, 1).z, scene.notes)
+    };
+    for (crs, expected, word) in [
+        ("EPSG:2263+6360", 1000.0 * 1200.0 / 3937.0, "US survey feet"),
+        ("EPSG:32618+8228", 304.8, "feet"),
+        ("EPSG:32618+5715", -1000.0, "depths"),
+        ("EPSG:2263+5703", 1000.0, ""),
+        ("EPSG:32618", 1000.0, ""),
+    ] {
+        let (z, notes) = load(&format!("terrain = {{ source = \"d.asc\", crs = \"{crs}\" }}"));
+        assert!((z - expected).abs() < 1e-9, "{crs}: {z}");
+        let told = notes.iter().any(|note| !word.is_empty() && note.contains(word));
+        assert_eq!(told, !word.is_empty(), "{crs}: {notes:?}");
+        assert!(!notes.iter().any(|note| note.contains("nothing says in which")), "{crs}: {notes:?}");
+    }
+    let (z, notes) =
+        load("crs = \"EPSG:32618+8228\"\nterrain = { source = \"d.asc\", crs = \"EPSG:32618\" }");
+    assert!(z == 1000.0 && notes.iter().any(|note| note.contains("whatever the vertical part")), "{notes:?}");
+    let unknown = folder.refused("terrain = { source = \"d.asc\", crs = \"EPSG:9518\" }");
+    assert!(unknown.to_string().contains("EPSG:4326+3855"), "{unknown}");
+    // What the file says itself is not said twice.
+    let prj = r#"VERTCS["NAVD88",VDATUM["n"],UNIT["Foot",0.3048]]"#;
+    std::fs::write(folder.path("d.prj"), prj).unwrap();
+    let (z, notes) = load("terrain = { source = \"d.asc\", crs = \"EPSG:2263+6360\" }");
+    assert!(
+        (z - 304.8).abs() < 1e-9 && notes.iter().any(|note| note.contains("is not used")),
+        "{z} {notes:?}"
+    );
+}
+
 /// A hill that goes around the globe without a seam, by degrees.
 fn around(lon: f64, lat: f64) -> f64 {
     1000.0 + 300.0 * crate::math::cos((lon - 170.0).to_radians()) + 2.0 * lat
