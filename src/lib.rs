@@ -38,7 +38,7 @@
 //! Internals, public for the tests and benches of this repository, which may change in any version: [`crs`], [`source`] (files become
 //! scenes), [`parameter`] (what is declared of settings), [`draw_list`] (what is painted), [`terrain`] (a mesh with bounding boxes),
 //! [`raster`] and [`visibility`] (which triangle each sample sees, exactly), [`resolve`] (colours are composed), [`index`], [`tiling`] and
-//! [`canvas`] (what frames are made of), [`certainty`] (how doubt composes), [`sampling`] (plain supersampling), [`math`]; and what is not
+//! [`canvas`] (what frames are made of), [`decal`] (which items hold a plan point), [`certainty`] (how doubt composes), [`sampling`] (plain supersampling), [`math`]; and what is not
 //! public at all.
 //!
 //! # Features
@@ -56,6 +56,8 @@ pub mod certainty;
 pub mod compare;
 #[cfg(feature = "render")]
 pub mod crs;
+#[cfg(feature = "render")]
+pub mod decal;
 #[cfg(feature = "render")]
 pub mod draw_list;
 mod error;

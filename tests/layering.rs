@@ -38,6 +38,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("resolve", &["terrain", "scene", "space", "buffer"]),
     // How uncertainty composes, not who decides: judges and what they judge may share it.
     ("certainty", &["resolve", "scene"]),
+    ("decal", &["draw_list", "scene", "space", "index", "predicate", "parallel"]),
     ("canvas", &["visibility", "resolve", "raster", "terrain", "scene", "space", "parallel", "buffer"]),
     (
         "technique",
@@ -188,6 +189,8 @@ const CIRCLES: &[(&[&str], &str)] = &[];
 
 /// Public functions that nothing in this repository but tests calls, and for whom they are.
 const FOR_OTHERS: &[(&str, &str)] = &[
+    ("winding_f32", "static decals, which are being built, ask as a graphics processor does"),
+    ("leaf_edges", "static decals, which are being built, hand a quadtree on to a graphics processor"),
     ("from_plane", "who judges buffers of a program of one's own makes pictures of them"),
     (
         "largest_deviation",
