@@ -210,9 +210,7 @@ impl Difference {
     }
 
     fn component(&self, axis: usize) -> Expansion {
-        let (of, minus) = (self.of[axis], self.minus[axis]);
-        let high = of - minus;
-        Expansion(two_term(high, two_diff_tail(of, minus, high)))
+        Expansion::difference(self.of[axis], self.minus[axis])
     }
 }
 
@@ -242,21 +240,32 @@ fn exact_det(rows: &[Difference; 3]) -> Expansion {
 
 /// A number as the exact sum of doubles that do not overlap, smallest first, none zero (Shewchuk 1997, section 2.3).
 #[derive(Debug, Clone, PartialEq)]
-struct Expansion(Vec<f64>);
+pub struct Expansion(Vec<f64>);
 
 impl Expansion {
+    /// What a double is.
+    pub fn exactly(v: f64) -> Self {
+        Self(two_term(v, 0.0))
+    }
+
+    /// A difference of two doubles.
+    pub fn difference(of: f64, minus: f64) -> Self {
+        let high = of - minus;
+        Self(two_term(high, two_diff_tail(of, minus, high)))
+    }
+
     /// -1, 0 or 1: the largest component's sign is that of the sum.
-    fn sign(&self) -> f64 {
+    pub fn sign(&self) -> f64 {
         self.0.last().map_or(0.0, |v| v.signum())
     }
 
     /// The nearest double, or its neighbour.
-    fn rounded(&self) -> f64 {
+    pub fn rounded(&self) -> f64 {
         self.0.iter().fold(0.0, |sum, v| sum + v)
     }
 
-    /// Shewchuk's GROW-EXPANSION with zero elimination, once for each component of `other`.
-    fn plus(&self, other: &Self) -> Self {
+    /// The sum: Shewchuk's GROW-EXPANSION with zero elimination, once for each component of `other`.
+    pub fn plus(&self, other: &Self) -> Self {
         let mut sum = self.0.clone();
         for &term in &other.0 {
             sum = grow(&sum, term);
@@ -264,11 +273,13 @@ impl Expansion {
         Self(sum)
     }
 
-    fn minus(&self, other: &Self) -> Self {
+    /// The difference.
+    pub fn minus(&self, other: &Self) -> Self {
         self.plus(&Self(other.0.iter().map(|v| -v).collect()))
     }
 
-    fn scaled(&self, by: f64) -> Self {
+    /// The product with a double (SCALE-EXPANSION).
+    pub fn scaled(&self, by: f64) -> Self {
         let mut sum = Vec::with_capacity(2 * self.0.len());
         for &term in &self.0 {
             let high = term * by;
@@ -278,7 +289,8 @@ impl Expansion {
         Self(sum)
     }
 
-    fn times(&self, other: &Self) -> Self {
+    /// The product.
+    pub fn times(&self, other: &Self) -> Self {
         other.0.iter().fold(Self(Vec::new()), |sum, &term| sum.plus(&self.scaled(term)))
     }
 }

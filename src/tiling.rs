@@ -28,6 +28,11 @@ impl Tiling {
         Self { width, height, side: side.max(1) }
     }
 
+    /// Columns and rows of the picture.
+    pub fn size(&self) -> [usize; 2] {
+        [self.width, self.height]
+    }
+
     /// Tiles a row.
     pub fn across(&self) -> usize {
         self.width.div_ceil(self.side)

@@ -14,7 +14,7 @@ use drapery::space::Plan;
 use drapery::stage::Stage;
 use drapery::technique::clipmap::{self, Joints, Overlaps, PolygonRaster, Solution};
 use drapery::technique::stencil_volume::{self, Grouping, VolumeJoins};
-use drapery::technique::{Frame, Kind, inverse_projection};
+use drapery::technique::{Frame, Kind, inverse_projection, static_decal};
 use drapery::truth::{self, Budget, Truth};
 use drawing::{count, frame_of, scene, truth_of};
 use proptest::prelude::*;
@@ -142,6 +142,11 @@ fn truth_and_techniques_paint_the_same_items_of_every_shape_in_every_style_of_on
     let mut technique = TechniqueSettings::default();
     technique.set(stencil_volume::Settings { joins: VolumeJoins::Style, ..Default::default() });
     technique.set(clipmap::Settings { virtual_size: 2048, joints: Joints::Style, ..Default::default() });
+    technique.set(static_decal::Settings {
+        joins: static_decal::Joins::Style,
+        outlines: static_decal::Outlines::Polygon,
+        ..Default::default()
+    });
     let layer = Layer { name: "all".into(), styles, features, opacity: 1.0, outside: None };
     let stage = stage_of(&text, vec![layer], &technique);
 

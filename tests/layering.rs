@@ -36,14 +36,18 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
         &["raster", "terrain", "scene", "space", "predicate", "index", "tiling", "parallel", "buffer"],
     ),
     ("resolve", &["terrain", "scene", "space", "buffer"]),
+    ("decal", &["draw_list", "resolve", "scene", "space", "predicate", "index", "parallel", "parameter"]),
     // How uncertainty composes, not who decides: judges and what they judge may share it.
     ("certainty", &["resolve", "scene"]),
-    ("decal", &["draw_list", "scene", "space", "index", "predicate", "parallel"]),
-    ("canvas", &["visibility", "resolve", "raster", "terrain", "scene", "space", "parallel", "buffer"]),
+    (
+        "canvas",
+        &["visibility", "resolve", "raster", "terrain", "scene", "space", "tiling", "parallel", "buffer"],
+    ),
     (
         "technique",
         &[
             "canvas",
+            "decal",
             "visibility",
             "resolve",
             "raster",
@@ -189,8 +193,6 @@ const CIRCLES: &[(&[&str], &str)] = &[];
 
 /// Public functions that nothing in this repository but tests calls, and for whom they are.
 const FOR_OTHERS: &[(&str, &str)] = &[
-    ("winding_f32", "static decals, which are being built, ask as a graphics processor does"),
-    ("leaf_edges", "static decals, which are being built, hand a quadtree on to a graphics processor"),
     ("from_plane", "who judges buffers of a program of one's own makes pictures of them"),
     (
         "largest_deviation",

@@ -7,10 +7,10 @@ use drapery::scene::{Cap, Join, TechniqueSettings, Width};
 use drapery::scene::{Color, Feature, Fill, Layer, Line, Outline, OutlineMode, Rule, Shape, Style};
 use drapery::space::Plan;
 use drapery::stage::Stage;
-use drapery::technique::Kind;
 use drapery::technique::clipmap::{self, Overlaps, PolygonRaster};
 use drapery::technique::inverse_projection::{self, PointInPolygon};
 use drapery::technique::stencil_volume::{self, Grouping};
+use drapery::technique::{Kind, static_decal};
 use drawing::{frame_of, loaded, truth_of};
 use proptest::prelude::*;
 
@@ -61,6 +61,8 @@ fn settings() -> Vec<TechniqueSettings> {
         technique.set(clipmap::Settings { virtual_size: 1024, polygons, overlaps, ..Default::default() });
         technique.set(inverse_projection::Settings { point_in_polygon: inside, ..Default::default() });
         technique.set(stencil_volume::Settings { grouping, ..Default::default() });
+        technique
+            .set(static_decal::Settings { outlines: static_decal::Outlines::Polygon, ..Default::default() });
         all.push(technique);
     }
     all

@@ -7,11 +7,13 @@
 mod backdrop;
 mod frame;
 mod g_buffer;
+mod pattern;
 mod pixels;
 mod record;
 
 pub use backdrop::{Backdrop, LastGround};
 pub use frame::{Frame, FrameOptions, Kept, joined, picture_plane};
 pub use g_buffer::{GBuffer, sight_counts, surface_plane};
+pub use pattern::{BlockSamples, MOST_SAMPLES, SamplePattern};
 pub use pixels::{Pixels, mean};
 pub use record::Record;

@@ -1,7 +1,33 @@
-//! Static decals as a structure that answers which items of the draw list hold a plan point (Zechmeister 2020, sections 3.2.1 and 4.2.1, after
-//! Thöny et al. 2017 and Frasson et al. 2018).
+//! Static decals: which items of a draw list hold a point of the plan. M. Zechmeister (2020), "Vector data on heightfields" (the thesis), chapters 3 and 4, after
+//! M. Thöny, M. Billeter, R. Pajarola (2017) for lines and L. Frasson, T. Engel, C. Pozzer (2018) for polygons.
 //!
-//! Input: the draw list's vertices, and rings of them. Output: a [`quadtree::Quadtree`] of a ring: its winding number around any point,
-//! exactly. Refuses: nothing; rings without an area hold no point.
+//! Input: a [`DrawList`](crate::draw_list::DrawList), the terrain's box in the plan. Output: [`Decals`], which answer for the samples of a pixel
+//! with [`Hits`]; [`Palette`] composes them. Refuses: nothing. From the sample inwards, as Algorithm 3.5 goes:
+//! 1. the sample's cell of the decal grid (`grid`);
+//! 2. what the cell refers to (`cell`), in two trees sorted by draw order (`bvh`), walked together from the front (`lookup`);
+//! 3. a leaf is a segment of a stroke, widened (`stroke`), or a polygon: the parts of its rings' quadtrees that lie in the cell (`quadtree`);
+//! 4. what holds the samples (`hits`) is composed (`palette`).
+//!
+//! Cells and quadtrees are built (`build`) when a sample first lies in them, or all beforehand: the bits are the same. With exact mathematics every
+//! decision is exact: boxes only leave out what surely misses, the tests in leaves are predicates. Widths in pixels are no static decals: such
+//! strokes are passed over.
 
-pub mod quadtree;
+mod build;
+mod bvh;
+mod cell;
+mod coverage;
+mod grid;
+mod hits;
+mod lookup;
+mod palette;
+pub(crate) mod quadtree;
+mod settings;
+mod share;
+mod side;
+pub(crate) mod stroke;
+
+pub use hits::{Hit, Hits, MOST_TOGETHER};
+pub use lookup::{Decals, LookupCounts};
+pub use palette::{Mean, Palette};
+pub use settings::{Edges, Hierarchy, Joins, LeafPolygons, Outlines, Overlaps, Preparation, Settings};
+pub use share::{PlanPixel, Shares};

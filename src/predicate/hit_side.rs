@@ -6,7 +6,6 @@
 //! Refuses: nothing; the ray must cross the triangle, not lie in its plane.
 
 use super::{Difference, Expansion, Parameter, TrianglePlane, U, hit_fraction, orient3d, sign_of_det};
-use super::{two_diff_tail, two_term};
 use crate::space::{Plan, Ray, World};
 use glam::DVec3;
 
@@ -56,14 +55,14 @@ pub fn hit_is_above(ray: &Ray, triangle: &[World; 3], height: f64) -> bool {
     if value.abs() > error {
         return value > 0.0;
     }
-    at_hit(ray, triangle, |p| gap(p.z, height)) >= 0.0
+    at_hit(ray, triangle, |p| Expansion::difference(p.z, height)) >= 0.0
 }
 
 #[cold]
 fn exact_hit_side(ray: &Ray, triangle: &[World; 3], a: Plan, b: Plan) -> f64 {
     at_hit(ray, triangle, |p| {
-        let (x, y) = (gap(p.x, a.x), gap(p.y, a.y));
-        gap(b.x, a.x).times(&y).minus(&gap(b.y, a.y).times(&x))
+        let (x, y) = (Expansion::difference(p.x, a.x), Expansion::difference(p.y, a.y));
+        Expansion::difference(b.x, a.x).times(&y).minus(&Expansion::difference(b.y, a.y).times(&x))
     })
 }
 
@@ -75,10 +74,4 @@ fn at_hit(ray: &Ray, triangle: &[World; 3], function: impl Fn(World) -> Expansio
     let (from, through) = (function(ray.from), function(ray.through));
     let value = from.times(&d).plus(&through.minus(&from).times(&n));
     value.sign() * d.sign()
-}
-
-/// The difference of two doubles, exactly.
-fn gap(of: f64, minus: f64) -> Expansion {
-    let high = of - minus;
-    Expansion(two_term(high, two_diff_tail(of, minus, high)))
 }

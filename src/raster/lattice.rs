@@ -39,6 +39,12 @@ impl Lattice {
         Self { x, y, step, columns: size[0] * n, rows: size[1] * n }
     }
 
+    /// One sample a pixel of the rectangle of pixels at `corner`, at a place in each pixel, 0..=1 from its upper left corner.
+    pub fn one_each(corner: [usize; 2], size: [usize; 2], place: [f64; 2]) -> Self {
+        let at = |axis: usize| corner[axis] as f64 + place[axis];
+        Self { x: at(0), y: at(1), step: 1.0, columns: size[0], rows: size[1] }
+    }
+
     /// The screen point of a sample.
     #[inline(always)]
     pub fn at(&self, column: usize, row: usize) -> Screen {

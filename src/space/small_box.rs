@@ -1,6 +1,6 @@
 //! Boxes of the plan in half the memory.
 
-use super::PlanBox;
+use super::{Plan, PlanBox};
 
 /// West, south, east, north of a box, rounded outwards to single precision: it may meet what the box just misses, never miss what
 /// the box meets.
@@ -22,6 +22,12 @@ impl SmallBox {
         let least = |p: f32, q: f32| if p < q { p } else { q };
         let most = |p: f32, q: f32| if p > q { p } else { q };
         Self([least(w, a), least(s, b), most(e, c), most(n, d)])
+    }
+
+    /// Its middle.
+    pub fn middle(&self) -> Plan {
+        let [w, s, e, n] = self.0.map(f64::from);
+        Plan::new(0.5 * (w + e), 0.5 * (s + n))
     }
 
     /// Whether two boxes share a point.

@@ -10,6 +10,7 @@
 pub mod clipmap;
 mod declaration;
 pub mod inverse_projection;
+pub mod static_decal;
 pub mod stencil_volume;
 pub mod sweep;
 
@@ -26,12 +27,12 @@ declaration::techniques! {
     Clipmap is clipmap,
     StencilVolume is stencil_volume,
     InverseProjection is inverse_projection,
+    StaticDecal is static_decal,
 }
 
 /// Techniques that are known and not built yet: their names, and what they are in a line.
-pub const PLANNED: [(&str, &str); 4] = [
+pub const PLANNED: [(&str, &str); 3] = [
     ("geometry-overlay", "Geometry overlay (Wartell)"),
-    ("static-decal", "Static decals (Zechmeister, after Thöny and Frasson)"),
     ("dynamic-line", "Dynamic lines (Zechmeister)"),
     ("analytic", "Hierarchical classification and closed-form coverage (ours)"),
 ];

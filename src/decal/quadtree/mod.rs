@@ -17,8 +17,11 @@ mod node;
 mod tree;
 
 pub use build::Limits;
+#[cfg(test)]
 pub use node::Kind;
-pub use tree::{Closing, Counts, LeafEdges, Quadtree, Start};
+#[cfg(test)]
+pub use tree::LeafEdges;
+pub use tree::{Counts, Quadtree, Start};
 
 #[cfg(test)]
 mod tests;

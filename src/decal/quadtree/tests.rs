@@ -1,4 +1,5 @@
 use super::*;
+use crate::decal::LeafPolygons;
 use crate::space::{Plan, PlanBox};
 use dashu::rational::RBig;
 use proptest::prelude::*;
@@ -49,7 +50,7 @@ fn among_others(ring: &[(f64, f64)]) -> (Vec<Plan>, u32) {
     ([(7.0, -3.0), (1e6, 2.0)].map(|(x, y)| Plan::new(x, y)).into_iter().chain(ring).collect(), 2)
 }
 
-fn tree_of(vertices: &[Plan], first: u32, limits: Limits, closing: Closing) -> Quadtree {
+fn tree_of(vertices: &[Plan], first: u32, limits: Limits, closing: LeafPolygons) -> Quadtree {
     Quadtree::new(&vertices[first as usize..], first, limits, closing)
 }
 
@@ -135,7 +136,7 @@ proptest! {
     fn every_point_has_the_winding_number_of_all_edges(ring in ring_on_lattice(), limits in limits()) {
         let (vertices, first) = among_others(&ring);
         let path = &vertices[first as usize..];
-        let tree = tree_of(&vertices, first, limits, Closing::Corner);
+        let tree = tree_of(&vertices, first, limits, LeafPolygons::Corner);
         for at in delicate_points(path, &tree) {
             prop_assert_eq!(winding(&tree, &vertices, at), truth_on_lattice(path, at), "{:?}", at);
         }
@@ -147,7 +148,7 @@ proptest! {
     ) {
         let (vertices, first) = among_others(&ring);
         let path = &vertices[first as usize..];
-        let tree = tree_of(&vertices, first, limits, Closing::Corner);
+        let tree = tree_of(&vertices, first, limits, LeafPolygons::Corner);
         let nodes = tree.nodes();
         let corners = nodes.iter().step_by(nodes.len() / 32 + 1).flat_map(|(plan, _)| [plan.min, plan.max]);
         for at in points.iter().map(|(x, y)| Plan::new(*x, *y)).chain(path.iter().copied()).chain(corners) {
@@ -161,7 +162,7 @@ proptest! {
     ) {
         let (vertices, first) = among_others(&ring);
         let path = &vertices[first as usize..];
-        let tree = tree_of(&vertices, first, limits, Closing::Corner);
+        let tree = tree_of(&vertices, first, limits, LeafPolygons::Corner);
         let points = delicate_points(path, &tree);
         for cell in cells {
             let start = tree.start_in(&cell);
@@ -176,7 +177,7 @@ proptest! {
     fn clipped_leaves_say_something_else_at_most_next_to_edges(ring in ring_on_lattice(), limits in limits()) {
         let (vertices, first) = among_others(&ring);
         let path = &vertices[first as usize..];
-        let tree = tree_of(&vertices, first, limits, Closing::Clipped);
+        let tree = tree_of(&vertices, first, limits, LeafPolygons::Clipped);
         for at in delicate_points(path, &tree).into_iter().filter(|at| distance(path, *at) > 1e-13) {
             prop_assert_eq!(winding(&tree, &vertices, at), truth_on_lattice(path, at), "{:?}", at);
         }
@@ -191,8 +192,8 @@ proptest! {
         ring.extend([(0.0, 0.0), (8.0, 8.0)]);
         let (vertices, first) = among_others(&ring);
         let path = &vertices[first as usize..];
-        let tree = tree_of(&vertices, first, Limits { capacity, depth }, Closing::Corner);
-        let other = tree_of(&vertices, first, Limits { capacity, depth }, Closing::Clipped);
+        let tree = tree_of(&vertices, first, Limits { capacity, depth }, LeafPolygons::Corner);
+        let other = tree_of(&vertices, first, Limits { capacity, depth }, LeafPolygons::Clipped);
         for at in delicate_points(path, &tree) {
             let expected = truth_on_lattice(path, at);
             let single = [at.x as f32, at.y as f32];
@@ -212,7 +213,7 @@ proptest! {
     fn leaves_have_no_more_edges_than_the_limits_say_and_all_that_meet_them(ring in ring_on_lattice(), limits in limits()) {
         let (vertices, first) = among_others(&ring);
         let path = &vertices[first as usize..];
-        let tree = tree_of(&vertices, first, limits, Closing::Corner);
+        let tree = tree_of(&vertices, first, limits, LeafPolygons::Corner);
         let (nodes, whole) = (tree.nodes(), tree.bounds());
         // Too many edges that lie over one another are not divided to the end.
         prop_assume!(tree.bytes() < 1 << 18);
@@ -246,7 +247,7 @@ fn a_ring_that_goes_twice_around_winds_twice_and_a_figure_of_eight_once_each_way
     let twice: Vec<(f64, f64)> = [(0.0, 0.0), (8.0, 0.0), (8.0, 8.0), (0.0, 8.0)].repeat(2);
     let eight = [(0.0, 0.0), (8.0, 8.0), (8.0, 0.0), (0.0, 8.0)];
     for capacity in 1..10 {
-        for closing in [Closing::Corner, Closing::Clipped] {
+        for closing in [LeafPolygons::Corner, LeafPolygons::Clipped] {
             let limits = Limits { capacity, depth: 5 };
             let (vertices, first) = among_others(&twice);
             let tree = tree_of(&vertices, first, limits, closing);
@@ -277,7 +278,7 @@ fn no_ring_is_too_degenerate() {
     ];
     for ring in rings {
         for (capacity, depth) in [(0, 16), (1, 16), (1, 99), (8, 8)] {
-            for closing in [Closing::Corner, Closing::Clipped] {
+            for closing in [LeafPolygons::Corner, LeafPolygons::Clipped] {
                 let (vertices, first) = among_others(ring);
                 let tree = tree_of(&vertices, first, Limits { capacity, depth }, closing);
                 for at in vertices.iter().copied().chain([Plan::new(f64::NAN, f64::INFINITY)]) {
@@ -290,7 +291,7 @@ fn no_ring_is_too_degenerate() {
             }
         }
     }
-    let none = Quadtree::new(&[], 0, Limits { capacity: 1, depth: 16 }, Closing::Clipped);
+    let none = Quadtree::new(&[], 0, Limits { capacity: 1, depth: 16 }, LeafPolygons::Clipped);
     assert_eq!(winding(&none, &[], Plan::new(0.0, 0.0)), 0);
     assert_eq!(none.start_in(&PlanBox::around([Plan::new(0.0, 0.0)])), None);
 }
@@ -302,7 +303,7 @@ fn needles_need_no_memory_without_end() {
         .map(|k| (f64::from(k % 2) * 1000.0 + f64::from(k) * 1e-7, f64::from(k % 2) * 999.0))
         .collect();
     let (vertices, first) = among_others(&ring);
-    let tree = tree_of(&vertices, first, Limits { capacity: 1, depth: 16 }, Closing::Corner);
+    let tree = tree_of(&vertices, first, Limits { capacity: 1, depth: 16 }, LeafPolygons::Corner);
     assert!(tree.bytes() < 32 << 20, "{}", tree.bytes());
     let path = &vertices[first as usize..];
     for k in 0..50 {
@@ -326,10 +327,10 @@ fn wavy(count: u32) -> Vec<(f64, f64)> {
 fn a_small_ring_costs_no_more_than_its_bounds_and_a_large_one_a_few_bytes_a_vertex() {
     let limits = Limits { capacity: 8, depth: 8 };
     let (vertices, first) = among_others(&wavy(8));
-    assert_eq!(tree_of(&vertices, first, limits, Closing::Corner).bytes(), size_of::<Quadtree>());
+    assert_eq!(tree_of(&vertices, first, limits, LeafPolygons::Corner).bytes(), size_of::<Quadtree>());
     assert!(size_of::<Quadtree>() <= 48);
     let (vertices, first) = among_others(&wavy(5000));
-    let tree = tree_of(&vertices, first, limits, Closing::Corner);
+    let tree = tree_of(&vertices, first, limits, LeafPolygons::Corner);
     assert!(tree.bytes() < 5000 * 20, "{}", tree.bytes());
 }
 
@@ -337,7 +338,7 @@ fn a_small_ring_costs_no_more_than_its_bounds_and_a_large_one_a_few_bytes_a_vert
 fn few_nodes_and_edges_are_looked_at_and_from_a_cell_in_a_leaf_a_single_node() {
     let (vertices, first) = among_others(&wavy(5000));
     let limits = Limits { capacity: 8, depth: 10 };
-    let tree = tree_of(&vertices, first, limits, Closing::Corner);
+    let tree = tree_of(&vertices, first, limits, LeafPolygons::Corner);
     for (plan, kind) in tree.nodes() {
         let at = Plan::new(0.5 * (plan.min.x + plan.max.x), 0.5 * (plan.min.y + plan.max.y));
         let (mut whole, mut culled) = (Counts::default(), Counts::default());

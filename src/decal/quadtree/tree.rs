@@ -5,18 +5,9 @@ use super::build::{Limits, divide};
 use super::clip::leaf_polygons;
 use super::crossing::{Arithmetic, Exact, Single, turns_above};
 use super::node::{Kind, Leaf, Node};
-use crate::space::{Plan, PlanBox};
+use crate::decal::LeafPolygons;
+use crate::space::{Plan, PlanBox, SmallBox};
 use std::ops::Range;
-
-/// How the polygon of a leaf is closed on the leaf's border.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Closing {
-    /// Not with edges: the winding number of the leaf's south-east corner stands for them. Leaves refer to the ring's own vertices, and all
-    /// answers are exact.
-    Corner,
-    /// With segments along the border, as in the thesis: the edges are cut there, and leaves have vertices of their own, which are rounded.
-    Clipped,
-}
 
 /// What an answer took.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -39,6 +30,7 @@ impl Start {
     pub const ROOT: Self = Self { node: 0, quad: Quad::ROOT };
 }
 
+#[cfg(test)]
 /// The edges of a tree's leaves.
 #[derive(Debug)]
 pub enum LeafEdges<'a> {
@@ -78,7 +70,7 @@ pub struct Quadtree {
 impl Quadtree {
     /// The tree of a ring. `path` has its vertices, scene-local metres, the first once more at the end; `first` is the number of the first among
     /// the draw list's.
-    pub fn new(path: &[Plan], first: u32, limits: Limits, closing: Closing) -> Self {
+    pub fn new(path: &[Plan], first: u32, limits: Limits, closing: LeafPolygons) -> Self {
         let bounds = PlanBox::around(path.iter().copied());
         let has_area = bounds.min.x < bounds.max.x && bounds.min.y < bounds.max.y;
         let count = if has_area { path.len() as u32 - 1 } else { 0 };
@@ -164,6 +156,41 @@ impl Quadtree {
         }
     }
 
+    /// Calls `visit` with the ends of each edge of a subtree's leaves that meet a box: all that meet the box themselves, and some that miss it; an
+    /// edge of several leaves comes several times. Leaves that are clipped tell nothing.
+    pub fn edges_near(
+        &self,
+        vertices: &[Plan],
+        start: Start,
+        wanted: &SmallBox,
+        visit: &mut dyn FnMut(Plan, Plan),
+    ) {
+        let meets = |plan: &PlanBox| SmallBox::around(plan).meets(wanted);
+        let mut visit = |k: u32| visit(vertices[k as usize], vertices[k as usize + 1]);
+        let Some(nodes) = &self.nodes else {
+            if meets(&self.bounds) {
+                (self.first..self.first + self.count).for_each(visit);
+            }
+            return;
+        };
+        let Edges::Numbers(edges) = &nodes.edges else { return };
+        let mut stack = vec![(start.node, start.quad)];
+        while let Some((node, quad)) = stack.pop() {
+            if !meets(&nodes.borders.of(quad)) {
+                continue;
+            }
+            match nodes.nodes[node as usize].kind() {
+                Kind::Internal(children) => {
+                    stack.extend(
+                        (0..4u16).map(|quarter| (children + u32::from(quarter), quad.child(quarter))),
+                    );
+                }
+                Kind::Full(_) => {}
+                Kind::Partial(leaf) => edges[nodes.edges_of(leaf)].iter().copied().for_each(&mut visit),
+            }
+        }
+    }
+
     /// The winding number of a point in the ring's box by all edges.
     fn turns_of_all<A: Arithmetic>(&self, vertices: &[Plan], at: Plan, counts: &mut Counts) -> i32 {
         counts.nodes += 1;
@@ -173,6 +200,7 @@ impl Quadtree {
         turns_above::<A>(path.windows(2).map(|edge| (edge[0], edge[1])), corner, at)
     }
 
+    #[cfg(test)]
     /// All nodes, breadth first: rectangle and kind.
     pub fn nodes(&self) -> Vec<(PlanBox, Kind)> {
         let Some(nodes) = &self.nodes else {
@@ -190,12 +218,14 @@ impl Quadtree {
         boxes.zip(nodes.nodes.iter().map(|node| node.kind())).collect()
     }
 
+    #[cfg(test)]
     /// The place of a leaf's edges among those of all leaves that edges meet, by its number. `None` when the ring is not divided: the leaf has
     /// all its edges.
     pub fn leaf(&self, leaf: u32) -> Option<Range<usize>> {
         self.nodes.as_ref().map(|nodes| nodes.edges_of(leaf))
     }
 
+    #[cfg(test)]
     /// The edges of all leaves, one leaf after another. `None` when the ring is not divided.
     pub fn leaf_edges(&self) -> Option<LeafEdges<'_>> {
         self.nodes.as_ref().map(|nodes| match &nodes.edges {
@@ -221,11 +251,11 @@ fn holds<A: Arithmetic>(plan: &PlanBox, at: Plan) -> bool {
 }
 
 impl Nodes {
-    fn new(path: &[Plan], bounds: &PlanBox, first: u32, limits: Limits, closing: Closing) -> Self {
+    fn new(path: &[Plan], bounds: &PlanBox, first: u32, limits: Limits, closing: LeafPolygons) -> Self {
         let mut division = divide(path, bounds, limits);
         let edges = match closing {
-            Closing::Corner => Edges::Numbers(division.edges.iter().map(|k| first + k).collect()),
-            Closing::Clipped => {
+            LeafPolygons::Corner => Edges::Numbers(division.edges.iter().map(|k| first + k).collect()),
+            LeafPolygons::Clipped => {
                 let polygons = leaf_polygons(path, &division);
                 for (leaf, end) in division.leaves.iter_mut().zip(&polygons.ends) {
                     leaf.end = *end;

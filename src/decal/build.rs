@@ -1,0 +1,281 @@
+//! Draw list -> the index that cells are built from, and cells.
+
+use super::cell::{AreaPart, Contents, FillLeaf, LineLeaf, NOTHING, RingPart};
+use super::quadtree::{Limits, Quadtree};
+use super::settings::{LeafPolygons, Settings};
+use super::stroke::{Segment, SingleSegment, StrokeRules};
+use crate::draw_list::{Chain, DrawList, Role};
+use crate::index::BoxTree;
+use crate::parallel;
+use crate::space::{Plan, PlanBox, SmallBox};
+use std::sync::OnceLock;
+
+/// Segments that are indexed together: a cell is built from the runs whose boxes meet it.
+const SEGMENTS_OF_A_RUN: u32 = 32;
+
+/// Items that one piece of parallel work looks at.
+const ITEMS_AT_A_TIME: usize = 512;
+
+/// Some consecutive segments of a stroke.
+#[derive(Debug, Clone, Copy)]
+struct Run {
+    item: u32,
+    /// Its chain's place among those of the item.
+    chain: u32,
+    /// The first of them in the chain.
+    first: u32,
+}
+
+/// A ring of an area.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Ring {
+    /// The item that owns the area.
+    pub(super) owner: u32,
+    /// The ring's place among the area's.
+    place: u32,
+}
+
+/// All that cells are built from.
+#[derive(Debug)]
+pub(super) struct Source<'l> {
+    pub(super) list: &'l DrawList,
+    limits: Limits,
+    closing: LeafPolygons,
+    /// How strokes of each style are drawn; none of what is no stroke in metres.
+    pub(super) rules: Vec<Option<StrokeRules>>,
+    runs: Vec<Run>,
+    run_boxes: BoxTree,
+    rings: Vec<Ring>,
+    ring_boxes: BoxTree,
+    quadtrees: Vec<OnceLock<Box<Quadtree>>>,
+    /// What is outside of a layer's polygons: in every cell.
+    everywhere: Vec<u32>,
+    /// Around all decals.
+    pub(super) bounds: PlanBox,
+}
+
+impl<'l> Source<'l> {
+    /// Looks at each vertex once.
+    pub(super) fn new(list: &'l DrawList, settings: &Settings) -> Self {
+        let rules = list.styles().iter().map(|style| StrokeRules::of(style.stroke.as_ref()?, settings.joins));
+        let rules: Vec<Option<StrokeRules>> = rules.collect();
+        let items = list.items().len();
+        let parts = parallel::map_indices(items.div_ceil(ITEMS_AT_A_TIME), |k| {
+            let mut part = IndexPart::default();
+            for item in k * ITEMS_AT_A_TIME..items.min((k + 1) * ITEMS_AT_A_TIME) {
+                part.add(list, &rules, item as u32);
+            }
+            part
+        });
+        let mut all = IndexPart::default();
+        parts.into_iter().for_each(|part| all.append(part));
+        let around = |boxes: &[PlanBox]| {
+            let mut sum = PlanBox::EMPTY;
+            for plan in boxes.iter().filter(|plan| !plan.is_empty()) {
+                sum.include(plan.min);
+                sum.include(plan.max);
+            }
+            sum
+        };
+        let mut bounds = around(&all.run_boxes);
+        let of_rings = around(&all.ring_boxes);
+        if !of_rings.is_empty() {
+            bounds.include(of_rings.min);
+            bounds.include(of_rings.max);
+        }
+        Self {
+            list,
+            limits: Limits { capacity: settings.leaf_capacity, depth: settings.depth },
+            closing: settings.leaf_polygons,
+            rules,
+            runs: all.runs,
+            run_boxes: BoxTree::new(&all.run_boxes),
+            quadtrees: all.rings.iter().map(|_| OnceLock::new()).collect(),
+            rings: all.rings,
+            ring_boxes: BoxTree::new(&all.ring_boxes),
+            everywhere: all.everywhere,
+            bounds,
+        }
+    }
+
+    /// Whether something is to be found outside of the box around all strokes and rings.
+    pub(super) fn is_everywhere(&self) -> bool {
+        !self.everywhere.is_empty()
+    }
+
+    /// The rings of the area that an item owns.
+    pub(super) fn rings_of(&self, owner: u32) -> impl Iterator<Item = u32> {
+        let place = |end: u32| self.rings.partition_point(|ring| ring.owner < end) as u32;
+        place(owner)..place(owner + 1)
+    }
+
+    /// How often a ring turns around a point.
+    pub(super) fn turns_around(&self, ring: u32, at: Plan) -> i32 {
+        let quadtree = self.quadtree(ring);
+        let start = quadtree.start_in(&PlanBox::around([at]));
+        start.map_or(0, |start| quadtree.winding(self.list.vertices(), start, at, &mut Default::default()))
+    }
+
+    /// The chain of a ring.
+    pub(super) fn chain_of(&self, ring: u32) -> &'l Chain {
+        let Ring { owner, place } = self.rings[ring as usize];
+        &self.list.area(&self.list.items()[owner as usize])[place as usize]
+    }
+
+    /// A ring's quadtree, built when it is first asked for.
+    #[inline(always)]
+    pub(super) fn quadtree(&self, ring: u32) -> &Quadtree {
+        self.quadtrees[ring as usize].get_or_init(|| {
+            let chain = self.chain_of(ring);
+            Box::new(Quadtree::new(self.list.path_of(chain), chain.first, self.limits, self.closing))
+        })
+    }
+
+    /// The quadtrees that have been built.
+    pub(super) fn built_quadtrees(&self) -> impl Iterator<Item = &Quadtree> {
+        self.quadtrees.iter().filter_map(|quadtree| quadtree.get().map(|boxed| &**boxed))
+    }
+
+    /// What lies in a box of the plan.
+    pub(super) fn contents(&self, plan: &PlanBox) -> Contents {
+        let mut contents = Contents::default();
+        self.add_areas(plan, &mut contents);
+        self.add_lines(plan, &mut contents);
+        contents
+    }
+
+    /// Rings by owner, and the fills that they make.
+    fn add_areas(&self, plan: &PlanBox, contents: &mut Contents) {
+        let mut near = Vec::new();
+        self.ring_boxes.query(plan, |ring| {
+            near.push(ring);
+            true
+        });
+        near.sort_unstable();
+        for of_owner in near.chunk_by(|a, b| self.rings[*a as usize].owner == self.rings[*b as usize].owner) {
+            let (owner, first) = (self.rings[of_owner[0] as usize].owner, contents.rings.len());
+            let mut bounds = PlanBox::EMPTY;
+            for &ring in of_owner {
+                let quadtree = self.quadtree(ring);
+                if let Some(start) = quadtree.start_in(plan) {
+                    contents.rings.push(RingPart { ring, start });
+                    let part = quadtree.bounds();
+                    bounds.include(part.min);
+                    bounds.include(part.max);
+                }
+            }
+            if contents.rings.len() == first {
+                continue;
+            }
+            let area = contents.areas.len() as u32;
+            contents.areas.push(AreaPart { owner, first: first as u32 });
+            if self.list.style_of(owner).role == Role::Fill {
+                contents.fills.push((FillLeaf { item: owner, area }, SmallBox::around(&bounds)));
+            }
+        }
+        for &item in &self.everywhere {
+            let area = contents.areas.iter().position(|part| part.owner == item);
+            let area = area.map_or(NOTHING, |area| area as u32);
+            contents.fills.push((FillLeaf { item, area }, SmallBox::around(plan)));
+        }
+    }
+
+    /// Segments whose widened quadrilaterals meet the box (4.2.1, *Line Segments*).
+    fn add_lines(&self, plan: &PlanBox, contents: &mut Contents) {
+        self.run_boxes.query(plan, |run| {
+            let Run { item, chain: place, first } = self.runs[run as usize];
+            let of = &self.list.items()[item as usize];
+            let Some(rules) = &self.rules[of.style as usize] else { return true };
+            let chain = &self.list.strokes(of)[place as usize];
+            let path = self.list.path_of(chain);
+            let end = chain.segments().max(1).min(first + SEGMENTS_OF_A_RUN);
+            let reach = rules.reach();
+            for k in first..end {
+                let ends = [path[k as usize], path[(k as usize + 1).min(path.len() - 1)]];
+                if !PlanBox::around(ends).grown(reach).meets(plan) {
+                    continue;
+                }
+                let segment = Segment::new(path, chain.is_closed, k as usize, rules);
+                let bounds = segment.bounds();
+                if bounds.meets(plan) && segment.may_meet(plan) {
+                    let leaf = LineLeaf { item, chain: place, vertex: k };
+                    contents.lines.push((leaf, SmallBox::around(&bounds)));
+                }
+            }
+            true
+        });
+    }
+
+    /// The segment of a leaf, made ready.
+    #[inline(always)]
+    pub(super) fn segment(&self, leaf: LineLeaf) -> Option<Segment> {
+        let (path, is_closed, rules) = self.stroke_of(leaf)?;
+        Some(Segment::new(path, is_closed, leaf.vertex as usize, rules))
+    }
+
+    /// The same for tests in single precision.
+    pub(super) fn single_segment(&self, leaf: LineLeaf) -> Option<SingleSegment> {
+        let (path, is_closed, rules) = self.stroke_of(leaf)?;
+        Some(SingleSegment::new(path, is_closed, leaf.vertex as usize, rules))
+    }
+
+    #[inline(always)]
+    fn stroke_of(&self, leaf: LineLeaf) -> Option<(&'l [Plan], bool, &StrokeRules)> {
+        let item = &self.list.items()[leaf.item as usize];
+        let chain = &self.list.strokes(item)[leaf.chain as usize];
+        Some((self.list.path_of(chain), chain.is_closed, self.rules[item.style as usize].as_ref()?))
+    }
+
+    pub(super) fn bytes(&self) -> usize {
+        size_of_val(&self.runs[..])
+            + size_of_val(&self.rings[..])
+            + size_of_val(&self.quadtrees[..])
+            + self.run_boxes.bytes()
+            + self.ring_boxes.bytes()
+            + self.built_quadtrees().map(Quadtree::bytes).sum::<usize>()
+    }
+}
+
+/// The index of some items.
+#[derive(Debug, Default)]
+struct IndexPart {
+    runs: Vec<Run>,
+    run_boxes: Vec<PlanBox>,
+    rings: Vec<Ring>,
+    ring_boxes: Vec<PlanBox>,
+    everywhere: Vec<u32>,
+}
+
+impl IndexPart {
+    fn append(&mut self, other: Self) {
+        self.runs.extend(other.runs);
+        self.run_boxes.extend(other.run_boxes);
+        self.rings.extend(other.rings);
+        self.ring_boxes.extend(other.ring_boxes);
+        self.everywhere.extend(other.everywhere);
+    }
+
+    fn add(&mut self, list: &DrawList, rules: &[Option<StrokeRules>], number: u32) {
+        let item = &list.items()[number as usize];
+        let around = |points: &[Plan]| PlanBox::around(points.iter().copied());
+        if let Some(rules) = &rules[item.style as usize] {
+            for (chain, place) in list.strokes(item).iter().zip(0..) {
+                let path = list.path_of(chain);
+                for first in (0..chain.segments().max(1)).step_by(SEGMENTS_OF_A_RUN as usize) {
+                    let end = (first as usize + SEGMENTS_OF_A_RUN as usize + 1).min(path.len());
+                    self.runs.push(Run { item: number, chain: place, first });
+                    self.run_boxes.push(around(&path[first as usize..end]).grown(rules.reach()));
+                }
+            }
+        }
+        if list.style_of(number).role == Role::Outside {
+            self.everywhere.push(number);
+        }
+        if list.area_owner(number) == number {
+            for (ring, place) in list.area(item).iter().zip(0..) {
+                self.rings.push(Ring { owner: number, place });
+                self.ring_boxes.push(around(list.vertices_of(ring)));
+            }
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! Edges without samples: which share of a pixel an item covers, from the distance of its border (3.5 and 4.3.2 leave it to future work; Thöny et al. 2017 do
+//! so for lines).
+//!
+//! Across a border the pixel is as wide as its parallelogram in the plan is in the direction of the border's normal. The nearest border alone is
+//! looked at, as if it were straight: corners and what is thinner than a pixel on both sides of another thing come out wrong.
+
+use super::bvh::Walk;
+use super::cell::{Cell, NOTHING};
+use super::lookup::Decals;
+use super::share::{PlanPixel, Shares};
+use crate::draw_list::{Role, Side};
+use crate::math;
+use crate::space::{Plan, PlanBox, SmallBox};
+use glam::DVec2;
+
+/// Where a pixel reaches over more cells than this, that of its centre tells for it.
+const MOST_CELLS: u32 = 64;
+
+impl Decals<'_> {
+    /// Finds the items that cover a share of a pixel. `shares` is emptied first.
+    pub fn cover(&self, pixel: &PlanPixel, shares: &mut Shares) {
+        shares.found.clear();
+        shares.edges.clear();
+        let Some(own) = self.cell_of(pixel.at) else { return };
+        let mut bounds = pixel.bounds();
+        let mut cells = self.grid.cells_in(&bounds);
+        if cells.len() > MOST_CELLS as usize {
+            bounds = PlanBox::around([pixel.at]);
+            cells = self.grid.cells_in(&bounds);
+        }
+        let wanted = SmallBox::around(&bounds);
+        let near = || cells.iter().filter_map(|cell| self.cell(*cell));
+        near().for_each(|cell| self.find_edges(cell, wanted, pixel, shares));
+        let home = self.cell(own);
+        for cell in near() {
+            for leaf in Walk::new(&cell.lines, wanted) {
+                let leaf = cell.segments[leaf as usize];
+                let Some(segment) = self.source.segment(leaf) else { continue };
+                let mut share =
+                    pixel.share(segment.depth_inside(pixel.at), segment.normal_to(pixel.at), segment.width());
+                if let Some(side) = self.list().style_of(leaf.item).cut
+                    && share > 0.0
+                {
+                    let inside = self.share_inside(self.list().area_owner(leaf.item), home, pixel, shares);
+                    share = math::min(share, if side == Side::Inside { inside } else { 1.0 - inside });
+                }
+                shares.found.push((leaf.item, share));
+            }
+            for leaf in Walk::new(&cell.polygons, wanted) {
+                let item = cell.fills[leaf as usize].item;
+                let inside = self.share_inside(item, home, pixel, shares);
+                let is_outside = self.list().style_of(item).role == Role::Outside;
+                shares.found.push((item, if is_outside { 1.0 - inside } else { inside }));
+            }
+        }
+        // Of an item that was found several times, the largest share.
+        shares.found.sort_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)));
+        shares.found.dedup_by_key(|(item, _)| *item);
+        shares.found.retain(|(_, share)| *share > 0.0);
+    }
+
+    /// Finds the edges of areas near a pixel.
+    fn find_edges(&self, cell: &Cell, wanted: SmallBox, pixel: &PlanPixel, shares: &mut Shares) {
+        let vertices = self.list().vertices();
+        for (area, part) in (0..).zip(&cell.areas) {
+            for ring in cell.rings_of(area) {
+                let quadtree = self.source.quadtree(ring.ring);
+                quadtree.edges_near(vertices, ring.start, &wanted, &mut |from, to| {
+                    let away = nearest(pixel.at, from, to) - pixel.at;
+                    let known = shares.edges.iter_mut().find(|(owner, ..)| *owner == part.owner);
+                    let along = to - from;
+                    let square = along.length_squared();
+                    let normal = if square > 0.0 { along.perp() / square.sqrt() } else { DVec2::X };
+                    match known {
+                        Some(known) if known.1 <= away.length() => {}
+                        Some(known) => *known = (part.owner, away.length(), normal),
+                        None => shares.edges.push((part.owner, away.length(), normal)),
+                    }
+                });
+            }
+        }
+    }
+
+    /// The share of a pixel that lies inside of an area.
+    fn share_inside(&self, owner: u32, home: Option<&Cell>, pixel: &PlanPixel, shares: &Shares) -> f64 {
+        let area = home.map(|cell| (cell, cell.area_of(owner)));
+        let is_inside =
+            area.is_some_and(|(cell, area)| area != NOTHING && self.is_inside(cell, area, pixel.at));
+        match shares.edges.iter().find(|(of, ..)| *of == owner) {
+            Some((_, away, normal)) => {
+                let depth = if is_inside { *away } else { -away };
+                pixel.share(depth, *normal, f64::INFINITY)
+            }
+            None => f64::from(u8::from(is_inside)),
+        }
+    }
+}
+
+/// The point of a segment that is nearest to a point.
+fn nearest(at: Plan, from: Plan, to: Plan) -> Plan {
+    let along = to - from;
+    let square = along.length_squared();
+    let t = if square > 0.0 { ((at - from).dot(along) / square).clamp(0.0, 1.0) } else { 0.0 };
+    from + along * t
+}

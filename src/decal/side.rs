@@ -1,0 +1,52 @@
+//! On which side of an outline's segments its polygon lies.
+//!
+//! The thesis asks of which side of a segment a sample is, since "the winding order of the polygons is always the same" (4.4.1). Here rings turn
+//! as they are written, so a ring's turn and whether it is a hole say it.
+
+use super::build::Source;
+use crate::draw_list::{Chain, DrawList};
+use crate::space::Plan;
+use std::collections::BTreeMap;
+use std::sync::OnceLock;
+
+/// For each outline that is cut to a side: of each of its chains whether the polygon lies on the left, once somebody has asked.
+#[derive(Debug, Default)]
+pub(super) struct Sides(BTreeMap<u32, Box<[OnceLock<bool>]>>);
+
+impl Sides {
+    /// Nothing has been asked yet.
+    pub(super) fn of(list: &DrawList) -> Self {
+        let is_cut = |number: &u32| list.style_of(*number).cut.is_some();
+        let cut = list.numbered().filter(|(number, _)| is_cut(number));
+        Self(
+            cut.map(|(number, item)| (number, item.strokes.clone().map(|_| OnceLock::new()).collect()))
+                .collect(),
+        )
+    }
+
+    /// Whether the polygon of an outline lies on the left of one of its chains.
+    pub(super) fn is_left_inside(&self, source: &Source, item: u32, chain: u32) -> bool {
+        let known = self.0.get(&item).and_then(|chains| chains.get(chain as usize));
+        known.is_none_or(|known| *known.get_or_init(|| is_left_inside(source, item, chain)))
+    }
+}
+
+/// The left of a ring that turns left is what it encloses; that is the polygon where the ring itself lies in none or an even number of the others.
+fn is_left_inside(source: &Source, item: u32, chain: u32) -> bool {
+    let list = source.list;
+    let ring = &list.strokes(&list.items()[item as usize])[chain as usize];
+    let at = list.vertices_of(ring)[0];
+    let others = source.rings_of(list.area_owner(item)).filter(|other| {
+        let chain = source.chain_of(*other);
+        chain.member == ring.member && chain.part != ring.part
+    });
+    let around: i32 = others.map(|other| source.turns_around(other, at)).sum();
+    turns_left(list, ring) == (around % 2 == 0)
+}
+
+/// Whether a ring encloses more to its left than to its right.
+fn turns_left(list: &DrawList, ring: &Chain) -> bool {
+    let path = list.path_of(ring);
+    let cross = |a: Plan, b: Plan| (a - path[0]).perp_dot(b - path[0]);
+    path.windows(2).map(|ends| cross(ends[0], ends[1])).sum::<f64>() >= 0.0
+}

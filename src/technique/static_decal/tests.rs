@@ -1,0 +1,231 @@
+//! Each sample against the footprint, which knows no cell and no tree; and pictures that must not depend on the structures.
+
+use crate::canvas::{Frame, FrameOptions};
+use crate::sampling;
+use crate::scene_file::{Override, SceneFile};
+use crate::stage::Stage;
+use crate::technique::Kind;
+
+/// Fills by both rules, with holes, crossings and islands; a union; outlines on each side; strokes with each join and cap, wide and narrow, with
+/// sharp and flat turns, dots and loops; a layer as a whole; an inverted one.
+const EVERYTHING: &str = r##"
+schema = 1
+image = { width = 72, height = 48, background = "#dde8f0" }
+camera = { eye = [-420.0, -1150.0, 520.0], target = [20.0, -40.0, 90.0] }
+
+[terrain]
+generate = { kind = "fbm", seed = 11, posts = [33, 29], cell_m = 40.0, height_m = 320.0 }
+
+[[layer]]
+generate = { kind = "mosaic", seed = 4, count = 30, holes = 0.3 }
+fill = { color = "#558855", opacity = 0.8 }
+outline = { color = "#223322", width_m = 9.0, mode = "inset", opacity = 0.5, join = "miter" }
+
+[[layer]]
+features = [
+  { polygon = [[[-300, -300], [300, -250], [250, 200], [-320, 150]], [[-100, -100], [100, -90], [90, 80], [-90, 90]], [[-50, -50], [50, -40], [40, 40]]] },
+  { polygon = [[-500, 200], [-100, 420], [-480, 430], [-120, 190]] },
+]
+fill = { color = "#2266ee", opacity = 0.45, rule = "nonzero" }
+outline = { color = "#221166", width_m = 25.0, mode = "offset", join = "round" }
+opacity = 0.7
+
+[[layer]]
+features = [{ polygon = [[200, 200], [520, 180], [500, 460], [220, 440]] }]
+fill = { color = "#ee2266", opacity = 0.5, invert = true }
+
+[[layer]]
+features = [{ line = [[-520, 300], [-300, 60], [-80, 300], [-90, 310]] }, { line = [[-520, 0], [-500, 0]] }, { line = [[-400, -400], [-380, -400], [-380, -380], [-400, -400]] }]
+line = { color = "#aa2233", width_m = 70.0, join = "round", cap = "round", opacity = 0.7 }
+
+[[layer]]
+features = [{ line = [[60, 300], [280, 60], [500, 300]] }, { line = [[60, -60], [500, -60], [70, -100]] }, { line = [[0, 0], [100, 0.0001], [200, 0], [50, 0]] }]
+line = { color = "#2233aa", width_m = 50.0, join = "miter", miter_limit = 3.0, cap = "square", opacity = 0.7 }
+
+[[layer]]
+features = [{ line = [[-520, -120], [-300, -360], [-80, -120], [-80, -380], [-520, -380]] }]
+line = { color = "#22aa55", width_m = 60.0, join = "bevel", cap = "butt" }
+
+[[layer]]
+generate = { kind = "roads", seed = 21, count = 60, segment_m = 90.0 }
+line = { color = "#ffee88", width_m = 6.0 }
+"##;
+
+fn stage(text: &str, changes: &[String]) -> Stage {
+    let changes: Vec<Override> = changes.iter().map(|change| Override::parse(change).unwrap()).collect();
+    let file = SceneFile::parse(text, None, &changes).unwrap();
+    let (scene, surface) = crate::source::load::load(&file, &|_| {}).unwrap();
+    Stage::new(scene, surface).unwrap()
+}
+
+/// Settings of the technique, and whatever else.
+fn changes(of: &[&str]) -> Vec<String> {
+    let long = |change: &&str| {
+        if change.contains('.') { (*change).to_owned() } else { format!("technique.static-decal.{change}") }
+    };
+    of.iter().map(long).collect()
+}
+
+fn draw(text: &str, of: &[&str]) -> Frame {
+    let stage = stage(text, &changes(of));
+    let buffers: Vec<String> = ["color", "nodes", "tests", "cell"].map(str::to_owned).to_vec();
+    let prepared = crate::technique::prepare(Kind::StaticDecal, &stage).unwrap();
+    prepared
+        .frame(&stage.view().unwrap(), &FrameOptions { buffers: &buffers, ..FrameOptions::default() })
+        .unwrap()
+}
+
+fn colors(frame: &Frame) -> Vec<f64> {
+    match &frame.planes.iter().find(|plane| plane.name == "color").unwrap().values {
+        crate::buffer::Values::F64(values) => values.clone(),
+        other => panic!("colours are doubles: {other:?}"),
+    }
+}
+
+/// The largest difference from plain supersampling, which asks the footprints.
+fn off(text: &str, n: usize, of: &[&str]) -> f64 {
+    let samples = format!("samples={}", n * n);
+    let all = [&[samples.as_str(), "joins=style", "outlines=polygon"], of].concat();
+    let stage = stage(text, &changes(&all));
+    let right = sampling::sample(&stage, &stage.view().unwrap(), n, &|_| {}).colors;
+    let drawn = draw(text, &all);
+    let pairs = right.values().as_flattened().iter().zip(colors(&drawn)).map(|(a, b)| (a - b).abs());
+    pairs.fold(0.0, crate::math::max)
+}
+
+#[test]
+fn every_sample_is_in_the_items_whose_footprint_holds_it_whatever_the_structures() {
+    for of in [
+        &["grid=500"][..],
+        &["grid=1", "leaf_capacity=1", "depth=16"],
+        &["grid=7", "leaf_capacity=3", "depth=2", "preparation=whole"],
+        &["grid=64", "leaf_capacity=64", "depth=0", "hierarchy=wide"],
+        &["grid=19", "hierarchy=curve", "leaf_capacity=2"],
+        &["grid=23", "compositing.mode=additive"],
+    ] {
+        let off = off(EVERYTHING, 3, of);
+        assert!(off < 1e-12, "{of:?}: {off}");
+    }
+    assert!(off(EVERYTHING, 3, &["outlines=side"]) > 0.01, "the samples would not tell");
+    assert!(off(EVERYTHING, 3, &["joins=thesis"]) > 0.01, "the samples would not tell");
+}
+
+#[test]
+fn the_picture_does_not_depend_on_the_structures() {
+    let all_other = |of: &[&str], what: &str| {
+        let usual = draw(EVERYTHING, &[]);
+        let other = draw(EVERYTHING, of);
+        assert_eq!(colors(&usual), colors(&other), "{what}");
+        assert_eq!(usual.image, other.image, "{what}");
+    };
+    all_other(&["grid=3"], "grid");
+    all_other(&["grid=1000", "leaf_capacity=1", "depth=16"], "quadtrees");
+    all_other(&["preparation=whole", "grid=40"], "preparation");
+    all_other(&["hierarchy=wide"], "wide nodes");
+    all_other(&["hierarchy=curve"], "curve");
+    all_other(&["leaf_polygons=clipped"], "no sample lies so near to an edge");
+}
+
+/// 10,000 short segments of four layers under and over one line that is 200 pixels wide; feature order reversed in the second.
+fn crowd(is_reversed: bool) -> String {
+    let mut features: Vec<String> = (0..2500)
+        .map(|k| {
+            let (x, y) = ((k * 7919 % 1000) as f64 - 500.0, (k * 104_729 % 900) as f64 - 450.0);
+            format!("{{ line = [[{x}, {y}], [{}, {}]] }}", x + 13.0, y + (k % 29) as f64 - 14.0)
+        })
+        .collect();
+    if is_reversed {
+        features.reverse();
+    }
+    let layer = |color: &str, width: f64| {
+        format!(
+            "[[layer]]\nfeatures = [{}]\nline = {{ color = \"{color}\", width_m = {width}, opacity = 1.0 }}\n",
+            features.join(", ")
+        )
+    };
+    let wide = "[[layer]]\nfeatures = [{ line = [[-450, -400], [450, 380]] }]\nline = { color = \"#000000\", width_m = 300.0, opacity = 0.5 }\n";
+    let head = EVERYTHING.split("[[layer]]").next().unwrap();
+    [
+        head,
+        &layer("#ff0000", 2.0),
+        &layer("#00ff00", 1.0),
+        wide,
+        &layer("#0000ff", 1.5),
+        &layer("#ffffff", 0.5),
+    ]
+    .concat()
+}
+
+#[test]
+fn a_wide_line_among_ten_thousand_segments_is_where_the_draw_order_puts_it() {
+    for of in [&["grid=1"][..], &["grid=90"], &["grid=12", "hierarchy=curve"]] {
+        let off = off(&crowd(false), 3, of);
+        assert!(off < 1e-12, "{of:?}: {off}");
+    }
+    let (one, other) = (draw(&crowd(false), &["grid=11"]), draw(&crowd(true), &["grid=57"]));
+    assert_eq!(one.image, other.image, "features of one colour in any order");
+}
+
+#[test]
+fn a_line_counts_once_where_it_lies_over_itself_and_twice_on_request() {
+    let head = EVERYTHING.split("[[layer]]").next().unwrap();
+    let eight = "[[layer]]\nfeatures = [{ line = [[-300, -200], [300, 200], [300, -200], [-300, 200]] }]\nline = { color = \"#000000\", width_m = 80.0, opacity = 0.5 }\n";
+    let text = [head, eight].concat();
+    let (once, twice) = (draw(&text, &["grid=5"]), draw(&text, &["grid=5", "overlaps=double"]));
+    // Fig. 4.7: half black on light ground, and darker where segments overlap.
+    let darkest = |frame: &Frame| colors(frame).into_iter().fold(1.0, crate::math::min);
+    assert!(darkest(&once) > 0.3, "{}", darkest(&once));
+    assert!(darkest(&twice) < 0.8 * darkest(&once), "{}", darkest(&twice));
+    assert!(off(&text, 3, &[]) < 1e-12);
+}
+
+#[test]
+fn a_sample_pattern_of_eight_is_near_the_truth_of_many_samples() {
+    let many = stage(EVERYTHING, &[]);
+    let right = sampling::sample(&many, &many.view().unwrap(), 7, &|_| {}).colors;
+    let error = |of: &[&str]| {
+        let drawn = colors(&draw(EVERYTHING, &[&["joins=style", "outlines=polygon"], of].concat()));
+        let squares = right.values().as_flattened().iter().zip(&drawn).map(|(a, b)| (a - b) * (a - b));
+        (squares.sum::<f64>() / drawn.len() as f64).sqrt()
+    };
+    let (one, four, eight, analytic) =
+        (error(&["samples=1"]), error(&["samples=4"]), error(&["samples=8"]), error(&["edges=analytic"]));
+    assert!(four < 0.7 * one && eight < 0.8 * four, "{one} {four} {eight}");
+    assert!(analytic < 0.8 * one, "{one} {analytic}");
+}
+
+#[test]
+fn a_machine_of_single_precision_is_wrong_at_edges_alone() {
+    let (exact, single) =
+        (draw(EVERYTHING, &["samples=16"]), draw(EVERYTHING, &["samples=16", "device.precision=f32"]));
+    let (exact, single) = (colors(&exact), colors(&single));
+    let differ = exact.iter().zip(&single).filter(|(a, b)| (*a - *b).abs() > 1e-6).count();
+    assert!(differ < exact.len() / 100, "{differ} of {}", exact.len());
+}
+
+#[test]
+fn what_was_looked_at_is_counted_in_its_pixel() {
+    let frame = draw(EVERYTHING, &["grid=9"]);
+    let plane = |name: &str| match &frame.planes.iter().find(|plane| plane.name == name).unwrap().values {
+        crate::buffer::Values::U32(values) => values.clone(),
+        other => panic!("counts are whole numbers: {other:?}"),
+    };
+    let count = |name: &str| frame.counts.iter().find(|(known, _)| *known == name).unwrap().1;
+    let sum = |name: &str| plane(name).iter().map(|v| u64::from(*v)).sum::<u64>();
+    assert_eq!((sum("nodes"), sum("tests")), (count("nodes"), count("leaves")));
+    assert!(plane("cell").iter().all(|cell| *cell < 81 || *cell == u32::MAX));
+    assert!(plane("cell").iter().any(|cell| *cell < 81));
+}
+
+#[test]
+fn a_frame_of_a_corner_builds_no_cell_that_it_does_not_see() {
+    let narrow = ["camera.fov_y_deg=2.0", "grid=50"];
+    let bytes = |of: &[&str]| {
+        let stage = stage(EVERYTHING, &changes(&[&narrow, of].concat()));
+        let prepared = crate::technique::prepare(Kind::StaticDecal, &stage).unwrap();
+        prepared.frame(&stage.view().unwrap(), &FrameOptions::default()).unwrap();
+        prepared.structure_bytes()
+    };
+    let (seen, whole) = (bytes(&[]), bytes(&["preparation=whole"]));
+    assert!(seen < whole / 2, "{seen} {whole}");
+}
