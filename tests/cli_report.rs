@@ -153,6 +153,14 @@ fn a_scene_without_features_in_view_says_so_and_scores_nothing() {
 }
 
 #[test]
+fn a_scene_without_layers_scores_nothing_either() {
+    let place = Place::new();
+    fs::write(place.path().join("bare.toml"), SCENE.split("[[layer]]").next().unwrap()).unwrap();
+    let said = place.reported(&["bare.toml", "--repeat", "1"]);
+    assert!(said.contains("tiny: no feature of a layer is in view"), "{said}");
+}
+
+#[test]
 fn errors_on_features_are_of_the_pixels_that_they_touch() {
     let place = Place::new();
     // A hillshade of many small triangles: its aliasing is in all pixels, the road in few.

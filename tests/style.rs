@@ -115,6 +115,19 @@ fn an_inverted_fill_paints_what_is_outside_of_all_polygons_once_whoever_draws() 
 }
 
 #[test]
+fn a_polygon_around_all_of_the_terrain_leaves_an_inverted_fill_its_holes() {
+    let around = "[-900, -900], [900, -900], [900, 900], [-900, 900]";
+    for (hole, middle) in [("", [255; 4]), (", [[-5, -5], [-5, 5], [5, 5], [5, -5]]", [255, 0, 0, 255])] {
+        let said = format!(
+            "[[layer]]\nname = \"mask\"\nfeatures = [{{ polygon = [[{around}]{hole}] }}]\nfill = {{ color = \"red\", invert = true }}"
+        );
+        for (who, colors) in drawn(&stage("white", &said), &[[12, 12], [2, 2]]) {
+            assert_eq!(colors, [middle, [255; 4]], "{who}{hole}");
+        }
+    }
+}
+
+#[test]
 fn an_inverted_fill_lies_below_the_outlines_of_each_polygon_and_shares_no_count_with_other_fills() {
     let (red, black, white) = ([255, 0, 0, 255], [0, 0, 0, 255], [255; 4]);
     let outlined = "fill = { color = \"red\", invert = true, rule = \"nonzero\" }\n\

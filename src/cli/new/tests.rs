@@ -1,5 +1,7 @@
 //! Starter scenes of small files.
 
+mod widths;
+
 use super::*;
 use drapery::scene_file::LayerSource;
 use drapery::space::World;
@@ -178,6 +180,11 @@ fn the_terrain_fills_the_picture_and_none_of_it_is_cut_off() {
             let at = World::from(glam::DVec3::new(x, y, z) - origin);
             view.screen_from_world(at).unwrap()
         });
+        let camera = &scene.stage.scene.camera;
+        for (x, y, z) in [(0.0, 0.0, 0.0), (far, 0.0, 0.0)] {
+            let depth = (glam::DVec3::new(x, y, z) - origin - camera.eye.to_vec()).length();
+            assert!(camera.near_m < depth, "{} hides what is {depth} m away: {text}", camera.near_m);
+        }
         for at in corners {
             assert!((0.0..=width).contains(&at.x) && (0.0..=height).contains(&at.y), "{at:?} in {text}");
         }
