@@ -21,6 +21,7 @@
 mod authalic;
 mod conic;
 mod datum;
+pub(crate) mod datum_text;
 mod degrees;
 mod ellipsoid;
 mod epsg;

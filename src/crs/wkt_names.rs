@@ -204,7 +204,7 @@ const AGREEING: [&str; 23] = [
 ];
 
 /// The codes among which EPSG's geographic CRSs are.
-const GEOGRAPHIC_CODES: std::ops::Range<u32> = 3800..10_000;
+pub(crate) const GEOGRAPHIC_CODES: std::ops::Range<u32> = 3800..10_000;
 
 /// What is known of a datum by its name: the shift that EPSG's geographic CRS of that datum has here. Nothing of a name that is not
 /// known, whatever its ellipsoid.

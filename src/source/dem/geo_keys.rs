@@ -4,6 +4,7 @@
 //! here but the unit. It refuses nothing: what it cannot read becomes [`CrsHint::Unknown`].
 
 use super::vertical::VerticalUnit;
+use crate::crs::datum_text;
 use std::collections::BTreeMap;
 
 /// What a terrain file says of its CRS, as it says it.
@@ -174,13 +175,13 @@ impl GeoKeys {
             return Err(format!("its linear unit EPSG:{unit} is not the metre"));
         }
         self.check_degrees()?;
-        let ellipsoid = self.ellipsoid()?;
+        let datum = self.datum()?;
         let projection = match self.code(key::PROJECTION) {
             Some(code @ 16001..=16060) => format!("+proj=utm +zone={}", code - 16000),
             Some(code @ 16101..=16160) => format!("+proj=utm +zone={} +south", code - 16100),
             _ => self.method()?,
         };
-        Ok(format!("{projection} {ellipsoid} +units=m +no_defs"))
+        Ok(format!("{projection} {datum} +units=m +no_defs"))
     }
 
     /// The projection method with its parameters.
@@ -229,7 +230,7 @@ impl GeoKeys {
     /// The PROJ string of a user-defined geographic CRS.
     fn geographic(&self) -> Result<String, String> {
         self.check_degrees()?;
-        Ok(format!("+proj=longlat {} +no_defs", self.ellipsoid()?))
+        Ok(format!("+proj=longlat {} +no_defs", self.datum()?))
     }
 
     fn check_degrees(&self) -> Result<(), String> {
@@ -242,14 +243,28 @@ impl GeoKeys {
         }
     }
 
-    /// The datum or at least the ellipsoid, by the geodetic CRS, the datum, the ellipsoid or its axes.
+    /// The datum or at least the ellipsoid, by the geodetic CRS, the datum's code or its name.
+    fn datum(&self) -> Result<String, String> {
+        let code = |key| self.code(key).filter(|code| is_register(*code)).map(u32::from);
+        let known = code(key::GEODETIC_CRS).and_then(datum_text::of_geographic);
+        if let Some(known) = known.or_else(|| code(key::DATUM).and_then(datum_text::of_datum)) {
+            return Ok(known);
+        }
+        let ellipsoid = self.ellipsoid()?;
+        let shift = self.datum_name().and_then(|name| datum_text::shift_named(name, &ellipsoid));
+        Ok(shift.map_or(ellipsoid.clone(), |shift| format!("{ellipsoid} {shift}")))
+    }
+
+    /// The name of the datum, or of the geographic CRS on it: GDAL writes `GCS Name = A|Datum = B|...`, others the name alone.
+    fn datum_name(&self) -> Option<&str> {
+        let citation = self.text(key::GEODETIC_CITATION)?;
+        let named = |start: &str| citation.split('|').find_map(|part| part.trim().strip_prefix(start));
+        named("Datum = ").or_else(|| named("GCS Name = ")).or(Some(citation))
+    }
+
+    /// The ellipsoid, by its code or its axes.
     fn ellipsoid(&self) -> Result<String, String> {
-        let known = [
-            self.code(key::GEODETIC_CRS).and_then(of_geodetic_crs),
-            self.code(key::DATUM).and_then(of_datum),
-            self.code(key::ELLIPSOID).and_then(of_ellipsoid),
-        ];
-        if let Some(known) = known.into_iter().flatten().next() {
+        if let Some(known) = self.code(key::ELLIPSOID).and_then(of_ellipsoid) {
             return Ok(known.to_owned());
         }
         let semi_major = self.number(key::SEMI_MAJOR).ok_or("its ellipsoid is not described")?;
@@ -306,26 +321,6 @@ fn is_register(code: u16) -> bool {
     code != 0 && code != USER_DEFINED
 }
 
-fn of_geodetic_crs(code: u16) -> Option<&'static str> {
-    Some(match code {
-        4326 => "+datum=WGS84",
-        4258 | 4269 | 4167 | 4283 | 4765 => "+ellps=GRS80 +towgs84=0,0,0",
-        4230 => "+ellps=intl",
-        4267 => "+ellps=clrk66",
-        4277 => "+ellps=airy",
-        4312..=4314 => "+ellps=bessel",
-        _ => return None,
-    })
-}
-
-fn of_datum(code: u16) -> Option<&'static str> {
-    Some(match code {
-        6326 => "+datum=WGS84",
-        6258 | 6269 | 6167 | 6283 => "+ellps=GRS80 +towgs84=0,0,0",
-        _ => return None,
-    })
-}
-
 fn of_ellipsoid(code: u16) -> Option<&'static str> {
     Some(match code {
         7001 => "+ellps=airy",
@@ -342,6 +337,7 @@ fn of_ellipsoid(code: u16) -> Option<&'static str> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::crs::Crs;
 
     fn keys(entries: &[[u16; 4]], numbers: &[f64], text: &str) -> GeoKeys {
         let mut directory = vec![1, 1, 0, entries.len() as u16];
@@ -379,8 +375,62 @@ mod tests {
             "",
         );
         let expected = "+proj=tmerc +lat_0=0 +lon_0=173 +x_0=1600000 +y_0=10000000 +k=0.9996 \
-                        +ellps=GRS80 +towgs84=0,0,0 +units=m +no_defs";
+                        +ellps=GRS80 +towgs84=0,0,0,0,0,0,0 +units=m +no_defs";
         assert_eq!(nztm.crs_hint(), Some(CrsHint::Proj(expected.into())));
+    }
+
+    /// What is said of the datum of a transverse Mercator that is described, with some keys of its datum.
+    fn note_of(datum: &[[u16; 4]], citation: &str) -> (Crs, Option<String>) {
+        let length = citation.len() as u16;
+        let own = [
+            [1024, 0, 1, 1],
+            [2049, 34737, length, 0],
+            [3072, 0, 1, 32767],
+            [3075, 0, 1, 1],
+            [3076, 0, 1, 9001],
+        ];
+        let entries: Vec<[u16; 4]> = own.iter().chain(datum).copied().collect();
+        let Some(CrsHint::Proj(text)) = keys(&entries, &[], citation).crs_hint() else { panic!("{datum:?}") };
+        let crs = Crs::from_proj_string(&text).unwrap();
+        let note = crs.note();
+        (crs, note)
+    }
+
+    #[test]
+    fn datums_known_by_code_or_name_alone_have_their_shifts() {
+        let (wgs84, _) = note_of(&[[2048, 0, 1, 4326]], "WGS 84");
+        let user = [[2048, 0, 1, 32767], [2050, 0, 1, 32767], [2056, 0, 1, 7019]];
+        // SIRGAS 2000, NAD83(CSRS), GDA2020, ETRS89, NAD83, by the code of the degrees and of the datum, and by names.
+        for (codes, citation) in [
+            (&[[2048, 0, 1, 4674]][..], "x"),
+            (&[[2048, 0, 1, 4617]], "x"),
+            (&[[2048, 0, 1, 7844]], "x"),
+            (&[[2048, 0, 1, 4258]], "x"),
+            (&[[2048, 0, 1, 4269]], "x"),
+            (&[[2048, 0, 1, 32767], [2050, 0, 1, 6674]], "x"),
+            (&[[2050, 0, 1, 1168]], "x"),
+            (&[[2050, 0, 1, 6140]], "x"),
+            (&user, "SIRGAS 2000"),
+            (&user, "GCS Name = unnamed|Datum = GDA2020|Ellipsoid = GRS 1980|Primem = Greenwich|"),
+            (&user, "GCS_ETRS_1989"),
+        ] {
+            let (crs, note) = note_of(codes, citation);
+            assert_eq!(note, None, "{codes:?} {citation}");
+            assert!(crs.is_same(&wgs84), "{codes:?} {citation}: {}", crs.name());
+        }
+        // On other ellipsoids, and on this one too: known shifts are shifts.
+        for codes in
+            [&[[2048, 0, 1, 4230]][..], &[[2048, 0, 1, 4312]], &[[2050, 0, 1, 6312]], &[[2048, 0, 1, 4121]]]
+        {
+            let (crs, note) = note_of(codes, "x");
+            let place = glam::DVec2::new(0.5, 45.0);
+            let off =
+                crs.native_from_geographic(place).unwrap() - wgs84.native_from_geographic(place).unwrap();
+            assert!(note.is_none() && off.length() > 50.0, "{codes:?}: {off} {note:?}");
+        }
+        for (codes, citation) in [(&user[..], "Barsoom"), (&[[2048, 0, 1, 32767], [2056, 0, 1, 7004]], "x")] {
+            assert!(note_of(codes, citation).1.is_some(), "{citation}");
+        }
     }
 
     #[test]
