@@ -5,7 +5,7 @@
 
 use super::build::Source;
 use super::bvh::Walk;
-use super::cell::{Cell, FillLeaf, LineLeaf, NOTHING};
+use super::cell::{Cell, FillLeaf, LineLeaf, NOTHING, RingPart};
 use super::grid::DecalGrid;
 use super::hits::{Hits, MOST_TOGETHER};
 use super::palette::Palette;
@@ -61,6 +61,8 @@ struct Packet<'a> {
     /// Their coordinates apart.
     x: &'a [f64],
     y: &'a [f64],
+    /// The box around those that are looked up.
+    plan: PlanBox,
     bounds: SmallBox,
     /// Those that may still show something.
     open: u64,
@@ -208,6 +210,7 @@ impl<'l> Decals<'l> {
             points,
             x: &x[..count],
             y: &y[..count],
+            plan: *bounds,
             bounds: SmallBox::around(bounds),
             open: samples,
         };
@@ -394,6 +397,14 @@ impl<'l> Decals<'l> {
             rings.chunk_by(|a, b| self.source.chain_of(a.ring).member == self.source.chain_of(b.ring).member)
         {
             let mut left = wanted & !inside;
+            if !self.is_single
+                && left != 0
+                && let Some(turns) = self.turns_throughout(member, packet, &mut done)
+            {
+                // As a rule no edge is near.
+                inside |= if rule.contains(turns) { left } else { 0 };
+                continue;
+            }
             while left != 0 {
                 let k = left.trailing_zeros() as usize;
                 left &= left - 1;
@@ -417,12 +428,29 @@ impl<'l> Decals<'l> {
         inside
     }
 
+    /// How often a member's rings turn around all of the samples, where that is one number.
+    #[inline]
+    fn turns_throughout(
+        &self,
+        member: &[RingPart],
+        packet: &Packet,
+        done: &mut QuadtreeCounts,
+    ) -> Option<i32> {
+        let vertices = self.list().vertices();
+        let one = |part: &RingPart| {
+            let quadtree = self.source.quadtree(part.ring);
+            quadtree.turns_throughout(vertices, part.start, (&packet.plan, packet.plan.min), done)
+        };
+        member.iter().map(one).sum()
+    }
+
     /// Whether a point lies inside of an area of its cell.
     pub(super) fn is_inside(&self, cell: &Cell, area: u32, at: Plan) -> bool {
         let packet = Packet {
             points: &[at],
             x: &[at.x],
             y: &[at.y],
+            plan: PlanBox::around([at]),
             bounds: SmallBox::around(&PlanBox::around([at])),
             open: 1,
         };

@@ -14,6 +14,7 @@ mod build;
 mod clip;
 mod crossing;
 mod node;
+mod throughout;
 mod tree;
 
 pub use build::Limits;

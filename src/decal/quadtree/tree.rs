@@ -21,8 +21,8 @@ pub struct Counts {
 /// The subtree in which an answer is looked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Start {
-    node: u32,
-    quad: Quad,
+    pub(super) node: u32,
+    pub(super) quad: Quad,
 }
 
 impl Start {
@@ -41,18 +41,18 @@ pub enum LeafEdges<'a> {
 }
 
 #[derive(Debug)]
-enum Edges {
+pub(super) enum Edges {
     Numbers(Box<[u32]>),
     Segments(Box<[Plan]>, Box<[[u32; 2]]>),
 }
 
 /// The nodes of a ring that has more edges than a leaf may have.
 #[derive(Debug)]
-struct Nodes {
-    borders: Borders,
-    nodes: Box<[Node]>,
+pub(super) struct Nodes {
+    pub(super) borders: Borders,
+    pub(super) nodes: Box<[Node]>,
     leaves: Box<[Leaf]>,
-    edges: Edges,
+    pub(super) edges: Edges,
 }
 
 /// The quadtree of a ring.
@@ -60,11 +60,11 @@ struct Nodes {
 /// A ring that is not divided, as most are, is a leaf at the root, and holds nothing but its bounds and which vertices it has.
 #[derive(Debug)]
 pub struct Quadtree {
-    bounds: PlanBox,
-    first: u32,
+    pub(super) bounds: PlanBox,
+    pub(super) first: u32,
     /// How many edges the ring has; 0 for a ring without an area.
-    count: u32,
-    nodes: Option<Box<Nodes>>,
+    pub(super) count: u32,
+    pub(super) nodes: Option<Box<Nodes>>,
 }
 
 impl Quadtree {
@@ -304,14 +304,14 @@ impl Nodes {
         Some([child(0), child(1), child(2), child(3)])
     }
 
-    fn edges_of(&self, leaf: u32) -> Range<usize> {
+    pub(super) fn edges_of(&self, leaf: u32) -> Range<usize> {
         let before = leaf.checked_sub(1).map_or(0, |before| self.leaves[before as usize].end);
         before as usize..self.leaves[leaf as usize].end as usize
     }
 
     /// The winding number of a point in a leaf whose south-east corner is given.
     #[inline]
-    fn turns_in_leaf<A: Arithmetic>(
+    pub(super) fn turns_in_leaf<A: Arithmetic>(
         &self,
         leaf: u32,
         corner: Plan,

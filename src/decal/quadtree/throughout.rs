@@ -1,0 +1,137 @@
+//! Boxes that no edge meets: one answer for all their points. Samples of a pixel lie near to each other, edges mostly do not.
+
+use super::crossing::Exact;
+use super::node::Kind;
+use super::tree::{Counts, Edges, Quadtree, Start};
+use crate::math::{max, min};
+use crate::space::{Plan, PlanBox};
+
+/// How far from an edge a box must be, as a share of the products that enter: they and their sums are rounded four times.
+const SLACK: f64 = 8.0 * f64::EPSILON;
+
+impl Quadtree {
+    /// The ring's winding number around all points of a box, of which one is given; `None`: that was not found out. A box that lies in one leaf and
+    /// that no edge of the leaf meets is asked about once.
+    pub fn turns_throughout(
+        &self,
+        vertices: &[Plan],
+        start: Start,
+        (plan, at): (&PlanBox, Plan),
+        counts: &mut Counts,
+    ) -> Option<i32> {
+        if self.count == 0 || !self.bounds.meets(plan) {
+            return Some(0);
+        }
+        if !self.bounds.contains(plan) {
+            return None;
+        }
+        let Some(nodes) = &self.nodes else {
+            let path = &vertices[self.first as usize..][..self.count as usize + 1];
+            let is_clear = path.windows(2).all(|edge| misses(edge[0], edge[1], plan));
+            return is_clear.then(|| self.winding(vertices, start, at, counts));
+        };
+        let (low, high) = (nodes.borders.place(plan.min), nodes.borders.place(plan.max));
+        let mut level = start.quad.level();
+        if low.quad(level) != start.quad || high.quad(level) != start.quad {
+            return None;
+        }
+        let mut node = start.node;
+        loop {
+            counts.nodes += 1;
+            match nodes.nodes[node as usize].kind() {
+                Kind::Internal(children) => {
+                    level += 1;
+                    let quarter = low.quarter(level);
+                    if quarter != high.quarter(level) {
+                        return None;
+                    }
+                    node = children + quarter;
+                }
+                Kind::Full(turns) => return Some(turns),
+                Kind::Partial(leaf) => {
+                    let own = nodes.edges_of(leaf);
+                    let is_clear = match &nodes.edges {
+                        Edges::Numbers(numbers) => numbers[own]
+                            .iter()
+                            .all(|k| misses(vertices[*k as usize], vertices[*k as usize + 1], plan)),
+                        Edges::Segments(ends, segments) => segments[own]
+                            .iter()
+                            .all(|[a, b]| misses(ends[*a as usize], ends[*b as usize], plan)),
+                    };
+                    let corner = nodes.borders.corner(low.quad(level));
+                    return is_clear
+                        .then(|| nodes.turns_in_leaf::<Exact>(leaf, corner, vertices, at, counts));
+                }
+            }
+        }
+    }
+}
+
+/// Whether an edge surely has no point in a box.
+#[inline(always)]
+fn misses(a: Plan, b: Plan, plan: &PlanBox) -> bool {
+    let is_beside = (max(a.x, b.x) < plan.min.x)
+        | (min(a.x, b.x) > plan.max.x)
+        | (max(a.y, b.y) < plan.min.y)
+        | (min(a.y, b.y) > plan.max.y);
+    if is_beside {
+        return true;
+    }
+    // How far the box's middle is from the edge's line, times the edge's length, against how far the box reaches across it.
+    let (d, half) = (b - a, (plan.max - plan.min) * 0.5);
+    let u = plan.min + half - a;
+    let (p, q) = (d.x * u.y, d.y * u.x);
+    let reach = d.x.abs() * half.y + d.y.abs() * half.x;
+    // The rounding of coordinates themselves, of differences and of products.
+    let size = a.x.abs() + a.y.abs() + b.x.abs() + b.y.abs() + u.x.abs() + u.y.abs();
+    let slack = SLACK * (p.abs() + q.abs() + reach + (d.x.abs() + d.y.abs()) * size);
+    (p - q).abs() > reach + slack
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::decal::LeafPolygons;
+    use crate::decal::quadtree::Limits;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn what_is_said_of_a_box_is_true_of_each_of_its_points(
+            corners in prop::collection::vec((0..24i32, 0..24i32), 3..40), scale in prop_oneof![Just(1.0), Just(0.1)],
+            (x, y, w, h) in (-2.0..24.0f64, -2.0..24.0f64, 0.0..3.0f64, 0.0..3.0f64), capacity in 1..9u32, depth in 0..9u32,
+        ) {
+            let mut path: Vec<Plan> =
+                corners.iter().map(|(x, y)| Plan::new(f64::from(*x) * scale, f64::from(*y) * scale)).collect();
+            path.push(path[0]);
+            let tree = Quadtree::new(&path, 0, Limits { capacity, depth }, LeafPolygons::Corner);
+            let at = |s: f64, t: f64| Plan::new((x + s * w) * scale, (y + t * h) * scale);
+            let plan = PlanBox { min: at(0.0, 0.0), max: at(1.0, 1.0) };
+            let counts = &mut Counts::default();
+            let Some(start) = tree.start_in(&plan) else { return Ok(()) };
+            if let Some(turns) = tree.turns_throughout(&path, start, (&plan, plan.min), counts) {
+                for k in 0..25 {
+                    let p = at(f64::from(k % 5) / 4.0, f64::from(k / 5) / 4.0);
+                    prop_assert_eq!(tree.winding(&path, start, p, counts), turns, "{:?}", p);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_box_beside_a_diagonal_is_told_apart_from_one_on_it() {
+        let path = [(0.0, 0.0), (8.0, 8.0), (0.0, 8.0), (0.0, 0.0)].map(|(x, y)| Plan::new(x, y));
+        let plan = |x: f64, y: f64| PlanBox { min: Plan::new(x, y), max: Plan::new(x + 1.0, y + 1.0) };
+        assert!(misses(path[0], path[1], &plan(4.0, 2.5)));
+        assert!(!misses(path[0], path[1], &plan(4.0, 3.0)), "it touches the corner");
+        let tree = Quadtree::new(&path, 0, Limits { capacity: 8, depth: 8 }, LeafPolygons::Corner);
+        let said = |x, y| {
+            let (plan, counts) = (plan(x, y), &mut Counts::default());
+            tree.turns_throughout(&path, Start::ROOT, (&plan, plan.min), counts)
+        };
+        assert_eq!(
+            [said(4.0, 2.5), said(4.0, 4.5), said(1.0, 5.0), said(9.0, 9.0)],
+            [Some(0), None, Some(1), Some(0)]
+        );
+    }
+}
