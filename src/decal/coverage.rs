@@ -10,29 +10,39 @@ use super::lookup::Decals;
 use super::share::{PlanPixel, Shares};
 use crate::draw_list::{Role, Side};
 use crate::math;
-use crate::space::{Plan, PlanBox, SmallBox};
+use crate::space::{Plan, SmallBox};
 use glam::DVec2;
 
-/// Where a pixel reaches over more cells than this, that of its centre tells for it.
-const MOST_CELLS: u32 = 64;
+/// Where a pixel reaches over more cells than this, one is built for it alone.
+const MOST_CELLS: usize = 4;
 
 impl Decals<'_> {
     /// Finds the items that cover a share of a pixel. `shares` is emptied first.
     pub fn cover(&self, pixel: &PlanPixel, shares: &mut Shares) {
         shares.found.clear();
         shares.edges.clear();
-        let Some(own) = self.cell_of(pixel.at) else { return };
-        let mut bounds = pixel.bounds();
-        let mut cells = self.grid.cells_in(&bounds);
-        if cells.len() > MOST_CELLS as usize {
-            bounds = PlanBox::around([pixel.at]);
-            cells = self.grid.cells_in(&bounds);
-        }
+        let bounds = pixel.bounds();
         let wanted = SmallBox::around(&bounds);
-        let near = || cells.iter().filter_map(|cell| self.cell(*cell));
-        near().for_each(|cell| self.find_edges(cell, wanted, pixel, shares));
-        let home = self.cell(own);
-        for cell in near() {
+        let cells = self.grid.cells_in(&bounds);
+        if cells.len() <= MOST_CELLS {
+            let home = self.cell_of(pixel.at).and_then(|cell| self.cell(cell));
+            let near: Vec<&Cell> = cells.iter().filter_map(|cell| self.cell(*cell)).collect();
+            self.cover_from(&near, home, (pixel, wanted), shares);
+        } else if let Some(own) = self.cell_around(&bounds) {
+            self.cover_from(&[&*own], Some(&*own), (pixel, wanted), shares);
+        }
+    }
+
+    /// Finds the items of some cells; `home` is that of the pixel's centre.
+    fn cover_from(
+        &self,
+        cells: &[&Cell],
+        home: Option<&Cell>,
+        (pixel, wanted): (&PlanPixel, SmallBox),
+        shares: &mut Shares,
+    ) {
+        cells.iter().for_each(|cell| self.find_edges(cell, wanted, pixel, shares));
+        for cell in cells {
             for leaf in Walk::new(&cell.lines, wanted) {
                 let leaf = cell.segments[leaf as usize];
                 let Some(segment) = self.source.segment(leaf) else { continue };

@@ -111,11 +111,13 @@ impl<'l> Decals<'l> {
     /// A cell, built when it is first asked for.
     #[inline(always)]
     pub(super) fn cell(&self, number: u32) -> Option<&Cell> {
-        let cell = self.cells[number as usize].get_or_init(|| {
-            let plan = self.grid.box_of(number);
-            self.source.contents(&plan).into_cell(self.settings.hierarchy, &plan)
-        });
-        cell.as_deref()
+        let build = || self.cell_around(&self.grid.box_of(number));
+        self.cells[number as usize].get_or_init(build).as_deref()
+    }
+
+    /// A cell that is built of what meets a box.
+    pub(super) fn cell_around(&self, plan: &PlanBox) -> Option<Box<Cell>> {
+        self.source.contents(plan).into_cell(self.settings.hierarchy, plan)
     }
 
     /// The number of the cell that a point lies in; `None` outside the grid.
