@@ -47,6 +47,18 @@ corners = "true"
 point_in_polygon = "winding"
 "##;
 
+/// The scene as a technique draws it: dynamic lines are in pixels, and nothing else is among them.
+fn mountains_for(kind: Kind, at: [i64; 3], more: &str) -> String {
+    let text = mountains(at, more);
+    match kind {
+        Kind::DynamicLine => text
+            .replace("fill = { color = \"#558855\", opacity = 0.5 }\n", "")
+            .replace("width_m = 5.0, mode = \"inset\"", "width_px = 1.5, opacity = 0.5")
+            .replace("width_m = 18.0", "width_px = 5.0"),
+        _ => text,
+    }
+}
+
 fn mountains(at: [i64; 3], more: &str) -> String {
     let place = |value: i64, by: i64| format!("{}.0", value + by);
     MOUNTAINS
@@ -92,7 +104,7 @@ fn every_technique() -> impl Iterator<Item = (Kind, &'static str)> {
 #[test]
 fn every_buffer_keeps_its_bits_for_any_number_of_threads_and_any_tiles() {
     for (kind, more) in every_technique() {
-        let text = mountains([0; 3], more);
+        let text = mountains_for(kind, [0; 3], more);
         let one = hashes(kind, &text, 128, 1);
         for (tile, threads) in [(128, 2), (32, 3), (50, 7), (128, 16)] {
             assert_eq!(
@@ -107,9 +119,13 @@ fn every_buffer_keeps_its_bits_for_any_number_of_threads_and_any_tiles() {
 #[test]
 fn every_buffer_keeps_its_bits_when_the_scene_is_moved_along_the_ground_and_up() {
     for (kind, more) in every_technique() {
-        let here = hashes(kind, &mountains([0; 3], more), 128, 2);
+        let here = hashes(kind, &mountains_for(kind, [0; 3], more), 128, 2);
         for by in [[5_000_000, -5_000_000, 0], [6_400_000; 3], [-6_400_000, 6_400_000, -6_400_000]] {
-            assert_eq!(hashes(kind, &mountains(by, more), 128, 2), here, "{kind:?}, moved by {by:?}");
+            assert_eq!(
+                hashes(kind, &mountains_for(kind, by, more), 128, 2),
+                here,
+                "{kind:?}, moved by {by:?}"
+            );
         }
     }
 }

@@ -16,6 +16,7 @@ use std::process::Command;
 
 const TERRAIN: &str = "kind = \"cone\", posts = [17, 17], cell_m = 20, height_m = 60";
 const CAMERA: &str = "eye = [0, -300, 200], target = [0, 0, 20]";
+const LINES: &str = "[[layer]]\nfeatures = [{ line = [[-150, -90], [0, 20], [140, 60]] }]\nline = { color = \"#ff8000\", width_px = 3 }\n";
 const LAYERS: &str = "[[layer]]\nfeatures = [{ polygon = [[-90, -60], [80, -70], [10, 90]] }, { line = [[-150, -90], [0, 20], [140, 60]] }]\n\
      fill = { color = \"#208040\" }\nline = { color = \"#ff8000\", width_m = 9 }\n";
 
@@ -161,11 +162,13 @@ fn what_result_json_says_draws_the_same_picture_again() {
 
 #[test]
 fn a_frame_has_the_planes_that_are_declared_and_each_looks_as_it_should() {
-    let stage = stage(&scene(TERRAIN, CAMERA, LAYERS), &[]);
+    let in_metres = stage(&scene(TERRAIN, CAMERA, LAYERS), &[]);
+    let in_pixels = stage(&scene(TERRAIN, CAMERA, LINES), &[]);
     for kind in Kind::ALL {
+        let stage = if kind == Kind::DynamicLine { &in_pixels } else { &in_metres };
         let planes = kind.declaration().planes;
         let names: Vec<&str> = planes.iter().map(|plane| plane.name).collect();
-        let frame = frame_of(kind, &stage, &names);
+        let frame = frame_of(kind, stage, &names);
         let drawn: BTreeSet<&str> = frame.planes.iter().map(|plane| plane.name).collect();
         assert_eq!(drawn, names.iter().copied().collect(), "{}", kind.name());
         for declared in planes {

@@ -9,6 +9,7 @@
 
 pub mod clipmap;
 mod declaration;
+pub mod dynamic_line;
 pub mod inverse_projection;
 pub mod static_decal;
 pub mod stencil_volume;
@@ -28,12 +29,12 @@ declaration::techniques! {
     StencilVolume is stencil_volume,
     InverseProjection is inverse_projection,
     StaticDecal is static_decal,
+    DynamicLine is dynamic_line,
 }
 
 /// Techniques that are known and not built yet: their names, and what they are in a line.
-pub const PLANNED: [(&str, &str); 3] = [
+pub const PLANNED: [(&str, &str); 2] = [
     ("geometry-overlay", "Geometry overlay (Wartell)"),
-    ("dynamic-line", "Dynamic lines (Zechmeister)"),
     ("analytic", "Hierarchical classification and closed-form coverage (ours)"),
 ];
 

@@ -5,7 +5,7 @@ use crate::error::{Error, Result};
 use crate::math;
 use crate::parallel;
 use crate::scene::{Diagonal, Posts};
-use crate::space::{PlanBox, World};
+use crate::space::{Plan, PlanBox, World};
 use std::ops::Range;
 
 /// A grid of posts as triangles.
@@ -106,6 +106,28 @@ impl Grid {
     #[inline(always)]
     pub fn half_corners(&self, i: usize, j: usize, second: bool) -> [(usize, usize); 3] {
         half_corners(self.splits_sw_ne(i, j), second)
+    }
+
+    /// The height over a plan point, on the half of the cell that it lies in; `None` beside the posts and in holes.
+    pub(super) fn height_at(&self, at: Plan) -> Option<f64> {
+        let (east, north, from) = (self.posts.east(), self.posts.north(), at - self.posts.first);
+        let area = east.perp_dot(north);
+        let (u, v) = (from.perp_dot(north) / area, east.perp_dot(from) / area);
+        let last = [self.posts.columns() - 1, self.posts.rows() - 1];
+        if !(u >= 0.0 && v >= 0.0 && u <= last[0] as f64 && v <= last[1] as f64) {
+            return None;
+        }
+        let (i, j) = ((u as usize).min(last[0] - 1), (v as usize).min(last[1] - 1));
+        let (u, v) = (u - i as f64, v - j as f64);
+        let post = |(di, dj): (usize, usize)| self.posts.heights()[(j + dj) * self.posts.columns() + i + di];
+        let height = match self.splits_sw_ne(i, j) {
+            true if v <= u => post((0, 0)) * (1.0 - u) + post((1, 0)) * (u - v) + post((1, 1)) * v,
+            true => post((0, 0)) * (1.0 - v) + post((1, 1)) * u + post((0, 1)) * (v - u),
+            false if u + v <= 1.0 => post((0, 0)) * (1.0 - u - v) + post((1, 0)) * u + post((0, 1)) * v,
+            false => post((1, 0)) * (1.0 - v) + post((1, 1)) * (u + v - 1.0) + post((0, 1)) * (1.0 - u),
+        };
+        // A hole's post is no number, and its triangles have no height.
+        height.is_finite().then_some(height)
     }
 
     pub(super) fn plan_bounds(&self) -> PlanBox {
@@ -210,7 +232,6 @@ fn joined(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::space::Plan;
     use crate::terrain::Mesh;
     use glam::DVec2;
 
@@ -225,6 +246,31 @@ mod tests {
         let mesh = grid(4, 4, |i, j| if (i, j) == (1, 2) { f64::NAN } else { 0.0 });
         let missing = (0..mesh.triangle_ids()).filter(|&t| mesh.triangle(t).is_none()).count();
         assert_eq!(missing, 6);
+    }
+
+    #[test]
+    fn a_height_is_that_of_the_triangle_that_lies_over_the_point() {
+        for diagonal in [Diagonal::SwNe, Diagonal::NwSe, Diagonal::Alternating] {
+            let hole = 2 * 7 + 3;
+            let heights = (0..7 * 5).map(|k| if k == hole { f64::NAN } else { f64::from(k * 7919 % 23) });
+            let steps = (DVec2::new(3.0, 0.5), DVec2::new(-0.25, 2.0));
+            let posts = Posts::new((7, 5), Plan::new(10.0, -4.0), steps, heights.collect()).unwrap();
+            let mesh = Mesh::Grid(Grid::new(posts, diagonal).unwrap());
+            assert_eq!(mesh.resolution(), DVec2::new(-0.25, 2.0).length());
+            for id in 0..mesh.triangle_ids() {
+                let Mesh::Grid(grid) = &mesh else { unreachable!() };
+                let (cell, second) = ((id / 2) as usize, id % 2 == 1);
+                let corners = grid.half_corners(cell % 6, cell / 6, second);
+                let plan = corners.map(|(i, j)| grid.posts().plan(cell % 6 + i, cell / 6 + j));
+                let at = plan[0] + ((plan[1] - plan[0]) * 0.25 + (plan[2] - plan[0]) * 0.625);
+                let expected = mesh.triangle(id).map(|[a, b, c]| a.z * 0.125 + b.z * 0.25 + c.z * 0.625);
+                match (mesh.height_at(at), expected) {
+                    (Some(found), Some(height)) => assert!((found - height).abs() < 1e-9, "{id}"),
+                    (found, height) => assert_eq!(found, height, "{id}"),
+                }
+            }
+            assert_eq!(mesh.height_at(Plan::new(9.0, -5.0)), None, "beside the posts");
+        }
     }
 
     #[test]

@@ -231,6 +231,23 @@ impl Mesh {
         (self.drape() == Drape::Vertical).then(all)
     }
 
+    /// The height of the surface over a plan point of a mesh that is draped vertically; `None` beside it and in holes.
+    pub fn height_at(&self, at: Plan) -> Option<f64> {
+        match self {
+            Self::Grid(grid) => grid.height_at(at),
+            Self::Tin(tin) => tin.height_at(at),
+        }
+    }
+
+    /// How far apart posts are, metres of the plan: the smaller side of a grid's cells; of a TIN the side of the square that two triangles cover
+    /// on the average.
+    pub fn resolution(&self) -> f64 {
+        match self {
+            Self::Grid(grid) => math::min(grid.posts().east().length(), grid.posts().north().length()),
+            Self::Tin(tin) => tin.resolution(),
+        }
+    }
+
     /// The farthest that the terrain may come from a point, metres.
     pub fn farthest_from(&self, point: World) -> f64 {
         let reach = |bounds: Bounds| bounds.axes.iter().map(|axis| axis.length()).sum::<f64>();

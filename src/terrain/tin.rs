@@ -146,6 +146,30 @@ impl Tin {
         }
     }
 
+    /// The height over a plan point of a mesh that is draped vertically; `None` where there is no triangle.
+    pub(super) fn height_at(&self, at: Plan) -> Option<f64> {
+        let mut stack = vec![Node { level: self.levels.len() as u32 - 1, x: 0, y: 0 }];
+        while let Some(node) = stack.pop() {
+            let plan = self.plan_of(node);
+            if !plan.contains(&PlanBox::around([at])) {
+                continue;
+            }
+            if node.level > 0 {
+                self.for_each_child(node, |child| stack.push(child));
+            } else if let Some(height) = self.leaf(node).find_map(|id| height_on(&self.triangle(id), at)) {
+                return Some(height);
+            }
+        }
+        None
+    }
+
+    /// The side of the square that two triangles cover on the average.
+    pub(super) fn resolution(&self) -> f64 {
+        let area = |[a, b, c]: [World; 3]| (b.plan() - a.plan()).perp_dot(c.plan() - a.plan()).abs();
+        let doubled: f64 = (0..self.triangles.len() as u32).map(|id| area(self.triangle(id))).sum();
+        (doubled / self.triangles.len() as f64).sqrt()
+    }
+
     /// The triangles of a leaf.
     pub fn leaf(&self, node: Node) -> Range<u32> {
         let first = node.x as usize * CLUSTER;
@@ -179,6 +203,15 @@ impl Tin {
             + self.levels.iter().map(|l| size_of_val(&l[..])).sum::<usize>()
             + self.draped.as_ref().map_or(0, Draped::bytes)
     }
+}
+
+/// The height of a triangle at a plan point; `None` beside it. Points of its border count, so that no seam has none.
+fn height_on([a, b, c]: &[World; 3], at: Plan) -> Option<f64> {
+    let [p, q, r] = [a, b, c].map(|corner| corner.plan() - at);
+    let weights = [q.perp_dot(r), r.perp_dot(p), p.perp_dot(q)];
+    let sum = weights[0] + weights[1] + weights[2];
+    let is_in = sum > 0.0 && weights.iter().all(|weight| *weight >= -1e-12 * sum);
+    is_in.then(|| (a.z * weights[0] + b.z * weights[1] + c.z * weights[2]) / sum)
 }
 
 impl Draped {

@@ -41,6 +41,11 @@ pub fn frame_of(kind: Kind, stage: &Stage, buffers: &[&str]) -> Frame {
         .unwrap()
 }
 
+/// The techniques that draw a stage.
+pub fn kinds_for(stage: &Stage) -> Vec<Kind> {
+    Kind::ALL.into_iter().filter(|kind| technique::applies(*kind, stage).is_ok()).collect()
+}
+
 /// The truth of a stage.
 pub fn truth_of(stage: &Stage) -> Truth {
     truth::certify(stage, &stage.view().unwrap(), &Budget::default(), &|_| {})

@@ -22,6 +22,8 @@ pub trait Real: Coordinate + Debug + Send + Sync + Div<Output = Self> + 'static 
     fn of(value: f64) -> Self;
     /// The number as a double, exactly.
     fn get(self) -> f64;
+    /// The square root, rounded to nearest.
+    fn sqrt(self) -> Self;
 }
 
 /// The number moved into 0..=1.
@@ -62,6 +64,9 @@ macro_rules! real {
             }
             fn get(self) -> f64 {
                 self.into()
+            }
+            fn sqrt(self) -> Self {
+                self.sqrt()
             }
         }
     )*};

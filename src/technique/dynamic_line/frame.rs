@@ -1,0 +1,242 @@
+//! One frame: indices are updated, boxes go to tiles, tiles to a picture, which is smoothed.
+
+use super::camera::Camera;
+use super::fxaa::{Picture, REACH};
+use super::in_line::Thin;
+use super::matching::MatchedLines;
+use super::segment_box::BoxMaker;
+use super::step::Step;
+use super::tile::{Counts, Drawn, FrameContext, line_of, margin};
+use super::update::{Segment, segments};
+use crate::buffer::{Buffer, Plane, Values};
+use crate::canvas::{Backdrop, Frame, FrameOptions, joined, picture_plane, sight_counts, surface_plane};
+use crate::error::{Error, Result};
+use crate::index::bins;
+use crate::parallel;
+use crate::raster::Lattice;
+use crate::raster::device::Real;
+use crate::resolve::code_values;
+use crate::scene::Precision;
+use crate::space::ViewFrame;
+use crate::stage::Stage;
+use crate::technique::dynamic_line::{Antialiasing, Culling, Settings};
+use crate::terrain::Mesh;
+use crate::tiling::{TilePlace, Tiling};
+use crate::visibility::{Sight, TILE};
+use std::ops::Range;
+
+/// Segments that one piece of parallel work looks at.
+const SEGMENTS_AT_A_TIME: usize = 1024;
+
+/// The most tiles that boxes may touch, all together: a number each.
+const MOST_TOUCHED: u64 = 1 << 30;
+
+/// Columns and rows of a picture.
+type Window = [Range<usize>; 2];
+
+/// A frame with its segments found, and the pixels around each one's box.
+struct Setup<'a, T> {
+    context: FrameContext<'a, T>,
+    windows: Vec<Window>,
+    vertices: u64,
+    vanished: u64,
+    kept: u64,
+}
+
+/// Draws a frame of a view.
+///
+/// # Errors
+/// When boxes touch more tiles than there is room for.
+pub fn draw(
+    (stage, view): (&Stage, &ViewFrame),
+    lines: &MatchedLines,
+    options: &FrameOptions,
+) -> Result<Frame> {
+    match stage.scene.device.precision {
+        Precision::F64 => draw_with::<f64>((stage, view), lines, options),
+        Precision::F32 => draw_with::<f32>((stage, view), lines, options),
+    }
+}
+
+/// Decides one pixel of a view as a frame does: its steps and its code values.
+pub fn explain(
+    (stage, view): (&Stage, &ViewFrame),
+    lines: &MatchedLines,
+    pixel: [usize; 2],
+) -> (Vec<Step>, [u8; 4]) {
+    match stage.scene.device.precision {
+        Precision::F64 => explain_with::<f64>((stage, view), lines, pixel),
+        Precision::F32 => explain_with::<f32>((stage, view), lines, pixel),
+    }
+}
+
+fn draw_with<T: Real>(
+    (stage, view): (&Stage, &ViewFrame),
+    lines: &MatchedLines,
+    options: &FrameOptions,
+) -> Result<Frame> {
+    let mesh = &*stage.mesh_for(view);
+    let setup = Setup::<T>::new((stage, mesh, view), lines, (options.tile, options.wants("boxes")));
+    let context = &setup.context;
+    (options.progress)(0.4);
+    let size = [view.width(), view.height()];
+    let tiling = Tiling::new(size[0], size[1], options.tile);
+    let touched = |window: &Window| tiling.tiles_in(window[0].clone(), window[1].clone()).count() as u64;
+    let all: u64 = setup.windows.iter().map(touched).sum();
+    if all > MOST_TOUCHED {
+        return Err(Error::unsupported(format!(
+            "dynamic-line: {} boxes cover so much of the picture that there is no room for their lists",
+            setup.windows.len()
+        ))
+        .help("make the lines thinner, or leave some out by `where`"));
+    }
+    let bins = bins(&tiling, (0u32..).zip(setup.windows.iter().cloned()));
+    let progress = |share: f64| (options.progress)(0.4 + 0.5 * share);
+    let tiles = parallel::map_telling(tiling.count(), &progress, |k| {
+        context.draw(tiling.place(k), bins.of(k), &mut ())
+    });
+    let colors = tiling.assembled([0.0; 4], tiles.iter().map(|tile| &tile.colors[..]));
+    let colors = finished(size, colors, context.settings.antialiasing);
+    let planes = options.buffers.iter().filter_map(|name| plane(name, context, &tiling, (&tiles, &colors)));
+    Ok(Frame {
+        planes: planes.collect(),
+        counts: setup.counts(lines, &tiles),
+        image: Buffer::from_values(size[0], size[1], colors.into_iter().map(code_values).collect()),
+    })
+}
+
+fn explain_with<T: Real>(
+    (stage, view): (&Stage, &ViewFrame),
+    lines: &MatchedLines,
+    [x, y]: [usize; 2],
+) -> (Vec<Step>, [u8; 4]) {
+    let mesh = &*stage.mesh_for(view);
+    let setup = Setup::<T>::new((stage, mesh, view), lines, (TILE, false));
+    let draw = |place: TilePlace, record: &mut Vec<Step>| {
+        let ([x, y], [width, height]) = (place.corner, place.size);
+        let meets = |[columns, rows]: &Window| {
+            columns.start < x + width && x < columns.end && rows.start < y + height && y < rows.end
+        };
+        let near: Vec<u32> =
+            (0..).zip(&setup.windows).filter(|(_, window)| meets(window)).map(|(k, _)| k).collect();
+        setup.context.draw(place, &near, record)
+    };
+    let mut steps = Vec::new();
+    let own = draw(TilePlace { corner: [x, y], size: [1, 1] }, &mut steps);
+    if setup.context.settings.antialiasing != Antialiasing::Fxaa {
+        return (steps, code_values(own.colors[0]));
+    }
+    let corner = [x.saturating_sub(REACH), y.saturating_sub(REACH)];
+    let end = [(x + REACH + 1).min(view.width()), (y + REACH + 1).min(view.height())];
+    let size = [end[0] - corner[0], end[1] - corner[1]];
+    let around = draw(TilePlace { corner, size }, &mut Vec::new());
+    let color = Picture::new(size, &around.colors).smoothed([x - corner[0], y - corner[1]]);
+    steps.push(Step::Smoothed(color));
+    (steps, code_values(color))
+}
+
+/// The picture after the filter over it, if it is wanted.
+fn finished(size: [usize; 2], colors: Vec<[f64; 4]>, antialiasing: Antialiasing) -> Vec<[f64; 4]> {
+    if antialiasing != Antialiasing::Fxaa {
+        return colors;
+    }
+    let picture = Picture::new(size, &colors);
+    let rows = parallel::map_indices(size[1], |y| {
+        (0..size[0]).map(|x| picture.smoothed([x, y])).collect::<Vec<_>>()
+    });
+    joined(rows.iter().map(Vec::as_slice))
+}
+
+impl<'a, T: Real> Setup<'a, T> {
+    /// Finds what a view sees and the segments that it keeps.
+    fn new(
+        (stage, mesh, view): (&'a Stage, &'a Mesh, &'a ViewFrame),
+        lines: &MatchedLines,
+        (tile, wants_boxes): (usize, bool),
+    ) -> Self {
+        let settings: Settings = stage.scene.technique.get();
+        let mut sight = Sight::new(view, mesh, &stage.scene.device, Lattice::centres(view, 0), tile);
+        sight.see();
+        let camera = Camera::new(view);
+        let found = segments((stage, mesh, view), lines, &camera);
+        let boxes = BoxMaker::new(camera, mesh, settings.boxes);
+        let thin = Thin::of(&settings, view);
+        let size = [view.width(), view.height()];
+        let window = |segment: &Segment<T>| {
+            let of = boxes.of(segment, line_of(stage, segment.item).1);
+            boxes.outline(&of, margin(thin, settings.antialiasing))?.window(size)
+        };
+        let is_kept = |segment: &Segment<T>| settings.culling == Culling::Boxes || segment.is_inside;
+        let chunks: Vec<&[Segment<T>]> = found.all.chunks(SEGMENTS_AT_A_TIME).collect();
+        let kept = parallel::map(&chunks, |chunk| {
+            let kept = chunk.iter().filter(|segment| is_kept(segment));
+            kept.map(|segment| (*segment, window(segment))).collect::<Vec<_>>()
+        });
+        let is_in_view = |(segment, window): &(Segment<T>, Option<Window>)| Some((*segment, window.clone()?));
+        let all = kept.iter().map(|chunk| match settings.culling {
+            Culling::Vertices => chunk.len() as u64,
+            Culling::Boxes => chunk.iter().filter(|(_, window)| window.is_some()).count() as u64,
+        });
+        let (count, (segments, windows)) = (all.sum(), kept.iter().flatten().filter_map(is_in_view).unzip());
+        let backdrop = Backdrop::of(&stage.scene, mesh);
+        let styles = stage.draw_list.styles().iter();
+        let paints = styles.map(|style| backdrop.compositor.paint(style.paint)).collect();
+        Self {
+            context: FrameContext {
+                stage,
+                mesh,
+                view,
+                settings,
+                sight,
+                backdrop,
+                camera,
+                boxes,
+                thin,
+                segments,
+                paints,
+                wants_boxes,
+            },
+            windows,
+            vertices: found.vertices,
+            vanished: found.vanished,
+            kept: count,
+        }
+    }
+
+    fn counts(&self, lines: &MatchedLines, tiles: &[Drawn]) -> Vec<(&'static str, u64)> {
+        let done = tiles.iter().fold(Counts::default(), |sum, tile| sum.plus(tile.counts));
+        let vertices = lines.chains.iter().map(|chain| u64::from(chain.chain.count)).sum();
+        let own = [
+            ("lines", lines.chains.len() as u64),
+            ("vertices", vertices),
+            ("parts", lines.parts),
+            ("vertices_seen", self.vertices),
+            ("vanished", self.vanished),
+            ("segments", self.kept),
+            ("boxes", self.windows.len() as u64),
+            ("fragments", done.fragments),
+            ("entries", done.entries),
+            ("longest_list", done.longest),
+        ];
+        own.into_iter().chain(sight_counts(&self.context.sight.counts())).collect()
+    }
+}
+
+fn plane<T: Real>(
+    name: &str,
+    context: &FrameContext<T>,
+    tiling: &Tiling,
+    (tiles, colors): (&[Drawn], &[[f64; 4]]),
+) -> Option<Plane> {
+    let size = [context.view.width(), context.view.height()];
+    let counted = |name, of: fn(&Drawn) -> &Vec<u32>| {
+        let values = tiling.assembled(0, tiles.iter().map(|tile| &of(tile)[..]));
+        Some(picture_plane(name, size, 1, Values::U32(values)))
+    };
+    match name {
+        "color" => Some(picture_plane("color", size, 4, Values::F64(colors.as_flattened().to_vec()))),
+        "list-length" => counted("list-length", |tile| &tile.lengths),
+        "boxes" => counted("boxes", |tile| &tile.boxes),
+        _ => surface_plane(name, &context.sight, 0),
+    }
+}
