@@ -362,7 +362,7 @@ fn a_thin_line_behind_a_hill_does_not_shine_through() {
 
 #[test]
 fn the_filter_smooths_steps_and_analytic_edges_are_nearer_to_the_truth() {
-    let text = scene(FLAT, ABOVE, &line_layer(&TURNS[..5], 8.0));
+    let text = scene(FLAT, MAP, &line_layer(&TURNS[..5], 8.0));
     let rmse = |how: &str| {
         let how = format!("technique.dynamic-line.antialiasing={how}");
         let stage = stage(&text, &[EXACT[0], EXACT[1], EXACT[2], EXACT[3], &how]);
