@@ -9,8 +9,8 @@ use drapery::space::Plan;
 use drapery::stage::Stage;
 use drapery::technique::clipmap::{self, Overlaps, PolygonRaster};
 use drapery::technique::inverse_projection::{self, PointInPolygon};
-use drapery::technique::stencil_volume::{self, Grouping};
 use drapery::technique::static_decal;
+use drapery::technique::stencil_volume::{self, Grouping};
 use drawing::{frame_of, kinds_for, loaded, truth_of};
 use proptest::prelude::*;
 
