@@ -69,12 +69,15 @@ impl Rings {
             .collect();
         let bounds = stage.mesh.plan_bounds();
         let boxes: Vec<PlanBox> = rings.iter().map(|ring| PlanBox::around(ring.iter().copied())).collect();
-        let cell = |v: f64, low: f64, high: f64| (((v - low) / (high - low) * SIDE as f64) as usize).min(SIDE - 1);
+        let cell =
+            |v: f64, low: f64, high: f64| (((v - low) / (high - low) * SIDE as f64) as usize).min(SIDE - 1);
         let cells = CellLists::new(SIDE * SIDE, |entries| {
             for (k, plan) in (0..).zip(&boxes) {
-                for row in cell(plan.min.y, bounds.min.y, bounds.max.y)..=cell(plan.max.y, bounds.min.y, bounds.max.y) {
-                    for column in
-                        cell(plan.min.x, bounds.min.x, bounds.max.x)..=cell(plan.max.x, bounds.min.x, bounds.max.x)
+                for row in cell(plan.min.y, bounds.min.y, bounds.max.y)
+                    ..=cell(plan.max.y, bounds.min.y, bounds.max.y)
+                {
+                    for column in cell(plan.min.x, bounds.min.x, bounds.max.x)
+                        ..=cell(plan.max.x, bounds.min.x, bounds.max.x)
                     {
                         entries.put(row * SIDE + column, k);
                     }
@@ -160,7 +163,9 @@ fn frames(c: &mut Criterion) {
         for (name, preparation) in [("whole", Preparation::Whole), ("seen", Preparation::Seen)] {
             stage.scene.technique.set(Settings { preparation, ..Settings::default() });
             group.bench_function(BenchmarkId::new(format!("prepare, {name}"), scale), |b| {
-                b.iter(|| black_box(technique::prepare(Kind::StaticDecal, &stage).expect("widths in metres")));
+                b.iter(|| {
+                    black_box(technique::prepare(Kind::StaticDecal, &stage).expect("widths in metres"))
+                });
             });
         }
         let view = stage.view().expect("a view");
@@ -168,10 +173,14 @@ fn frames(c: &mut Criterion) {
         for samples in [1, 8] {
             stage.scene.technique.set(Settings { samples, ..Settings::default() });
             let prepared = technique::prepare(Kind::StaticDecal, &stage).expect("widths in metres");
-            group.throughput(Throughput::Elements((view.width() * view.height()) as u64 * u64::from(samples)));
-            group.bench_function(BenchmarkId::new(format!("frame of {samples} samples a pixel"), scale), |b| {
-                b.iter(|| black_box(prepared.frame(&view, &options).expect("no buffers")));
-            });
+            group
+                .throughput(Throughput::Elements((view.width() * view.height()) as u64 * u64::from(samples)));
+            group.bench_function(
+                BenchmarkId::new(format!("frame of {samples} samples a pixel"), scale),
+                |b| {
+                    b.iter(|| black_box(prepared.frame(&view, &options).expect("no buffers")));
+                },
+            );
         }
     }
     group.finish();

@@ -198,7 +198,10 @@ fn near_borders(link: &Link, rules: &StrokeRules, share: f64, ulps: i64) -> Vec<
         let [n1, n2] = [e, d].map(|d| d.perp() * sign * half);
         let middle = n1 + n2;
         let tip = middle * (2.0 * half * half / middle.length_squared());
-        let turned = glam::DVec2::new(math::cos(share * 6.28), math::sin(share * 6.28)) * half;
+        let turned = glam::DVec2::new(
+            math::cos(share * std::f64::consts::TAU),
+            math::sin(share * std::f64::consts::TAU),
+        ) * half;
         for v in [
             (link.to - link.from) * share + n2,
             n2 * share,
