@@ -55,7 +55,8 @@ impl Drawn {
         let mut drawn: Option<Self> = None;
         for turn in 1..=repeat {
             watch.part("preparing");
-            let (prepared, ms) = timed(watch, || technique::prepare(kind, stage))?;
+            let progress = |share: f64| watch.done(share);
+            let (prepared, ms) = timed(watch, || technique::prepare_telling(kind, stage, &progress))?;
             prepare_ms.push(ms);
             watch.part("drawing");
             let (mut frame, ms) = timed(watch, || frame((&*prepared, view), &[], watch))?;

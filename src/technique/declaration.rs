@@ -26,9 +26,12 @@ pub struct Declaration {
     pub sweep: Sweep,
     /// Whether it draws such a scene, or the reason why it does not.
     pub applies: fn(&Stage) -> Result<()>,
-    /// Builds its structures.
-    pub prepare: fn(&Stage) -> Result<Box<dyn Prepared + '_>>,
+    /// Builds its structures; what it is lent is told the share that is done (0..=1), from any thread.
+    pub prepare: Preparing,
 }
+
+/// Builds a technique's structures over a stage.
+pub type Preparing = for<'s, 'p> fn(&'s Stage, &'p (dyn Fn(f64) + Sync)) -> Result<Box<dyn Prepared + 's>>;
 
 /// The parameters of a technique, whatever the type of its settings.
 #[derive(Debug)]

@@ -109,7 +109,19 @@ pub fn explain(prepared: &dyn Prepared, view: &ViewFrame, pixel: [usize; 2]) -> 
 /// # Errors
 /// When the technique does not draw such a scene.
 pub fn prepare(kind: Kind, stage: &Stage) -> Result<Box<dyn Prepared + '_>> {
-    (kind.declaration().prepare)(stage)
+    prepare_telling(kind, stage, &|_| {})
+}
+
+/// As [`prepare`]; `progress` is told the share that is done (0..=1) where that takes long, from any thread.
+///
+/// # Errors
+/// When the technique does not draw such a scene.
+pub fn prepare_telling<'s>(
+    kind: Kind,
+    stage: &'s Stage,
+    progress: &(dyn Fn(f64) + Sync),
+) -> Result<Box<dyn Prepared + 's>> {
+    (kind.declaration().prepare)(stage, progress)
 }
 
 /// Whether a technique draws such a scene.

@@ -84,7 +84,7 @@ pub const DECLARATION: Declaration = Declaration {
     ],
     sweep: sweep::SWEEP,
     applies,
-    prepare: |stage| Ok(Box::new(Prepare::new(stage)?)),
+    prepare: |stage, _| Ok(Box::new(Prepare::new(stage)?)),
 };
 
 /// The technique with its lines and areas in memory.

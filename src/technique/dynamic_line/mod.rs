@@ -59,7 +59,7 @@ pub const DECLARATION: Declaration = Declaration {
     ],
     sweep: sweep::SWEEP,
     applies,
-    prepare: |stage| Ok(Box::new(Prepare::new(stage)?)),
+    prepare: |stage, _| Ok(Box::new(Prepare::new(stage)?)),
 };
 
 /// Edges that are analytic know distances from a centre line alone.

@@ -57,7 +57,7 @@ pub const DECLARATION: Declaration = Declaration {
     ],
     sweep: sweep::SWEEP,
     applies,
-    prepare: |stage| Ok(Box::new(Prepare::new(stage)?)),
+    prepare: |stage, _| Ok(Box::new(Prepare::new(stage)?)),
 };
 
 /// The technique with its index built.

@@ -43,7 +43,7 @@ pub const DECLARATION: Declaration = Declaration {
     ],
     sweep: sweep::SWEEP,
     applies,
-    prepare: |stage| Ok(Box::new(Prepare::new(stage)?)),
+    prepare: |stage, progress| Ok(Box::new(Prepare::new(stage, progress)?)),
 };
 
 fn contradiction(said: &TechniqueSettings) -> Option<Contradiction> {
@@ -66,18 +66,18 @@ pub struct Prepare<'s> {
 }
 
 impl<'s> Prepare<'s> {
-    /// Indexes the scene's items.
+    /// Indexes the scene's items, and builds all cells if they are asked for beforehand; `progress` is told the share that is done.
     ///
     /// # Errors
     /// When the technique does not draw such a scene.
-    pub fn new(stage: &'s Stage) -> Result<Self> {
+    pub fn new(stage: &'s Stage, progress: &(dyn Fn(f64) + Sync)) -> Result<Self> {
         applies(stage)?;
         let settings: Settings = stage.scene.technique.get();
         let pattern = if settings.edges == Edges::Analytic { 1 } else { settings.samples };
         let pattern = SamplePattern::of(pattern).unwrap_or(SamplePattern::Grid(1));
         let is_single = stage.scene.device.precision == Precision::F32;
         let bounds = stage.mesh.plan_bounds();
-        let decals = Decals::new(&stage.draw_list, &bounds, &settings, is_single, &|_| {});
+        let decals = Decals::new(&stage.draw_list, &bounds, &settings, is_single, progress);
         Ok(Self { stage, settings, pattern, decals })
     }
 
