@@ -69,6 +69,18 @@ impl DecalGrid {
         column + self.side * row
     }
 
+    /// The cells between two, the first of which lies in the south-west; `None`: they are many.
+    #[inline(always)]
+    pub(super) fn cells_between(&self, first: u32, last: u32) -> Option<impl Iterator<Item = u32>> {
+        let side = self.side;
+        let (west, east) = (first % side, last % side);
+        let (south, north) = (first / side, last / side);
+        let is_few = east - west < 2 && north - south < 2;
+        is_few.then(|| {
+            (south..=north).flat_map(move |row| (west..=east).map(move |column| column + side * row))
+        })
+    }
+
     /// The cells that points of a box lie in.
     pub(super) fn cells_in(&self, plan: &PlanBox) -> Vec<u32> {
         let range = |low: f64, high: f64, origin: f64, cell: f64| {

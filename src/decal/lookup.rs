@@ -153,6 +153,15 @@ impl<'l> Decals<'l> {
             self.find_in((cell, &bounds), points, finite, palette, (hits, counts));
             return;
         }
+        if let (Some(first), Some(last)) = corners
+            && self
+                .grid
+                .cells_between(first, last)
+                .is_some_and(|mut cells| cells.all(|cell| self.cell(cell).is_none()))
+        {
+            // Most are empty where decals are sparse.
+            return;
+        }
         self.find_apart(points, finite, palette, (hits, counts));
     }
 
