@@ -5,6 +5,7 @@ use crate::sampling;
 use crate::scene_file::{Override, SceneFile};
 use crate::stage::Stage;
 use crate::technique::Kind;
+use proptest::prelude::*;
 
 /// Fills by both rules, with holes, crossings and islands; a union; outlines on each side; strokes with each join and cap, wide and narrow, with
 /// sharp and flat turns, dots and loops; a layer as a whole; an inverted one.
@@ -228,4 +229,57 @@ fn a_frame_of_a_corner_builds_no_cell_that_it_does_not_see() {
     };
     let (seen, whole) = (bytes(&[]), bytes(&["preparation=whole"]));
     assert!(seen < whole / 2, "{seen} {whole}");
+}
+
+fn vertices(least: usize) -> impl Strategy<Value = String> {
+    // Some on a lattice, so that edges and corners meet.
+    let number = prop_oneof![-520.0..520.0f64, (-8..9i32).prop_map(|k| f64::from(k) * 60.0)];
+    let pair = (number.clone(), number).prop_map(|(x, y)| format!("[{x}, {y}]"));
+    prop::collection::vec(pair, least..9).prop_map(|pairs| format!("[{}]", pairs.join(", ")))
+}
+
+fn layer() -> impl Strategy<Value = String> {
+    let style = (
+        prop::sample::select(vec!["round", "bevel", "miter"]),
+        prop::sample::select(vec!["butt", "square", "round"]),
+        1.0..120.0f64,
+        prop::sample::select(vec![0.4, 1.0]),
+    );
+    let polygon = (
+        prop::collection::vec(vertices(3), 1..4),
+        prop::sample::select(vec!["even-odd", "nonzero"]),
+        prop::sample::select(vec!["inset", "normal", "offset"]),
+    );
+    (polygon, prop::collection::vec(vertices(2), 1..3), style).prop_map(|(polygon, lines, style)| {
+        let ((rings, rule, mode), (join, cap, width, opacity)) = (polygon, style);
+        let lines: Vec<String> = lines.iter().map(|line| format!("{{ line = {line} }}")).collect();
+        let stroke = format!("width_m = {width}, join = \"{join}\", opacity = {opacity}");
+        format!(
+            "[[layer]]\nfeatures = [{{ polygon = [{}] }}, {}]\nfill = {{ color = \"#558855\", rule = \"{rule}\", opacity = {opacity} }}\n\
+             outline = {{ color = \"#223322\", mode = \"{mode}\", {stroke} }}\nline = {{ color = \"#ffee88\", cap = \"{cap}\", {stroke} }}\n",
+            rings.join(", "),
+            lines.join(", ")
+        )
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(32))]
+    #[test]
+    fn every_sample_of_any_layers_is_in_the_items_whose_footprint_holds_it(
+        layers in prop::collection::vec(layer(), 1..4), grid in 1..300u32, capacity in 1..20u32, depth in 0..17u32,
+        hierarchy in prop::sample::select(vec!["binary", "wide", "curve"]),
+    ) {
+        let head = EVERYTHING.split("[[layer]]").next().unwrap();
+        let text = [head, &layers.concat()].concat();
+        let settings = [
+            format!("grid={grid}"),
+            format!("leaf_capacity={capacity}"),
+            format!("depth={depth}"),
+            format!("hierarchy={hierarchy}"),
+        ];
+        let settings: Vec<&str> = settings.iter().map(String::as_str).collect();
+        let off = off(&text, 1, &settings);
+        prop_assert!(off < 1e-12, "{}", off);
+    }
 }
