@@ -131,6 +131,19 @@ pub enum Values {
     U8(Vec<u8>),
 }
 
+impl Values {
+    /// How many bytes they have.
+    pub fn bytes(&self) -> usize {
+        match self {
+            Self::F64(values) => size_of_val(&values[..]),
+            Self::F32(values) => size_of_val(&values[..]),
+            Self::U32(values) => size_of_val(&values[..]),
+            Self::U16(values) => size_of_val(&values[..]),
+            Self::U8(values) => values.len(),
+        }
+    }
+}
+
 impl Plane {
     /// BLAKE3 over the values in order (little-endian), in hexadecimal.
     pub fn hash(&self) -> String {

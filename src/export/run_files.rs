@@ -107,16 +107,14 @@ impl RunFiles<'_> {
     fn stage_plane(&mut self, technique: &str, kind: &PlaneKind, plane: &Plane) -> Result<BufferResult> {
         let file = |extension: &str| format!("{technique}.{}.{extension}", plane.name);
         let checked = Npy::new(plane)?;
-        if kind.is_in_plan {
-            let moved = absolute(plane, self.stage.scene.origin.truncate());
-            let moved = Npy::new(&moved)?;
-            self.batch.stage(&file("npy"), |to| moved.write(to))?;
-        } else {
-            self.batch.stage(&file("npy"), |to| checked.write(to))?;
-        }
+        let moved = kind.is_in_plan.then(|| absolute(plane, self.stage.scene.origin.truncate()));
+        let written = moved.as_ref().unwrap_or(plane);
+        let npy = Npy::new(written)?;
+        self.batch.stage(&file("npy"), |to| npy.write(to))?;
         if let Some(picture) = look(checked, kind.look) {
             self.batch.stage(&file("png"), |to| write_png(&picture, to))?;
         }
-        Ok(BufferResult { name: plane.name.into(), path: file("npy"), hash: plane.hash() })
+        let bytes = written.values.bytes();
+        Ok(BufferResult { name: plane.name.into(), path: file("npy"), bytes, hash: plane.hash() })
     }
 }

@@ -101,6 +101,8 @@ pub struct BufferResult {
     pub name: String,
     /// Its file in the folder.
     pub path: String,
+    /// How many bytes its values have, in the kind of numbers of the file.
+    pub bytes: usize,
     /// BLAKE3 over its values in scene-local coordinates (the file has absolute ones), so that it is the same for a
     /// scene that is moved as a whole.
     pub hash: String,
