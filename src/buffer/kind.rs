@@ -9,6 +9,8 @@ pub struct PlaneKind {
     pub is_in_plan: bool,
     /// Its picture.
     pub look: Look,
+    /// Whether it is a structure of the scene, the same in each frame: goldens, which are of pictures and what leads to them, leave it out.
+    pub is_structure: bool,
 }
 
 /// How a plane's numbers become a picture for people.
@@ -46,7 +48,12 @@ impl PlaneKind {
 
     /// A plane whose numbers are no plan coordinates.
     pub const fn new(name: &'static str, look: Look) -> Self {
-        Self { name, is_in_plan: false, look }
+        Self { name, is_in_plan: false, look, is_structure: false }
+    }
+
+    /// A table of a structure.
+    pub const fn structure(name: &'static str) -> Self {
+        Self { is_structure: true, ..Self::new(name, Look::Table) }
     }
 
     /// The same of plan coordinates.

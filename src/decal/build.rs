@@ -9,6 +9,7 @@ use crate::index::BoxTree;
 use crate::parallel;
 use crate::space::{Plan, PlanBox, SmallBox};
 use std::sync::OnceLock;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Segments that are indexed together: a cell is built from the runs whose boxes meet it.
 const SEGMENTS_OF_A_RUN: u32 = 32;
@@ -48,6 +49,8 @@ pub(super) struct Source<'l> {
     rings: Vec<Ring>,
     ring_boxes: BoxTree,
     quadtrees: Vec<OnceLock<Box<Quadtree>>>,
+    /// The bytes of those that have been built.
+    quadtree_bytes: AtomicUsize,
     /// What is outside of a layer's polygons: in every cell.
     everywhere: Vec<u32>,
     /// Around all decals.
@@ -91,6 +94,7 @@ impl<'l> Source<'l> {
             runs: all.runs,
             run_boxes: BoxTree::new(&all.run_boxes),
             quadtrees: all.rings.iter().map(|_| OnceLock::new()).collect(),
+            quadtree_bytes: AtomicUsize::new(0),
             rings: all.rings,
             ring_boxes: BoxTree::new(&all.ring_boxes),
             everywhere: all.everywhere,
@@ -127,13 +131,15 @@ impl<'l> Source<'l> {
     pub(super) fn quadtree(&self, ring: u32) -> &Quadtree {
         self.quadtrees[ring as usize].get_or_init(|| {
             let chain = self.chain_of(ring);
-            Box::new(Quadtree::new(self.list.path_of(chain), chain.first, self.limits, self.closing))
+            let quadtree = Quadtree::new(self.list.path_of(chain), chain.first, self.limits, self.closing);
+            self.quadtree_bytes.fetch_add(quadtree.bytes(), Ordering::Relaxed);
+            Box::new(quadtree)
         })
     }
 
-    /// The quadtrees that have been built.
-    pub(super) fn built_quadtrees(&self) -> impl Iterator<Item = &Quadtree> {
-        self.quadtrees.iter().filter_map(|quadtree| quadtree.get().map(|boxed| &**boxed))
+    /// All rings, owner by owner.
+    pub(super) fn rings(&self) -> &[Ring] {
+        &self.rings
     }
 
     /// What lies in a box of the plan.
@@ -226,13 +232,17 @@ impl<'l> Source<'l> {
         Some((self.list.path_of(chain), chain.is_closed, self.rules[item.style as usize].as_ref()?))
     }
 
-    pub(super) fn bytes(&self) -> usize {
+    /// Bytes of what finds the segments and rings that lie in a cell.
+    pub(super) fn index_bytes(&self) -> usize {
         size_of_val(&self.runs[..])
             + size_of_val(&self.rings[..])
-            + size_of_val(&self.quadtrees[..])
             + self.run_boxes.bytes()
             + self.ring_boxes.bytes()
-            + self.built_quadtrees().map(Quadtree::bytes).sum::<usize>()
+    }
+
+    /// Bytes of the quadtrees that have been built, and of the list of all.
+    pub(super) fn quadtree_bytes(&self) -> usize {
+        size_of_val(&self.quadtrees[..]) + self.quadtree_bytes.load(Ordering::Relaxed)
     }
 }
 

@@ -41,11 +41,15 @@ impl Bvh {
         ((u64::from(self.leaves) + (1u64 << below) - 1) >> below) as u32
     }
 
-    #[cfg(test)]
     /// Boxes of nodes that are not empty, level by level from the root, and how many each level has.
     pub(super) fn nodes(&self) -> (&[SmallBox], Vec<u32>) {
         let levels = if self.leaves == 0 { 0 } else { self.levels + 1 };
         (&self.boxes, (0..levels).map(|level| self.count(level)).collect())
+    }
+
+    /// How many children a node has.
+    pub(super) fn children(&self) -> usize {
+        1 << self.bits
     }
 
     pub(super) fn bytes(&self) -> usize {

@@ -129,13 +129,15 @@ impl Cell {
         self.areas.binary_search_by_key(&owner, |part| part.owner).map_or(NOTHING, |k| k as u32)
     }
 
-    pub(super) fn bytes(&self) -> usize {
-        size_of::<Self>()
-            + self.lines.bytes()
-            + self.polygons.bytes()
-            + size_of_val(&self.segments[..])
-            + size_of_val(&self.fills[..])
-            + size_of_val(&self.areas[..])
-            + size_of_val(&self.rings[..])
+    /// Bytes of its line segments and their tree.
+    pub(super) fn line_bytes(&self) -> usize {
+        self.lines.bytes() + size_of_val(&self.segments[..])
+    }
+
+    /// Bytes of its references to polygons, their rings, and their tree.
+    pub(super) fn polygon_bytes(&self) -> usize {
+        let leaves =
+            size_of_val(&self.fills[..]) + size_of_val(&self.areas[..]) + size_of_val(&self.rings[..]);
+        self.polygons.bytes() + leaves
     }
 }

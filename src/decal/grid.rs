@@ -37,6 +37,11 @@ impl DecalGrid {
         self.side as usize * self.side as usize
     }
 
+    /// Its south-west corner and its north-east one.
+    pub(super) fn bounds(&self) -> PlanBox {
+        PlanBox { min: self.origin, max: self.origin + self.cell * f64::from(self.side) }
+    }
+
     /// Cells a side.
     pub(super) fn side(&self) -> u32 {
         self.side

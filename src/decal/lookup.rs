@@ -8,6 +8,7 @@ use super::bvh::Walk;
 use super::cell::{Cell, FillLeaf, LineLeaf, NOTHING, RingPart};
 use super::grid::DecalGrid;
 use super::hits::{Hits, MOST_TOGETHER};
+use super::memory::{Built, Memory};
 use super::palette::Palette;
 use super::quadtree::Counts as QuadtreeCounts;
 use super::settings::{Hierarchy, Outlines, Overlaps, Preparation, Settings};
@@ -23,8 +24,10 @@ pub struct Decals<'l> {
     pub(super) source: Source<'l>,
     pub(super) grid: DecalGrid,
     pub(super) cells: Vec<OnceLock<Option<Box<Cell>>>>,
-    sides: Sides,
-    settings: Settings,
+    /// The sum of what is in the cells that have been built.
+    built: Built,
+    pub(super) sides: Sides,
+    pub(super) settings: Settings,
     /// Whether points, vertices and tests are of single precision.
     is_single: bool,
 }
@@ -86,7 +89,15 @@ impl<'l> Decals<'l> {
         };
         let grid = DecalGrid::new(&bounds, settings.grid);
         let cells = (0..grid.count()).map(|_| OnceLock::new()).collect();
-        let decals = Self { sides: Sides::of(list), source, grid, cells, settings: *settings, is_single };
+        let decals = Self {
+            sides: Sides::of(list),
+            source,
+            grid,
+            cells,
+            built: Built::default(),
+            settings: *settings,
+            is_single,
+        };
         if settings.preparation == Preparation::Whole {
             decals.build_all(progress);
         }
@@ -94,7 +105,7 @@ impl<'l> Decals<'l> {
     }
 
     /// Builds what has not been built.
-    fn build_all(&self, progress: &(dyn Fn(f64) + Sync)) {
+    pub(super) fn build_all(&self, progress: &(dyn Fn(f64) + Sync)) {
         let side = self.grid.side();
         parallel::map_telling(side as usize, progress, |row| {
             for column in 0..side {
@@ -111,7 +122,11 @@ impl<'l> Decals<'l> {
     /// A cell, built when it is first asked for.
     #[inline(always)]
     pub(super) fn cell(&self, number: u32) -> Option<&Cell> {
-        let build = || self.cell_around(&self.grid.box_of(number));
+        let build = || {
+            let cell = self.cell_around(&self.grid.box_of(number));
+            cell.iter().for_each(|cell| self.built.add(cell));
+            cell
+        };
         self.cells[number as usize].get_or_init(build).as_deref()
     }
 
@@ -469,9 +484,16 @@ impl<'l> Decals<'l> {
     }
 
     /// Bytes held, without the draw list: of what has been built.
-    pub fn bytes(&self) -> usize {
-        let cells = self.cells.iter().filter_map(|cell| cell.get()?.as_deref());
-        self.source.bytes() + size_of_val(&self.cells[..]) + cells.map(Cell::bytes).sum::<usize>()
+    pub fn memory(&self) -> Memory {
+        let cells = self.built.cells();
+        Memory {
+            cells,
+            grid: size_of_val(&self.cells[..]) + cells * size_of::<Cell>(),
+            lines: self.built.line_bytes(),
+            polygons: self.built.polygon_bytes(),
+            quadtrees: self.source.quadtree_bytes(),
+            index: self.source.index_bytes(),
+        }
     }
 }
 

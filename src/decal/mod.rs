@@ -12,6 +12,7 @@
 //! decision is exact: boxes only leave out what surely misses, the tests in leaves are predicates. Widths in pixels are no static decals: such
 //! strokes are passed over.
 
+mod arrays;
 mod build;
 mod bvh;
 mod cell;
@@ -19,6 +20,7 @@ mod coverage;
 mod grid;
 mod hits;
 mod lookup;
+mod memory;
 mod palette;
 pub(crate) mod quadtree;
 mod settings;
@@ -26,8 +28,10 @@ mod share;
 mod side;
 pub(crate) mod stroke;
 
+pub use arrays::Arrays;
 pub use hits::{Hit, Hits, MOST_TOGETHER};
 pub use lookup::{Decals, LookupCounts};
+pub use memory::Memory;
 pub use palette::{Mean, Palette};
 pub use settings::{Edges, Hierarchy, Joins, LeafPolygons, Outlines, Overlaps, Preparation, Settings};
 pub use share::{PlanPixel, Shares};

@@ -24,6 +24,12 @@ impl SmallBox {
         Self([least(w, a), least(s, b), most(e, c), most(n, d)])
     }
 
+    /// The box as it has been rounded.
+    pub fn bounds(&self) -> PlanBox {
+        let [w, s, e, n] = self.0.map(f64::from);
+        PlanBox { min: Plan::new(w, s), max: Plan::new(e, n) }
+    }
+
     /// Its middle.
     pub fn middle(&self) -> Plan {
         let [w, s, e, n] = self.0.map(f64::from);

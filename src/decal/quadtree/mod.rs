@@ -18,11 +18,8 @@ mod throughout;
 mod tree;
 
 pub use build::Limits;
-#[cfg(test)]
 pub use node::Kind;
-#[cfg(test)]
-pub use tree::LeafEdges;
-pub use tree::{Counts, Quadtree, Start};
+pub use tree::{Counts, LeafEdges, Quadtree, Start};
 
 #[cfg(test)]
 mod tests;

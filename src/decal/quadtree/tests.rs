@@ -247,7 +247,7 @@ proptest! {
                 }
                 Kind::Partial(leaf) => {
                     let Some(LeafEdges::Numbers(numbers)) = tree.leaf_edges() else { continue };
-                    let own = &numbers[tree.leaf(*leaf).unwrap()];
+                    let own = &numbers[tree.leaf(*leaf).unwrap().0];
                     let is_deepest = (plan.max.x - plan.min.x) * f64::from(1 << limits.depth) <= whole.max.x - whole.min.x;
                     prop_assert!(own.len() <= limits.capacity as usize || is_deepest, "{} in {:?}", own.len(), plan);
                     for k in (first..).zip(path.windows(2)).filter(|(_, e)| e[0] != e[1] && plan.contains(&PlanBox::around([e[0]]))).map(|(k, _)| k) {

@@ -28,9 +28,13 @@ pub struct Start {
 impl Start {
     /// The whole tree.
     pub const ROOT: Self = Self { node: 0, quad: Quad::ROOT };
+
+    /// The number of its node in the tree.
+    pub fn node(self) -> u32 {
+        self.node
+    }
 }
 
-#[cfg(test)]
 /// The edges of a tree's leaves.
 #[derive(Debug)]
 pub enum LeafEdges<'a> {
@@ -200,7 +204,6 @@ impl Quadtree {
         turns_above::<A>(path.windows(2).map(|edge| (edge[0], edge[1])), corner, at)
     }
 
-    #[cfg(test)]
     /// All nodes, breadth first: rectangle and kind.
     pub fn nodes(&self) -> Vec<(PlanBox, Kind)> {
         let Some(nodes) = &self.nodes else {
@@ -218,14 +221,12 @@ impl Quadtree {
         boxes.zip(nodes.nodes.iter().map(|node| node.kind())).collect()
     }
 
-    #[cfg(test)]
-    /// The place of a leaf's edges among those of all leaves that edges meet, by its number. `None` when the ring is not divided: the leaf has
-    /// all its edges.
-    pub fn leaf(&self, leaf: u32) -> Option<Range<usize>> {
-        self.nodes.as_ref().map(|nodes| nodes.edges_of(leaf))
+    /// The place of a leaf's edges among those of all leaves that edges meet, by its number, and the winding number of its south-east corner.
+    /// `None` when the ring is not divided: the leaf has all its edges.
+    pub fn leaf(&self, leaf: u32) -> Option<(Range<usize>, i32)> {
+        self.nodes.as_ref().map(|nodes| (nodes.edges_of(leaf), nodes.leaves[leaf as usize].corner))
     }
 
-    #[cfg(test)]
     /// The edges of all leaves, one leaf after another. `None` when the ring is not divided.
     pub fn leaf_edges(&self) -> Option<LeafEdges<'_>> {
         self.nodes.as_ref().map(|nodes| match &nodes.edges {

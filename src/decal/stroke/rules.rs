@@ -12,14 +12,17 @@ use glam::DVec2;
 /// the miter corner is replaced by a round corner" (4.2.1).
 const COS_40: f64 = 0.766_044_443_118_978;
 
+/// How far a miter of 40 degrees reaches, in half widths: 1 / sin(20 degrees).
+pub(in crate::decal) const REACH_OF_40: f64 = 2.923_804_400_163_087_6;
+
 /// How a stroke's segments are made.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StrokeRules {
     /// Half the width, metres.
-    pub(super) half: f64,
-    pub(super) join: Join,
-    pub(super) cap: Cap,
-    pub(super) joins: Joins,
+    pub(in crate::decal) half: f64,
+    pub(in crate::decal) join: Join,
+    pub(in crate::decal) cap: Cap,
+    pub(in crate::decal) joins: Joins,
 }
 
 impl StrokeRules {
@@ -33,7 +36,7 @@ impl StrokeRules {
     /// How far a stroke reaches from its chain at most, metres.
     pub fn reach(&self) -> f64 {
         let corner = match (self.join, self.joins) {
-            // A miter of 40 degrees reaches 1 / sin(20 degrees) half widths.
+            // A little more than what 40 degrees reach.
             (Join::Miter { .. }, Joins::Thesis) => 2.93,
             (Join::Miter { limit }, Joins::Style) => limit,
             _ => 1.0,
@@ -41,6 +44,17 @@ impl StrokeRules {
         // Square caps have corners; the rounding of these few operations is far below this share.
         self.half * crate::math::max(corner, std::f64::consts::SQRT_2) * (1.0 + 1e-9)
     }
+}
+
+/// Of the k-th segment of a path of so many vertices, the places of the vertex before it, of that at its end (none of a dot), and of the one after it.
+#[inline(always)]
+pub(in crate::decal) fn around(vertices: usize, is_closed: bool, k: usize) -> [Option<usize>; 3] {
+    let last = vertices - 1;
+    let is_ring = is_closed && last > 0;
+    let before = if k > 0 { Some(k - 1) } else { is_ring.then(|| last - 1) };
+    let to = (k < last).then_some(k + 1);
+    let after = if k + 2 <= last { Some(k + 2) } else { is_ring.then_some(1) };
+    [before, to, after]
 }
 
 /// A segment with what is around it.
@@ -55,14 +69,9 @@ pub(super) struct Link {
 impl Link {
     /// The k-th of a chain's path.
     pub(super) fn new(path: &[Plan], is_closed: bool, k: usize) -> Self {
-        let last = path.len() - 1;
-        Self {
-            before: if k > 0 { Some(path[k - 1]) } else { (is_closed && last > 0).then(|| path[last - 1]) },
-            from: path[k],
-            // A dot has no other vertex.
-            to: path[if k < last { k + 1 } else { k }],
-            after: path.get(k + 2).copied().or_else(|| (is_closed && last > 0).then(|| path[1])),
-        }
+        let [before, to, after] = around(path.len(), is_closed, k);
+        let there = |place: Option<usize>| place.map(|place| path[place]);
+        Self { before: there(before), from: path[k], to: path[to.unwrap_or(k)], after: there(after) }
     }
 
     /// How its rectangle starts, which is where it meets `before`, and ends.

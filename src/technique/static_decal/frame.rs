@@ -3,12 +3,14 @@
 use super::Prepare;
 use super::analytic::EdgePainter;
 use super::step::Step;
+use super::structures;
 use crate::buffer::{Buffer, Plane, Values};
 use crate::canvas::{
     Backdrop, BlockSamples, Frame, FrameOptions, GBuffer, Kept, LastGround, Pixels, Record, picture_plane,
     surface_plane,
 };
-use crate::decal::{Hits, LookupCounts, MOST_TOGETHER, Mean, Palette, Shares};
+use crate::decal::{Hits, LookupCounts, MOST_TOGETHER, Mean, Memory, Palette, Shares};
+use crate::error::Result;
 use crate::parallel;
 use crate::raster::Lattice;
 use crate::resolve::{Paint, code_values};
@@ -17,7 +19,7 @@ use crate::technique::static_decal::Edges;
 use crate::terrain::{Mesh, SKY};
 use crate::tiling::{TilePlace, Tiling};
 
-/// The buffers in the order in which a frame has them.
+/// The buffers of a picture in the order in which a frame has them, behind the structures.
 const ORDER: [&str; 7] = ["depth", "triangle", "plan", "color", "cell", "nodes", "tests"];
 
 /// The most pixels a side of a block: what its samples see stays in a processor's cache.
@@ -76,12 +78,18 @@ struct Lists {
 }
 
 /// Draws a frame of a view.
-pub(super) fn draw(prepared: &Prepare, view: &ViewFrame, options: &FrameOptions) -> Frame {
+///
+/// # Errors
+/// When a structure that is wanted has more rows than can be numbered.
+pub(super) fn draw(prepared: &Prepare, view: &ViewFrame, options: &FrameOptions) -> Result<Frame> {
+    let structures = structures::planes(&prepared.decals, options, &|share| (options.progress)(0.5 * share))?;
+    let before = if structures.is_empty() { 0.0 } else { 0.5 };
+    let progress = |share: f64| (options.progress)(before + (1.0 - before) * share);
     let mesh = &*prepared.stage.mesh_for(view);
     let painter = Painter::new(prepared, mesh, view);
     let tiling = Tiling::new(view.width(), view.height(), options.tile.min(MOST_OF_A_BLOCK));
     let blocks =
-        parallel::map_telling(tiling.count(), options.progress, |k| painter.block(&tiling.place(k), options));
+        parallel::map_telling(tiling.count(), &progress, |k| painter.block(&tiling.place(k), options));
     let codes = tiling.assembled([0; 4], blocks.iter().map(|block| block.pixels.codes()));
     let wants_surface = ["depth", "triangle", "plan", "cell"].iter().any(|name| options.wants(name));
     let centres = wants_surface.then(|| {
@@ -90,11 +98,11 @@ pub(super) fn draw(prepared: &Prepare, view: &ViewFrame, options: &FrameOptions)
     });
     let wanted = ORDER.into_iter().filter(|name| options.wants(name));
     let plane = |name| plane(name, prepared, (&tiling, &blocks), centres.as_ref());
-    Frame {
+    Ok(Frame {
         image: Buffer::from_values(view.width(), view.height(), codes),
-        planes: wanted.filter_map(plane).collect(),
-        counts: counts(&blocks),
-    }
+        planes: structures.into_iter().chain(wanted.filter_map(plane)).collect(),
+        counts: counts(&blocks, &prepared.decals.memory()),
+    })
 }
 
 /// Decides one pixel of a view as a frame does: its steps and its code values.
@@ -256,7 +264,7 @@ fn plane(
     }
 }
 
-fn counts(blocks: &[Block]) -> Vec<(&'static str, u64)> {
+fn counts(blocks: &[Block], memory: &Memory) -> Vec<(&'static str, u64)> {
     let sum = |f: fn(&Counts) -> u64| blocks.iter().map(|block| f(&block.counts)).sum();
     vec![
         ("samples", sum(|c| c.samples)),
@@ -265,5 +273,11 @@ fn counts(blocks: &[Block]) -> Vec<(&'static str, u64)> {
         ("quadtree_nodes", sum(|c| c.quadtree_nodes)),
         ("edges", sum(|c| c.edges)),
         ("hits", sum(|c| c.hits)),
+        ("cells", memory.cells as u64),
+        ("grid_bytes", memory.grid as u64),
+        ("line_bytes", memory.lines as u64),
+        ("polygon_bytes", memory.polygons as u64),
+        ("quadtree_bytes", memory.quadtrees as u64),
+        ("index_bytes", memory.index as u64),
     ]
 }

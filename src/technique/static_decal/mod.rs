@@ -5,11 +5,14 @@
 //! 2. samples: where they lie in the pixel (4.5), what they see, where that is in the plan (`frame`; 3.4.1);
 //! 3. search and composition, from the front until nothing more shows (Algorithm 3.5).
 //!
+//! The structures can be asked for as buffers (`structures`; Fig. 4.2): then all cells are built.
+//!
 //! Where the thesis is silent, see `docs/semantics.md`. Refuses: scenes with widths in pixels (those are dynamic lines).
 
 mod analytic;
 mod frame;
 mod step;
+mod structures;
 mod sweep;
 #[cfg(test)]
 mod tests;
@@ -33,6 +36,25 @@ pub const DECLARATION: Declaration = Declaration {
     title: "Static decals (Zechmeister, after Thöny and Frasson)",
     contradiction,
     planes: &[
+        PlaneKind::structure("grid").in_plan(),
+        PlaneKind::structure("cells"),
+        PlaneKind::structure("line-nodes"),
+        PlaneKind::structure("line-boxes").in_plan(),
+        PlaneKind::structure("segments"),
+        PlaneKind::structure("polygon-nodes"),
+        PlaneKind::structure("polygon-boxes").in_plan(),
+        PlaneKind::structure("polygons"),
+        PlaneKind::structure("areas"),
+        PlaneKind::structure("ring-parts"),
+        PlaneKind::structure("rings"),
+        PlaneKind::structure("quadtree-boxes").in_plan(),
+        PlaneKind::structure("quadtree-nodes"),
+        PlaneKind::structure("quadtree-leaves"),
+        PlaneKind::structure("quadtree-edges"),
+        PlaneKind::structure("decal-vertices").in_plan(),
+        PlaneKind::structure("items"),
+        PlaneKind::structure("styles"),
+        PlaneKind::structure("style-values"),
         PlaneKind::DEPTH,
         PlaneKind::TRIANGLE,
         PlaneKind::PLAN,
@@ -104,7 +126,7 @@ pub fn applies(stage: &Stage) -> Result<()> {
 
 impl Prepared for Prepare<'_> {
     fn frame(&self, view: &ViewFrame, options: &FrameOptions) -> Result<Frame> {
-        Ok(frame::draw(self, view, options))
+        frame::draw(self, view, options)
     }
 
     fn steps(&self, view: &ViewFrame, pixel: [usize; 2]) -> Result<Explanation> {
@@ -113,6 +135,6 @@ impl Prepared for Prepare<'_> {
     }
 
     fn structure_bytes(&self) -> usize {
-        self.decals.bytes()
+        self.decals.memory().bytes()
     }
 }
