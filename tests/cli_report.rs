@@ -305,6 +305,61 @@ fn the_papers_tables_have_a_row_for_each_solution_and_compare_memory_with_the_fi
 }
 
 #[test]
+fn zechmeisters_tables_measure_each_part_of_a_scene_and_tell_trends() {
+    let place = Place::new();
+    let small =
+        ["--set", "image.width=12", "--set", "image.height=8", "--set", "technique.static-decal.grid=4"];
+    let arguments =
+        [&["--tables=zechmeister", "tiny.toml", "--repeat", "1", "-o", "tables"][..], &small].concat();
+    let told = place.reported(&arguments);
+    assert!(told.contains("Quad-tree depth"), "{told}");
+    assert_eq!(place.names("tables"), ["tables.csv", "tables.html", "tables.json"]);
+    let tables: Value = serde_json::from_str(&place.text("tables/tables.json")).unwrap();
+    assert_eq!((&tables["schema"], &tables["paper"]), (&1.into(), &"zechmeister".into()));
+    let set = &tables["data_sets"][0];
+    assert_eq!(
+        (&set["amounts"]["exterior"]["vertices"], &set["amounts"]["lines"]["decals"]),
+        (&4.into(), &1.into())
+    );
+    assert_eq!(
+        (&set["groups"]["areas"], &set["groups"]["lines"], &set["thesis"]),
+        (&1.into(), &1.into(), &Value::Null)
+    );
+    let rows = set["rows"].as_array().unwrap();
+    let of = |figure: &str, decals: &str| {
+        let is = |row: &&Value| row["figure"] == figure && row["decals"] == decals;
+        rows.iter().filter(is).cloned().collect::<Vec<Value>>()
+    };
+    for (figure, decals, count) in [
+        ("5.5", "stencil volumes", 1),
+        ("5.6", "exterior polygons", 1),
+        ("5.8", "dynamic lines", 30),
+        ("5.10", "static decals", 3),
+        ("5.13", "polygons", 4),
+        ("5.14", "static lines", 9),
+        ("5.15", "dynamic lines", 12),
+        ("5.17", "dynamic lines", 4),
+    ] {
+        assert_eq!(of(figure, decals).len(), count, "{figure} {decals}");
+    }
+    // Wider dynamic lines are in more lists, and those are memory (Fig. 5.15a).
+    let bytes = |width: f64| {
+        let wide = of("5.15", "dynamic lines").into_iter().find(|row| row["factors"]["width"] == width);
+        wide.unwrap()["memory_bytes"].as_u64().unwrap()
+    };
+    assert!(bytes(16.0) > bytes(1.0));
+    assert_eq!(tables["trends"].as_array().unwrap().len(), 15);
+    assert_eq!(place.text("tables/tables.csv").lines().count(), 1 + rows.len());
+    assert!(place.text("tables/tables.html").contains("Two slips"));
+}
+
+#[test]
+fn a_paper_that_has_no_tables_is_refused() {
+    let told = Place::new().refused(&["--tables=she", "tiny.toml"]);
+    assert!(told.contains("taibo, zechmeister"), "{told}");
+}
+
+#[test]
 fn tables_of_a_scene_without_lines_are_refused() {
     let place = Place::new();
     let areas = SCENE.split("[[layer]]\nname = \"road\"").next().unwrap();

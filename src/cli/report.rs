@@ -5,7 +5,7 @@ use super::scene_input;
 use super::stop::{Outcome, Status, Stop};
 use super::truth_arguments::TruthArguments;
 use drapery::output::Batch;
-use drapery::report::tables::{self, DATA_SETS, DataSet, TABLES_SCHEMA, Tables};
+use drapery::report::tables::{taibo, zechmeister};
 use drapery::report::{self, SceneReport};
 use drapery::scene_file::{DEFAULT_SCENE, SceneText};
 use drapery::{Opened, Result, parallel};
@@ -19,6 +19,7 @@ Examples:
   drapery report scene.toml --set image.width=600 --set image.height=400
   drapery report scene.toml --truth-width 0.01          a coarser truth, sooner there
   drapery report --tables --repeat 1                    Taibo's tables on 1.2 to 11 million segments, minutes
+  drapery report --tables=zechmeister --repeat 1        Zechmeister's on studies like the thesis's, minutes
   drapery report --tables roads.toml -o tables          the same for your own lines
 
 Measured are the truth, every technique that applies over the settings of its sweep (the scene's own among them), and plain
@@ -30,8 +31,10 @@ DIR/NAME-METRIC.svg: all of them, or none when something fails. All numbers but 
 
 A whole sweep takes minutes: the truth and each setting are computed --repeat times.
 
-With --tables, memory, generation and rendering of the clipmap's solutions are measured instead (Taibo et al. 2014, section 5),
-without a SCENE on generated data sets of the paper's three kinds; it writes tables.html, tables.csv and tables.json.";
+With --tables, a paper's own tables are measured instead, without a SCENE on data that is generated in the likeness of the paper's; it writes
+tables.html, tables.csv and tables.json. taibo (the default): memory, generation and rendering of the clipmap's solutions (Taibo et al.
+2014, section 5). zechmeister: memory, update and render time of static decals and dynamic lines over what chapter 5 of Zechmeister
+2020 varies, and whether its Table 5.4 holds.";
 
 #[derive(Debug, clap::Args)]
 #[command(after_long_help = EXAMPLES)]
@@ -39,9 +42,9 @@ pub(super) struct Arguments {
     /// The scene files, `-` for stdin; without one, a built-in generated scene.
     #[arg(value_name = "SCENE")]
     scenes: Vec<PathBuf>,
-    /// Measure the papers' own tables instead of speed against error.
-    #[arg(long)]
-    tables: bool,
+    /// Measure a paper's own tables instead of speed against error: taibo (the default), zechmeister.
+    #[arg(long, value_name = "PAPER", num_args = 0..=1, require_equals = true, default_missing_value = "taibo")]
+    tables: Option<Paper>,
     /// Change every scene: a dotted path and a TOML value; may be repeated. No value removes the key.
     #[arg(long = "set", value_name = "PATH=VALUE")]
     overrides: Vec<String>,
@@ -58,10 +61,25 @@ pub(super) struct Arguments {
     truth: TruthArguments,
 }
 
+/// A paper whose tables can be measured anew.
+#[derive(Debug, Clone, Copy, clap::ValueEnum)]
+enum Paper {
+    /// Taibo et al. 2014, section 5.
+    Taibo,
+    /// Zechmeister 2020, chapter 5.
+    Zechmeister,
+}
+
 pub(super) fn run(arguments: &Arguments) -> Outcome {
-    if arguments.tables {
-        return run_tables(arguments);
+    match arguments.tables {
+        None => run_report(arguments),
+        Some(Paper::Taibo) => run_taibo(arguments),
+        Some(Paper::Zechmeister) => run_zechmeister(arguments),
     }
+}
+
+/// Measures speed against error.
+fn run_report(arguments: &Arguments) -> Outcome {
     let budget = arguments.truth.budget()?;
     let texts = texts(arguments, &[DEFAULT_SCENE])?;
     let batch = Batch::into(&arguments.output)?;
@@ -75,16 +93,31 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
     Ok(Status::Passed)
 }
 
-/// Measures the papers' own tables.
-fn run_tables(arguments: &Arguments) -> Outcome {
-    let texts = texts(arguments, &DATA_SETS)?;
+/// Measures Taibo's tables.
+fn run_taibo(arguments: &Arguments) -> Outcome {
+    let texts = texts(arguments, &taibo::DATA_SETS)?;
     let batch = Batch::into(&arguments.output)?;
     let bar = Bar::new();
-    let data_sets = of_each(arguments, &texts, &bar, |scene| tables::measure(scene, arguments.repeat, &bar))?;
-    let tables = Tables { schema: TABLES_SCHEMA, repeat: arguments.repeat, data_sets };
+    let data_sets = of_each(arguments, &texts, &bar, |scene| taibo::measure(scene, arguments.repeat, &bar))?;
+    let tables = taibo::Tables { schema: taibo::TABLES_SCHEMA, repeat: arguments.repeat, data_sets };
     tables.write(batch)?;
     for set in &tables.data_sets {
-        bar.say(&told_of_tables(set));
+        bar.say(&told_of_solutions(set));
+    }
+    bar.say(&format!("{}", arguments.output.join("tables.html").display()));
+    Ok(Status::Passed)
+}
+
+/// Measures Zechmeister's tables.
+fn run_zechmeister(arguments: &Arguments) -> Outcome {
+    let texts = texts(arguments, &zechmeister::SCENES)?;
+    let batch = Batch::into(&arguments.output)?;
+    let (bar, is_generated) = (Bar::new(), arguments.scenes.is_empty());
+    let measure = |scene| zechmeister::measure(scene, is_generated, arguments.repeat, &bar);
+    let tables = zechmeister::Tables::of(of_each(arguments, &texts, &bar, measure)?, arguments.repeat);
+    tables.write(batch)?;
+    for trend in &tables.trends {
+        bar.say(&told_of_trend(trend));
     }
     bar.say(&format!("{}", arguments.output.join("tables.html").display()));
     Ok(Status::Passed)
@@ -135,8 +168,21 @@ fn told(scene: &SceneReport) -> String {
     text
 }
 
+/// A factor of Table 5.4 in a line, for people.
+fn told_of_trend(trend: &zechmeister::Trend) -> String {
+    let ratios = zechmeister::METRICS.iter().zip(trend.ratios);
+    let ratios: Vec<String> =
+        ratios.filter_map(|(name, ratio)| Some(format!("{name} x {:.2}", ratio?))).collect();
+    let told = if ratios.is_empty() { "not measured".into() } else { ratios.join(", ") };
+    let against = match trend.contradicts.is_empty() {
+        true => String::new(),
+        false => format!("  against the thesis: {}", trend.contradicts.join(", ")),
+    };
+    format!("{:<14} {:<18} {told}{against}", trend.decals, trend.factor)
+}
+
 /// A data set in some lines, for people.
-fn told_of_tables(set: &DataSet) -> String {
+fn told_of_solutions(set: &taibo::DataSet) -> String {
     let mut text = format!("{}: {} segments", set.scene.name, set.segments);
     for row in &set.solutions {
         text.push_str(&format!(

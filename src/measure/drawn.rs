@@ -86,6 +86,43 @@ impl Drawn {
     }
 }
 
+/// What is told of one of several views of one preparation.
+#[derive(Debug)]
+pub struct Seen {
+    /// How long a frame took.
+    pub draw: Times,
+    /// What was done in it.
+    pub counts: Vec<(&'static str, u64)>,
+    /// Bytes of the technique's structures after it.
+    pub structure_bytes: usize,
+}
+
+/// Prepares once and draws each view `repeat` times (at least once), without buffers; also returns how long preparing took.
+///
+/// # Errors
+/// When the technique does not draw such a scene.
+pub fn flight(
+    kind: Kind,
+    (stage, views): (&Stage, &[ViewFrame]),
+    repeat: u32,
+    watch: &dyn Watch,
+) -> Result<(Times, Vec<Seen>)> {
+    watch.part("preparing");
+    let (prepared, ms) = timed(watch, || technique::prepare(kind, stage))?;
+    watch.part("drawing");
+    let mut seen = Vec::with_capacity(views.len());
+    for view in views {
+        let (mut times, mut counts) = (Vec::new(), Vec::new());
+        for _ in 0..repeat.max(1) {
+            let (frame, ms) = timed(watch, || frame((&*prepared, view), &[], watch))?;
+            times.push(ms);
+            counts = frame.counts;
+        }
+        seen.push(Seen { draw: Times::of(times), counts, structure_bytes: prepared.structure_bytes() });
+    }
+    Ok((Times::of(vec![ms]), seen))
+}
+
 fn frame(
     (prepared, view): (&dyn Prepared, &ViewFrame),
     buffers: &[String],

@@ -37,7 +37,7 @@ mod touched;
 mod watch;
 
 pub use certified::Certified;
-pub use drawn::{Drawn, applicable};
+pub use drawn::{Drawn, Seen, applicable, flight};
 pub use expected::{expected, half_widths, image};
 pub use sampled::supersampled;
 pub use times::Times;

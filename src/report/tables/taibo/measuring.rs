@@ -1,5 +1,6 @@
 //! A data set measured by each solution.
 
+use super::super::change::change;
 use super::{DataSet, SolutionRow, VARIANTS, Variant, WIDTH_CHANGES, WidthRow};
 use crate::draw_list::{Chain, Role};
 use crate::error::{Error, Result};
@@ -113,10 +114,4 @@ fn width_changes(
         rows.push(WidthRow { name: way.name.into(), ms: Times::of(times) });
     }
     Ok(rows)
-}
-
-/// The stage with other settings of the technique.
-fn change(stage: &mut Stage, text: &SceneText, changes: &[&str]) -> Result<()> {
-    stage.scene.technique = text.changed(changes)?.technique;
-    Ok(())
 }

@@ -1,7 +1,8 @@
 //! `tables.html`: the tables with bars, one page that needs no network.
 
-use super::super::axis::{duration, short};
-use super::super::page::{head, size};
+use super::super::super::axis::{duration, short};
+use super::super::super::page::{head, size};
+use super::super::grouped::grouped;
 use super::{DataSet, SolutionRow, Tables, WidthRow};
 use maud::{DOCTYPE, Markup, html};
 
@@ -94,28 +95,5 @@ fn footer() -> Markup {
                 dd { "“thin ones as lines”: below the threshold in texels, line primitives (or, in 3b, wireframe) are drawn instead (Algorithm 2). “all alike”: one strategy in every level." }
             }
         }
-    }
-}
-
-/// A whole number with its thousands apart.
-fn grouped(number: usize) -> String {
-    let digits = number.to_string();
-    let groups: Vec<&str> = digits
-        .as_bytes()
-        .rchunks(3)
-        .rev()
-        .map(|group| std::str::from_utf8(group).unwrap_or_default())
-        .collect();
-    groups.join("\u{202f}")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn thousands_are_set_apart() {
-        let words = [0, 999, 1000, 11_120_000].map(grouped);
-        assert_eq!(words, ["0", "999", "1\u{202f}000", "11\u{202f}120\u{202f}000"]);
     }
 }
