@@ -187,6 +187,23 @@ fn a_hole_and_an_island_are_outlined_on_their_own_sides_however_they_turn() {
 }
 
 #[test]
+fn a_hole_that_touches_the_border_with_a_vertex_is_a_hole_whichever_vertex_comes_first() {
+    let mut hole = ["[24, 0]", "[-8, 14]", "[-8, -14]"];
+    for _ in 0..3 {
+        let text = map(&format!(
+            "[[layer]]\nfeatures = [{{ polygon = [[[-24, -24], [24, -24], [24, 24], [-24, 24]], [{}]] }}]\n\
+             outline = {{ color = \"#ff0000\", width_m = 6, mode = \"inset\" }}\n",
+            hole.join(", ")
+        ));
+        let image = draw(&text, &[]).image;
+        let is_red = |x: usize, y: usize| image.at(x, y)[1] < 128;
+        // West of the hole's western side, and east of it.
+        assert!(is_red(22, 32) && !is_red(25, 32), "{hole:?}");
+        hole.rotate_left(1);
+    }
+}
+
+#[test]
 fn thin_lines_are_dashed_and_more_samples_close_the_gaps() {
     // Fig. 4.9a.
     let text = map(

@@ -31,11 +31,11 @@ impl SamplePattern {
         match samples {
             4 => Some(Self::Multisample(FOUR)),
             8 => Some(Self::Multisample(EIGHT)),
-            _ => {
-                let side = (1..).find(|side| side * side >= samples)?;
-                (samples >= 1 && side * side == samples && samples <= MOST_SAMPLES)
-                    .then_some(Self::Grid(side as usize))
+            1..=MOST_SAMPLES => {
+                let side = samples.isqrt();
+                (side * side == samples).then_some(Self::Grid(side as usize))
             }
+            _ => None,
         }
     }
 

@@ -23,8 +23,7 @@ impl Decals<'_> {
         shares.edges.clear();
         let bounds = pixel.bounds();
         let wanted = SmallBox::around(&bounds);
-        let cells = self.grid.cells_in(&bounds);
-        if cells.len() <= MOST_CELLS {
+        if let Some(cells) = self.grid.cells_in(&bounds, MOST_CELLS) {
             let home = self.cell_of(pixel.at).and_then(|cell| self.cell(cell));
             let near: Vec<&Cell> = cells.iter().filter_map(|cell| self.cell(*cell)).collect();
             self.cover_from(&near, home, (pixel, wanted), shares);

@@ -86,8 +86,8 @@ impl DecalGrid {
         })
     }
 
-    /// The cells that points of a box lie in.
-    pub(super) fn cells_in(&self, plan: &PlanBox) -> Vec<u32> {
+    /// The cells that points of a box lie in; `None`: they are more than `most`.
+    pub(super) fn cells_in(&self, plan: &PlanBox, most: usize) -> Option<Vec<u32>> {
         let range = |low: f64, high: f64, origin: f64, cell: f64| {
             // Casts saturate at 0.
             let (first, last) = (((low - origin) / cell) as u32, ((high - origin) / cell) as u32);
@@ -96,7 +96,10 @@ impl DecalGrid {
         };
         let columns = range(plan.min.x, plan.max.x, self.origin.x, self.cell.x);
         let rows = range(plan.min.y, plan.max.y, self.origin.y, self.cell.y);
-        rows.flat_map(|row| columns.clone().map(move |column| self.index(column, row))).collect()
+        let is_few = columns.len() * rows.len() <= most;
+        is_few.then(|| {
+            rows.flat_map(|row| columns.clone().map(move |column| self.index(column, row))).collect()
+        })
     }
 
     /// A box around all points that lie in a cell.
@@ -146,6 +149,13 @@ mod tests {
             [None; 4]
         );
         assert_eq!(cell(10.0, 20.0), Some(4));
+        let cells_in = |low: f64, high: f64| {
+            grid.cells_in(&PlanBox { min: Plan::new(low, low), max: Plan::new(high, high) }, 6)
+        };
+        assert_eq!(cells_in(-5.0, 19.0), Some(vec![0, 1]));
+        assert_eq!(cells_in(11.0, 40.0), Some(vec![1, 2, 4, 5]));
+        assert_eq!([cells_in(-9.0, -1.0), cells_in(61.0, 70.0)], [Some(Vec::new()), Some(Vec::new())]);
+        assert_eq!(cells_in(-1e300, 1e300), None, "more than six");
         let nothing = DecalGrid::new(&PlanBox::EMPTY, 5);
         assert_eq!(nothing.cell_of(Plan::new(1.0, 1.0)), None);
     }

@@ -9,6 +9,9 @@ use crate::space::Plan;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
+/// About so many edges of a ring are asked in which other rings they lie.
+const MOST_ASKED: usize = 32;
+
 /// For each outline that is cut to a side: of each of its chains whether the polygon lies on the left, once somebody has asked.
 #[derive(Debug, Default)]
 pub(super) struct Sides(BTreeMap<u32, Box<[OnceLock<bool>]>>);
@@ -35,13 +38,21 @@ impl Sides {
 fn is_left_inside(source: &Source, item: u32, chain: u32) -> bool {
     let list = source.list;
     let ring = &list.strokes(&list.items()[item as usize])[chain as usize];
-    let at = list.vertices_of(ring)[0];
-    let others = source.rings_of(list.area_owner(item)).filter(|other| {
-        let chain = source.chain_of(*other);
-        chain.member == ring.member && chain.part != ring.part
-    });
-    let around: i32 = others.map(|other| source.turns_around(other, at)).sum();
-    turns_left(list, ring) == (around % 2 == 0)
+    let others: Vec<u32> = source
+        .rings_of(list.area_owner(item))
+        .filter(|other| {
+            let chain = source.chain_of(*other);
+            chain.member == ring.member && chain.part != ring.part
+        })
+        .collect();
+    let is_in_even =
+        |at: Plan| others.iter().map(|other| source.turns_around(*other, at)).sum::<i32>() % 2 == 0;
+    // Rings may touch one another at vertices: middles of edges are asked, and most of them tell.
+    let path = list.path_of(ring);
+    let every = (path.len() / MOST_ASKED).max(1);
+    let middles = || path.windows(2).step_by(every).map(|ends| ends[0] + (ends[1] - ends[0]) * 0.5);
+    let even = middles().filter(|at| is_in_even(*at)).count();
+    turns_left(list, ring) == (2 * even >= middles().len())
 }
 
 /// Whether a ring encloses more to its left than to its right.
