@@ -108,7 +108,7 @@ fn approaches(bench: &mut Bench) -> Result<()> {
 fn out_of_view(bench: &mut Bench) -> Result<()> {
     let bounds = bench.stage.mesh.plan_bounds();
     let heights = bench.stage.mesh.heights().unwrap_or_default();
-    let image = bench.stage.scene.image.clone();
+    let image = bench.stage.scene.image;
     let aspect = image.width as f64 / image.height as f64;
     let fov_y_deg = 20.0;
     let (eye, target) = ViewFrame::framing(&empty_corner(&bounds), heights, fov_y_deg, aspect);

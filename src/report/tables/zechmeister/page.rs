@@ -229,7 +229,7 @@ fn pivot(figure: &Figure, rows: &[(&DataSet, &Row)]) -> Markup {
         }
     }
     values.sort_by(f64::total_cmp);
-    let metrics: [(&str, fn(&Row) -> String); 4] = [
+    let metrics: [Words; 4] = [
         ("memory", |row| size(row.memory_bytes as usize)),
         ("update", |row| duration(row.update_ms.median)),
         ("render", |row| duration(row.render_ms.median)),
@@ -272,9 +272,15 @@ fn other(name: &str, value: f64) -> String {
     }
 }
 
+/// A metric's name, and a row's in words.
+type Words = (&'static str, fn(&Row) -> String);
+
+/// A metric's name, and a row's.
+type Numbers = (&'static str, fn(&Row) -> f64);
+
 /// Fig. 5.6: what exterior and interior polygons and lines have of all.
 fn shares(rows: &[(&DataSet, &Row)]) -> Markup {
-    let metrics: [(&str, fn(&Row) -> f64); 3] = [
+    let metrics: [Numbers; 3] = [
         ("memory", |row| row.memory_bytes as f64),
         ("update", |row| row.update_ms.median),
         ("render", |row| row.render_ms.median),

@@ -221,9 +221,12 @@ pub fn trends(data_sets: &[DataSet]) -> Vec<Trend> {
     FACTORS.iter().map(|factor| trend(factor, data_sets)).collect()
 }
 
+/// A row's number, and the ratio from which it counts as another.
+type Metric = (fn(&Row) -> f64, f64);
+
 fn trend(factor: &Factor, data_sets: &[DataSet]) -> Trend {
     let all = series(factor, data_sets);
-    let metrics: [(fn(&Row) -> f64, f64); 4] = [
+    let metrics: [Metric; 4] = [
         (|row| row.memory_bytes as f64, SLIGHT),
         (|row| row.update_ms.median, NOISE),
         (|row| row.render_ms.median, NOISE),
@@ -260,9 +263,12 @@ fn contradicts(thesis: Option<Sign>, ours: Option<Sign>) -> bool {
     thesis.zip(ours).is_some_and(|(thesis, ours)| thesis != ours)
 }
 
+/// What is the same of rows that differ in one factor: data set, kind of decals, the other factors.
+type Others<'a> = (usize, &'a str, Vec<(&'a str, u64)>);
+
 /// Rows that differ in the factor alone, in growing order of it.
 fn series<'a>(factor: &Factor, data_sets: &'a [DataSet]) -> Vec<Vec<&'a Row>> {
-    let mut all: BTreeMap<(usize, &str, Vec<(&str, u64)>), Vec<&Row>> = BTreeMap::new();
+    let mut all: BTreeMap<Others, Vec<&Row>> = BTreeMap::new();
     let (name, is_reversed) = factor.factor;
     for (number, set) in data_sets.iter().enumerate() {
         let rows = set.rows.iter().filter(|row| factor.of.contains(&(row.figure, row.decals)));
