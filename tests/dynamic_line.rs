@@ -190,6 +190,61 @@ fn composed_colours_are_those_of_point_samples_of_the_items() {
     }
 }
 
+/// Fills, an inverted one, inset outlines and roads in metres, above and below lines in pixels.
+const MIXED: &str = r##"
+[[layer]]
+features = [{ polygon = [[-280, -200], [280, -180], [250, 240], [-270, 200]] }]
+fill = { color = "#88aa44", opacity = 0.4, invert = true }
+[[layer]]
+opacity = 0.7
+features = [
+  { polygon = [[-200, 0], [0, -30], [20, 140], [-150, 160]] },
+  { polygon = [[-40, 20], [180, 10], [150, 150]] },
+  { line = [[-250, -100], [250, 60]] },
+]
+fill = { color = "#ccaa55", opacity = 0.8 }
+outline = { color = "#004488", width_px = 5.0 }
+line = { color = "#444444", width_m = 40.0, join = "round" }
+[[layer]]
+features = [{ line = [[-250, 200], [-60, -120], [80, 120], [240, -90]] }]
+line = { color = "#aa0022", width_px = 9.0 }
+[[layer]]
+features = [{ polygon = [[-100, -150], [120, -140], [60, 100]] }]
+fill = { color = "#2266ee", opacity = 0.5 }
+outline = { color = "#221166", width_m = 30.0, mode = "inset", join = "round" }
+"##;
+
+#[test]
+fn static_decals_and_dynamic_lines_are_composed_in_the_order_that_they_share() {
+    let as_defined = ["technique.static-decal.joins=style", "technique.static-decal.outlines=polygon"];
+    for view in VIEWS {
+        let stage = stage(&scene(HILLS, view, MIXED), &with(&EXACT, &as_defined));
+        let frame = frame_of(Kind::DynamicLine, &stage, &["color"]);
+        let sampled = sampling::sample(&stage, &stage.view().unwrap(), 1, &|_| {});
+        let colors = doubles(&frame, "color");
+        let off = sampled.colors.values().as_flattened().iter().zip(&colors);
+        let off = off.fold(0.0f64, |most, (a, b)| most.max((a - b).abs()));
+        assert!(off < 1e-12, "{view}: {off}");
+    }
+    // With analytic edges, of both kinds, it is nearer to the truth than with one sample.
+    let rmse = |how: &str| {
+        let how = format!("technique.dynamic-line.antialiasing={how}");
+        let changes = [&EXACT[..4], &as_defined, &[how.as_str()]].concat();
+        let stage = stage(&scene(FLAT, MAP, MIXED), &changes);
+        let image = frame_of(Kind::DynamicLine, &stage, &[]).image;
+        errors(&truth_of(&stage), &drapery::compare::Image::from_rgba8(&image).unwrap()).rmse
+    };
+    let [none, analytic] = ["none", "analytic"].map(rmse);
+    assert!(analytic < 0.5 * none, "{analytic} {none}");
+}
+
+#[test]
+fn an_outline_in_pixels_that_is_inset_is_refused() {
+    let text = scene(FLAT, MAP, &lines(3.0).replace("outline = {", "outline = { mode = \"inset\","));
+    let said = refusal(&text, &[]);
+    assert!(said.contains("inset or offset") && said.contains("layer"), "{said}");
+}
+
 // ---- Where the thesis's geometry does not cover it ----
 
 #[test]

@@ -5,11 +5,13 @@ use super::fxaa::{Picture, REACH};
 use super::in_line::Thin;
 use super::matching::MatchedLines;
 use super::segment_box::BoxMaker;
+use super::statics::Statics;
 use super::step::Step;
-use super::tile::{Counts, Drawn, FrameContext, line_of, margin};
+use super::tile::{Counts, Drawn, FrameContext, MOST_ENTRIES, line_of, margin};
 use super::update::{Segment, segments};
 use crate::buffer::{Buffer, Plane, Values};
 use crate::canvas::{Backdrop, Frame, FrameOptions, joined, picture_plane, sight_counts, surface_plane};
+use crate::decal::Decals;
 use crate::error::{Error, Result};
 use crate::index::bins;
 use crate::parallel;
@@ -31,6 +33,15 @@ const SEGMENTS_AT_A_TIME: usize = 1024;
 /// The most tiles that boxes may touch, all together: a number each.
 const MOST_TOUCHED: u64 = 1 << 30;
 
+/// What was prepared for any view.
+#[derive(Debug)]
+pub struct Prepared<'s> {
+    /// The dynamic lines.
+    pub lines: MatchedLines<'s>,
+    /// Fills and widths in metres; `None`: there are none.
+    pub decals: Option<Decals<'s>>,
+}
+
 /// Columns and rows of a picture.
 type Window = [Range<usize>; 2];
 
@@ -49,34 +60,34 @@ struct Setup<'a, T> {
 /// When boxes touch more tiles than there is room for.
 pub fn draw(
     (stage, view): (&Stage, &ViewFrame),
-    lines: &MatchedLines,
+    prepared: &Prepared,
     options: &FrameOptions,
 ) -> Result<Frame> {
     match stage.scene.device.precision {
-        Precision::F64 => draw_with::<f64>((stage, view), lines, options),
-        Precision::F32 => draw_with::<f32>((stage, view), lines, options),
+        Precision::F64 => draw_with::<f64>((stage, view), prepared, options),
+        Precision::F32 => draw_with::<f32>((stage, view), prepared, options),
     }
 }
 
 /// Decides one pixel of a view as a frame does: its steps and its code values.
 pub fn explain(
     (stage, view): (&Stage, &ViewFrame),
-    lines: &MatchedLines,
+    prepared: &Prepared,
     pixel: [usize; 2],
 ) -> (Vec<Step>, [u8; 4]) {
     match stage.scene.device.precision {
-        Precision::F64 => explain_with::<f64>((stage, view), lines, pixel),
-        Precision::F32 => explain_with::<f32>((stage, view), lines, pixel),
+        Precision::F64 => explain_with::<f64>((stage, view), prepared, pixel),
+        Precision::F32 => explain_with::<f32>((stage, view), prepared, pixel),
     }
 }
 
 fn draw_with<T: Real>(
     (stage, view): (&Stage, &ViewFrame),
-    lines: &MatchedLines,
+    prepared: &Prepared,
     options: &FrameOptions,
 ) -> Result<Frame> {
     let mesh = &*stage.mesh_for(view);
-    let setup = Setup::<T>::new((stage, mesh, view), lines, (options.tile, options.wants("boxes")));
+    let setup = Setup::<T>::new((stage, mesh, view), prepared, (options.tile, options.wants("boxes")));
     let context = &setup.context;
     (options.progress)(0.4);
     let size = [view.width(), view.height()];
@@ -100,18 +111,18 @@ fn draw_with<T: Real>(
     let planes = options.buffers.iter().filter_map(|name| plane(name, context, &tiling, (&tiles, &colors)));
     Ok(Frame {
         planes: planes.collect(),
-        counts: setup.counts(lines, &tiles),
+        counts: setup.counts(&prepared.lines, &tiles),
         image: Buffer::from_values(size[0], size[1], colors.into_iter().map(code_values).collect()),
     })
 }
 
 fn explain_with<T: Real>(
     (stage, view): (&Stage, &ViewFrame),
-    lines: &MatchedLines,
+    prepared: &Prepared,
     [x, y]: [usize; 2],
 ) -> (Vec<Step>, [u8; 4]) {
     let mesh = &*stage.mesh_for(view);
-    let setup = Setup::<T>::new((stage, mesh, view), lines, (TILE, false));
+    let setup = Setup::<T>::new((stage, mesh, view), prepared, (TILE, false));
     let draw = |place: TilePlace, record: &mut Vec<Step>| {
         let ([x, y], [width, height]) = (place.corner, place.size);
         let meets = |[columns, rows]: &Window| {
@@ -151,14 +162,14 @@ impl<'a, T: Real> Setup<'a, T> {
     /// Finds what a view sees and the segments that it keeps.
     fn new(
         (stage, mesh, view): (&'a Stage, &'a Mesh, &'a ViewFrame),
-        lines: &MatchedLines,
+        prepared: &'a Prepared<'a>,
         (tile, wants_boxes): (usize, bool),
     ) -> Self {
         let settings: Settings = stage.scene.technique.get();
         let mut sight = Sight::new(view, mesh, &stage.scene.device, Lattice::centres(view, 0), tile);
         sight.see();
         let camera = Camera::new(view);
-        let found = segments((stage, mesh, view), lines, &camera);
+        let found = segments((stage, mesh, view), &prepared.lines, &camera);
         let boxes = BoxMaker::new(camera, mesh, settings.boxes);
         let thin = Thin::of(&settings, view);
         let size = [view.width(), view.height()];
@@ -181,6 +192,10 @@ impl<'a, T: Real> Setup<'a, T> {
         let backdrop = Backdrop::of(&stage.scene, mesh);
         let styles = stage.draw_list.styles().iter();
         let paints = styles.map(|style| backdrop.compositor.paint(style.paint)).collect();
+        let statics = prepared.decals.as_ref().map(|decals| {
+            let is_analytic = settings.antialiasing == Antialiasing::Analytic;
+            Statics::new(decals, (&stage.draw_list, &backdrop, stage.scene.compositing.mode), is_analytic)
+        });
         Self {
             context: FrameContext {
                 stage,
@@ -194,7 +209,9 @@ impl<'a, T: Real> Setup<'a, T> {
                 thin,
                 segments,
                 paints,
+                statics,
                 wants_boxes,
+                most_entries: MOST_ENTRIES,
             },
             windows,
             vertices: found.vertices,
@@ -238,5 +255,39 @@ fn plane<T: Real>(
         "list-length" => counted("list-length", |tile| &tile.lengths),
         "boxes" => counted("boxes", |tile| &tile.boxes),
         _ => surface_plane(name, &context.sight, 0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene_file::SceneFile;
+
+    #[test]
+    fn a_tile_whose_lists_outgrow_their_room_is_drawn_in_parts_to_the_same_bits() {
+        let text = "schema = 1\nimage = { width = 23, height = 17 }\ncamera = { eye = [0, -200, 160], target = [0, 0, 0] }\n\
+                    terrain = { generate = { kind = \"sine\", posts = [17, 17], cell_m = 15.0, height_m = 20.0 } }\n[[layer]]\n\
+                    features = [{ line = [[-90, -60], [80, 70]] }, { line = [[-80, 60], [0, 0], [90, -60]] }]\n\
+                    line = { color = \"#aa0000\", opacity = 0.5, width_px = 5.0 }\n";
+        let (scene, surface) =
+            crate::source::load::load(&SceneFile::parse(text, None, &[]).unwrap(), &|_| {}).unwrap();
+        let stage = Stage::new(scene, surface).unwrap();
+        let view = stage.view().unwrap();
+        let prepared =
+            Prepared { lines: MatchedLines::new(&stage.draw_list, &stage.mesh, None).unwrap(), decals: None };
+        let mut setup = Setup::<f64>::new((&stage, &stage.mesh, &view), &prepared, (64, true));
+        let near: Vec<u32> = (0..setup.windows.len() as u32).collect();
+        let place = TilePlace { corner: [0, 0], size: [23, 17] };
+        let whole = setup.context.draw(place, &near, &mut ());
+        assert!(whole.counts.entries > 100, "{:?}", whole.counts);
+        for room in [200, 50, 3, 0] {
+            setup.context.most_entries = room;
+            let parts = setup.context.draw(place, &near, &mut ());
+            assert_eq!(
+                (&parts.colors, &parts.lengths, &parts.boxes),
+                (&whole.colors, &whole.lengths, &whole.boxes)
+            );
+            assert_eq!(parts.counts, whole.counts);
+        }
     }
 }

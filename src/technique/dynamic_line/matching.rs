@@ -213,3 +213,77 @@ fn parts((from, to): (Plan, Plan), l_max: f64) -> f64 {
 fn part_start((from, to): (Plan, Plan), k: u64, count: u64) -> Plan {
     if k == count { to } else { from + (to - from) / count as f64 * k as f64 }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Cap, Color, Diagonal, Feature, Join, Layer, Line, Posts, Shape, Style, Surface};
+    use glam::DVec2;
+
+    /// A plane of 20 x 20 m whose height is its x, with a hole in the north-east.
+    fn slope() -> Mesh {
+        let heights = (0..121).map(|k| if k == 120 { f64::NAN } else { f64::from(k % 11) * 2.0 }).collect();
+        let steps = (DVec2::X * 2.0, DVec2::Y * 2.0);
+        let posts = Posts::new((11, 11), Plan::default(), steps, heights).unwrap();
+        Mesh::new(Surface::Grid(posts), Diagonal::SwNe).unwrap()
+    }
+
+    fn list(points: &[(f64, f64)]) -> DrawList {
+        let color = Color([0.0, 0.0, 0.0, 1.0]);
+        let line = Line { color, width: Width::Pixels(3.0), join: Join::Round, cap: Cap::Round };
+        let part = points.iter().map(|&(x, y)| Plan::new(x, y)).collect();
+        let feature = Feature { index: 0, style: 0, shape: Shape::Line(vec![part]) };
+        let style = Style { line: Some(line), ..Style::default() };
+        DrawList::new(&mut [Layer::uniform("line", style, vec![feature])], &PlanBox::EMPTY).unwrap()
+    }
+
+    fn all(lines: &MatchedLines) -> Vec<World> {
+        let chain = &lines.chains[0];
+        let mut all = Vec::new();
+        for piece in chain.pieces.clone() {
+            let vertices = lines.vertices(chain, piece);
+            assert_eq!(vertices.len(), lines.pieces[piece as usize].parts as usize + 1);
+            let plan = lines.pieces[piece as usize].plan;
+            assert!(plan.contains(&PlanBox::around(vertices.iter().map(|p| p.plan()))));
+            assert!(all.is_empty() || all.last() == vertices.first(), "pieces share a vertex");
+            all.extend_from_slice(&vertices[usize::from(!all.is_empty())..]);
+        }
+        all
+    }
+
+    #[test]
+    fn a_segment_that_is_too_long_is_divided_into_equal_parts_that_stand_on_the_terrain() {
+        // Fig. 3.5: 10 m in parts of less than 3.4, then 3 m as they are.
+        let (list, mesh) = (list(&[(1.0, 1.0), (11.0, 1.0), (11.0, 4.0)]), slope());
+        let lines = MatchedLines::new(&list, &mesh, Some(3.4)).unwrap();
+        let x = [1.0, 1.0 + 10.0 / 3.0, 1.0 + 20.0 / 3.0, 11.0, 11.0];
+        let found = all(&lines);
+        assert_eq!((lines.parts, found.len()), (4, 5));
+        for (found, x) in found.iter().zip(x) {
+            assert!((found.x - x).abs() < 1e-12 && (found.z - x).abs() < 1e-12, "{found:?}");
+        }
+        // Half the resolution; a length of twice l_max has three parts (line 5 as printed).
+        assert_eq!(MatchedLines::new(&list, &mesh, None).unwrap().parts, 11 + 4);
+    }
+
+    #[test]
+    fn a_vertex_without_terrain_stands_at_the_middle_of_the_heights() {
+        let (list, mesh) = (list(&[(-5.0, 1.0), (3.0, 1.0), (19.9, 19.9)]), slope());
+        let lines = MatchedLines::new(&list, &mesh, Some(1e9)).unwrap();
+        assert_eq!(all(&lines).iter().map(|p| p.z).collect::<Vec<_>>(), [10.0, 3.0, 10.0]);
+    }
+
+    #[test]
+    fn pieces_of_many_parts_are_the_line() {
+        let (list, mesh) = (list(&[(0.0, 3.0), (9.0, 3.0), (9.5, 3.0), (9.5, 17.0)]), slope());
+        let lines = MatchedLines::new(&list, &mesh, Some(0.01)).unwrap();
+        let found = all(&lines);
+        assert_eq!(
+            (lines.parts as usize + 1, lines.pieces.len()),
+            (found.len(), lines.parts.div_ceil(256) as usize)
+        );
+        let steps = found.windows(2).map(|pair| (pair[1] - pair[0]).truncate().length());
+        assert!(steps.clone().all(|step| step < 0.01));
+        assert!((steps.sum::<f64>() - 23.5).abs() < 1e-9);
+    }
+}

@@ -1,5 +1,5 @@
-//! Dynamic lines: J. Zechmeister (2020), "Real-time visualization of large-scale vector data on heightfields", master's thesis: lines whose widths are in
-//! pixels.
+//! Dynamic lines: S. Zechmeister (2020), "Interactive visualization of vector data on heightfields" (the thesis): lines whose
+//! widths are in pixels.
 //!
 //! Input: a [`Stage`]. Output: a picture whose pixels have lists of the lines that cover them:
 //! 1. preprocessing: segments are divided and put on the terrain (`matching`, 3.2.2, 4.2.2);
@@ -11,8 +11,11 @@
 //! The default is what the thesis does; its failures (Figs. 3.7a, 4.4a, 4.9b) and what it leaves open are settings. Where it is silent, see these files and
 //! `docs/semantics.md`.
 //!
-//! Refuses: scenes without a width in pixels, scenes that have widths in metres or fills beside them, terrains that are not draped vertically (boxes stand
-//! upright on the plan), parts of segments without number.
+//! Fills and widths in metres of such a scene are static decals ([`decal`](crate::decal)), looked up at pixels' centres and composed with
+//! the lines in draw order (`statics`).
+//!
+//! Refuses: scenes without a width in pixels, outlines in pixels that are inset or offset (3.6: those are of static lines), terrains that are not
+//! draped vertically (boxes stand upright on the plan), parts of segments without number.
 
 mod camera;
 mod frame;
@@ -23,6 +26,7 @@ mod matching;
 mod segment_box;
 mod settings;
 mod simplify;
+mod statics;
 mod step;
 mod sweep;
 mod tile;
@@ -36,8 +40,9 @@ pub use step::{Step, Verdict};
 
 use super::{Contradiction, Declaration, Explanation, Frame, FrameOptions, Parameters, Prepared};
 use crate::buffer::{Look, PlaneKind};
+use crate::decal::{self, Decals, LeafPolygons};
 use crate::error::{Error, Result};
-use crate::scene::{TechniqueSettings, Width};
+use crate::scene::{Precision, TechniqueSettings, Width};
 use crate::space::ViewFrame;
 use crate::stage::Stage;
 use crate::terrain::Drape;
@@ -46,7 +51,7 @@ use matching::MatchedLines;
 /// The technique, said once.
 pub const DECLARATION: Declaration = Declaration {
     parameters: Parameters::of::<Settings>(),
-    paper: "Zechmeister 2020, dynamic lines.",
+    paper: "Zechmeister 2020, \"Interactive visualization of vector data on heightfields\".",
     title: "Dynamic lines (Zechmeister)",
     contradiction,
     planes: &[
@@ -62,26 +67,34 @@ pub const DECLARATION: Declaration = Declaration {
     prepare: |stage, _| Ok(Box::new(Prepare::new(stage)?)),
 };
 
-/// Edges that are analytic know distances from a centre line alone.
-fn contradiction(settings: &TechniqueSettings) -> Option<Contradiction> {
-    let settings: Settings = settings.get();
-    let is_open = settings.corners == Corners::Style && settings.antialiasing == Antialiasing::Analytic;
-    is_open.then(|| Contradiction {
-        parameter: "antialiasing",
-        what: "analytic edges are those of round corners".into(),
-        help: "use corners = \"round\", or antialiasing = \"fxaa\"".into(),
-    })
+/// Edges that are analytic know distances from a centre line, and from borders that leaves have kept.
+fn contradiction(said: &TechniqueSettings) -> Option<Contradiction> {
+    let settings: Settings = said.get();
+    let is_styled = settings.corners == Corners::Style;
+    let is_clipped = said.get::<decal::Settings>().leaf_polygons == LeafPolygons::Clipped;
+    let (what, help) = match settings.antialiasing {
+        Antialiasing::Analytic if is_styled => (
+            "analytic edges are those of round corners",
+            "use corners = \"round\", or antialiasing = \"fxaa\"",
+        ),
+        Antialiasing::Analytic if is_clipped => (
+            "static decals' leaves that are clipped do not know the border that analytic edges measure from",
+            "use technique.static-decal.leaf_polygons = \"corner\"",
+        ),
+        _ => return None,
+    };
+    Some(Contradiction { parameter: "antialiasing", what: what.into(), help: help.into() })
 }
 
 /// The technique with its lines found.
 #[derive(Debug)]
 pub struct Prepare<'s> {
     stage: &'s Stage,
-    lines: MatchedLines<'s>,
+    prepared: frame::Prepared<'s>,
 }
 
 impl<'s> Prepare<'s> {
-    /// Cuts lines into pieces, and puts them on the terrain if that is wanted beforehand.
+    /// Cuts lines into pieces, and puts them on the terrain if that is wanted beforehand; the rest of the scene becomes static decals.
     ///
     /// # Errors
     /// When the technique does not draw such a scene, or segments have too many parts.
@@ -92,12 +105,18 @@ impl<'s> Prepare<'s> {
         if settings.preparation == Preparation::Whole {
             lines.match_all();
         }
-        Ok(Self { stage, lines })
+        let has_statics = stage.draw_list.numbered().any(|(item, _)| !is_dynamic(stage, item));
+        let decals = has_statics.then(|| {
+            let is_single = stage.scene.device.precision == Precision::F32;
+            let (bounds, settings) = (stage.mesh.plan_bounds(), stage.scene.technique.get());
+            Decals::new(&stage.draw_list, &bounds, &settings, is_single, &|_| {})
+        });
+        Ok(Self { stage, prepared: frame::Prepared { lines, decals } })
     }
 
     /// The steps of a pixel (column, row) of a view's picture, and its code values; see [`super::explain`].
     pub fn steps_of(&self, view: &ViewFrame, pixel: [usize; 2]) -> (Vec<Step>, [u8; 4]) {
-        frame::explain((self.stage, view), &self.lines, pixel)
+        frame::explain((self.stage, view), &self.prepared, pixel)
     }
 }
 
@@ -118,23 +137,26 @@ pub fn applies(stage: &Stage) -> Result<()> {
         )
         .help("give a layer width_px, or leave the technique out"));
     }
-    let is_dynamic = |item: u32| {
-        let stroke = stage.draw_list.style_of(item).stroke;
-        stroke.is_some_and(|line| matches!(line.width, Width::Pixels(_)))
-    };
-    match stage.draw_list.numbered().find(|(number, _)| !is_dynamic(*number)) {
+    let is_cut = |item: u32| is_dynamic(stage, item) && stage.draw_list.style_of(item).cut.is_some();
+    match stage.draw_list.numbered().find(|(number, _)| is_cut(*number)) {
         None => Ok(()),
         Some((_, item)) => Err(Error::unsupported(format!(
-            "dynamic-line draws widths in pixels, layer `{}` has a fill or a width in metres",
+            "dynamic-line draws outlines in pixels on both sides (3.6), that of layer `{}` is inset or offset",
             stage.scene.layers[item.layer as usize].name
         ))
-        .help("give the layer width_px alone, or leave the technique out")),
+        .help("use mode = \"normal\", or width_m")),
     }
+}
+
+/// Whether an item is a stroke whose width is in pixels.
+fn is_dynamic(stage: &Stage, item: u32) -> bool {
+    let stroke = stage.draw_list.style_of(item).stroke;
+    stroke.is_some_and(|line| matches!(line.width, Width::Pixels(_)))
 }
 
 impl Prepared for Prepare<'_> {
     fn frame(&self, view: &ViewFrame, options: &FrameOptions) -> Result<Frame> {
-        frame::draw((self.stage, view), &self.lines, options)
+        frame::draw((self.stage, view), &self.prepared, options)
     }
 
     fn steps(&self, view: &ViewFrame, pixel: [usize; 2]) -> Result<Explanation> {
@@ -143,6 +165,6 @@ impl Prepared for Prepare<'_> {
     }
 
     fn structure_bytes(&self) -> usize {
-        self.lines.bytes()
+        self.prepared.lines.bytes() + self.prepared.decals.as_ref().map_or(0, Decals::bytes)
     }
 }

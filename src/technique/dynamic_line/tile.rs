@@ -8,6 +8,7 @@ use super::camera::{Camera, P2, P3};
 use super::in_line::{Fragment, ReadySegment, Thin};
 use super::lists::{Entry, PixelLists};
 use super::segment_box::BoxMaker;
+use super::statics::{Room, Statics, merged};
 use super::step::{Step, Verdict};
 use super::update::Segment;
 use crate::canvas::{Backdrop, Record};
@@ -19,10 +20,10 @@ use crate::stage::Stage;
 use crate::technique::dynamic_line::{Antialiasing, LineOverlaps, Settings};
 use crate::terrain::{Mesh, SKY};
 use crate::tiling::TilePlace;
-use crate::visibility::{FootprintPlane, Sight};
+use crate::visibility::{FootprintPlane, PixelFootprint, Sight};
 
 /// The most entries of the lists of a tile (at 24 bytes).
-const MOST_ENTRIES: usize = 1 << 23;
+pub const MOST_ENTRIES: usize = 1 << 23;
 
 /// What all tiles of a frame are drawn with.
 pub struct FrameContext<'a, T> {
@@ -48,12 +49,16 @@ pub struct FrameContext<'a, T> {
     pub segments: Vec<Segment<T>>,
     /// The paint of each style of items.
     pub paints: Vec<Paint>,
+    /// Fills and widths in metres, where the scene has them.
+    pub statics: Option<Statics<'a>>,
     /// Whether each pixel's number of boxes is wanted.
     pub wants_boxes: bool,
+    /// The most entries of the lists of a tile: [`MOST_ENTRIES`].
+    pub most_entries: usize,
 }
 
 /// What was counted.
-#[derive(Debug, Default, Clone, Copy)]
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub struct Counts {
     /// Point-in-line tests.
     pub fragments: u64,
@@ -175,7 +180,7 @@ impl<T: Real> FrameContext<'_, T> {
                     lists.push(pixel, Entry { item: segment.item, segment: number, share });
                 }
             }
-            if lists.len() > MOST_ENTRIES && count > 1 {
+            if lists.len() > self.most_entries && count > 1 {
                 return None;
             }
         }
@@ -204,15 +209,18 @@ impl<T: Real> FrameContext<'_, T> {
             if !point.is_finite() {
                 return None;
             }
-            let (column, row) = (x + k % width, y + k / width);
-            let triangle =
-                self.mesh.surface_triangle(self.sight.triangle(column, row)).filter(|_| is_analytic);
-            let at = self.sight.lattice().at(column, row);
-            let footprint = triangle.and_then(|t| FootprintPlane::new(self.view, &t).footprint(at));
+            let at = (x + k % width, y + k / width);
+            let footprint = if is_analytic { self.footprint(at) } else { None };
             let pixel = self.camera.pixel_at(P3::of(*point));
             Some(Fragment { plan: P2::of(point.plan()), pixel, footprint })
         };
         points.iter().enumerate().map(fragment).collect()
+    }
+
+    /// How a pixel reaches over the plan, on the plane of the triangle that its centre sees.
+    fn footprint(&self, (column, row): (usize, usize)) -> Option<PixelFootprint> {
+        let triangle = self.mesh.surface_triangle(self.sight.triangle(column, row))?;
+        FootprintPlane::new(self.view, &triangle).footprint(self.sight.lattice().at(column, row))
     }
 
     /// Whether a pixel that a segment's box covers is in its line.
@@ -253,6 +261,7 @@ impl<T: Real> FrameContext<'_, T> {
     ) -> Vec<[f64; 4]> {
         let ([x, y], [width, _]) = (place.corner, place.size);
         let (mut last, mut drawn) = (self.backdrop.no_ground(), Vec::new());
+        let (mut lines, mut statics, mut room) = (Vec::new(), Vec::new(), Room::default());
         let compositor = &self.backdrop.compositor;
         let (mut paint_before, mut color_before) = (Paint::CLEAR, compositor.encoded(Paint::CLEAR));
         let mut colors = Vec::with_capacity(points.len());
@@ -261,11 +270,17 @@ impl<T: Real> FrameContext<'_, T> {
             let triangle = self.sight.triangle(at.0, at.1);
             let ground = self.backdrop.paint_at(&mut last, triangle, || point.plan());
             record.step(|| self.ground_step(triangle, *point, ground));
-            drawn.clear();
+            lines.clear();
             if lists.count(pixel) > 0 {
                 lists.sort(pixel, at, self.settings.sorting, |entry| self.alpha(entry.item, entry.share));
-                self.visible(lists.of(pixel), &mut drawn);
+                self.visible(lists.of(pixel), &mut lines);
             }
+            statics.clear();
+            if let Some(decals) = self.statics.as_ref().filter(|_| triangle != SKY && point.is_finite()) {
+                decals.find(point.plan(), || self.footprint(at), &mut room, &mut statics);
+            }
+            drawn.clear();
+            merged(&lines, &statics, &mut drawn);
             record.step(|| Step::Composed(drawn.clone()));
             let mut stack = Stack::on(ground);
             for (item, share) in drawn.iter().rev() {
