@@ -184,7 +184,7 @@ fn composed_colours_are_those_of_point_samples_of_the_items() {
             let sampled = sampling::sample(&stage, &stage.view().unwrap(), 1, &|_| {});
             let colors = doubles(&frame, "color");
             let off = sampled.colors.values().as_flattened().iter().zip(&colors);
-            let off = off.fold(0.0f64, |most, (a, b)| most.max((a - b).abs()));
+            let off = off.fold(0.0f64, |most, (a, b)| drapery::math::max((a - b).abs(), most));
             assert!(off < 1e-12, "{view} {more:?}: {off}");
         }
     }
@@ -223,7 +223,7 @@ fn static_decals_and_dynamic_lines_are_composed_in_the_order_that_they_share() {
         let sampled = sampling::sample(&stage, &stage.view().unwrap(), 1, &|_| {});
         let colors = doubles(&frame, "color");
         let off = sampled.colors.values().as_flattened().iter().zip(&colors);
-        let off = off.fold(0.0f64, |most, (a, b)| most.max((a - b).abs()));
+        let off = off.fold(0.0f64, |most, (a, b)| drapery::math::max((a - b).abs(), most));
         assert!(off < 1e-12, "{view}: {off}");
     }
     // With analytic edges, of both kinds, it is nearer to the truth than with one sample.

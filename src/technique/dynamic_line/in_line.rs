@@ -96,8 +96,6 @@ pub struct Fragment<T> {
     pub plan: P2<T>,
     /// The size of a pixel there, metres.
     pub pixel: T,
-    /// How the plan point moves from pixel to pixel, where edges are analytic.
-    pub footprint: Option<PixelFootprint>,
 }
 
 impl<T: Real> ReadySegment<T> {
@@ -120,7 +118,7 @@ impl<T: Real> ReadySegment<T> {
     fn offset(&self, at: P2<T>) -> P2<T> {
         let from = at.minus(self.start);
         let t = from.dot(self.along);
-        if !(t > T::of(0.0)) {
+        if t <= T::of(0.0) {
             from
         } else if t >= self.length_squared {
             at.minus(self.end)
@@ -154,14 +152,15 @@ impl<T: Real> ReadySegment<T> {
         offset.dot(offset) <= half * half
     }
 
-    /// How much of a pixel lies in the line, 0..=1: the share of the pixel's reach, along the way to the segment, that does.
-    pub fn share(&self, at: &Fragment<T>) -> f64 {
+    /// How much of a pixel lies in the line, 0..=1: the share of the pixel's reach, along the way to the segment, that does; `footprint`: how the plan point
+    /// moves from pixel to pixel.
+    pub fn share(&self, at: &Fragment<T>, footprint: Option<PixelFootprint>) -> f64 {
         let half = self.half_width(at).get();
         let offset = self.offset(at.plan);
         let distance = offset.dot(offset).sqrt().get();
         let across = if distance > 0.0 { offset } else { self.along.left() };
         let way = across.normalized().map(|way| way.get().to_vec());
-        let reach = at.footprint.zip(way).map(|(footprint, way)| {
+        let reach = footprint.zip(way).map(|(footprint, way)| {
             let (x, y) = (footprint.dx.dot(way), footprint.dy.dot(way));
             (x * x + y * y).sqrt()
         });

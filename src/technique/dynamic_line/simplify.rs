@@ -41,10 +41,9 @@ fn farthest_end(screen: &[Option<Plan>], error: f64) -> usize {
     // A share for the rounding of these few operations.
     let error = error * (1.0 - 1e-9);
     for (k, at) in screen.iter().enumerate().skip(1) {
-        let Some(way) = at.map(|at| [at.x - start.x, at.y - start.y]) else { break };
-        let length = math::max(way[0].abs(), way[1].abs()).min(f64::MAX);
-        let length = length * (squared([way[0] / length, way[1] / length])).sqrt();
-        let length = if length.is_nan() { 0.0 } else { length };
+        let way = at.map(|at| [at.x - start.x, at.y - start.y]);
+        let Some(way) = way.filter(|way| squared(*way).is_finite()) else { break };
+        let length = squared(way).sqrt();
         // A segment of no length has only what lies around its start, which `reach` tells.
         if length >= reach && (length == 0.0 || cone.has(way)) {
             good = k;

@@ -140,7 +140,10 @@ impl<T: Real> FrameContext<'_, T> {
         let mut boxes = vec![0; if self.wants_boxes { count } else { 0 }];
         let mut counts = Counts::default();
         let points = self.points(place);
-        let fragments = if near.is_empty() { Vec::new() } else { self.fragments(place, &points) };
+        let (fragments, footprints) = match near {
+            [] => (Vec::new(), Vec::new()),
+            _ => (self.fragments(&points), self.footprints(place)),
+        };
         for &number in near {
             let segment = &self.segments[number as usize];
             let (line, half_px) = self.line_of(segment);
@@ -163,7 +166,11 @@ impl<T: Real> FrameContext<'_, T> {
                     }
                     let Some(fragment) = &fragments[pixel] else { continue };
                     counts.fragments += 1;
-                    let verdict = self.test(&ready, fragment, (column, row));
+                    let verdict = self.test(
+                        &ready,
+                        (fragment, footprints.get(pixel).copied().flatten()),
+                        (column, row),
+                    );
                     record.step(|| Step::Tested {
                         item: segment.item,
                         from: segment.start.plan().get(),
@@ -202,32 +209,39 @@ impl<T: Real> FrameContext<'_, T> {
     }
 
     /// What is tested of each pixel that sees the terrain.
-    fn fragments(&self, place: TilePlace, points: &[World]) -> Vec<Option<Fragment<T>>> {
-        let ([x, y], [width, _]) = (place.corner, place.size);
-        let is_analytic = self.settings.antialiasing == Antialiasing::Analytic;
-        let fragment = |(k, point): (usize, &World)| {
-            if !point.is_finite() {
-                return None;
-            }
-            let at = (x + k % width, y + k / width);
-            let footprint = if is_analytic { self.footprint(at) } else { None };
+    fn fragments(&self, points: &[World]) -> Vec<Option<Fragment<T>>> {
+        let fragment = |point: &World| {
             let pixel = self.camera.pixel_at(P3::of(*point));
-            Some(Fragment { plan: P2::of(point.plan()), pixel, footprint })
+            point.is_finite().then(|| Fragment { plan: P2::of(point.plan()), pixel })
         };
-        points.iter().enumerate().map(fragment).collect()
+        points.iter().map(fragment).collect()
+    }
+
+    /// How each pixel reaches over the plan, where edges are analytic; else none of them.
+    fn footprints(&self, place: TilePlace) -> Vec<Option<PixelFootprint>> {
+        let ([x, y], [width, height]) = (place.corner, place.size);
+        let is_analytic = self.settings.antialiasing == Antialiasing::Analytic;
+        let count = if is_analytic { width * height } else { 0 };
+        (0..count).map(|k| self.footprint((x + k % width, y + k / width))).collect()
     }
 
     /// How a pixel reaches over the plan, on the plane of the triangle that its centre sees.
     fn footprint(&self, (column, row): (usize, usize)) -> Option<PixelFootprint> {
-        let triangle = self.mesh.surface_triangle(self.sight.triangle(column, row))?;
+        let id = self.sight.triangle(column, row);
+        let triangle = if id == SKY { None } else { self.mesh.surface_triangle(id) }?;
         FootprintPlane::new(self.view, &triangle).footprint(self.sight.lattice().at(column, row))
     }
 
     /// Whether a pixel that a segment's box covers is in its line.
     #[inline(always)]
-    fn test(&self, ready: &ReadySegment<T>, fragment: &Fragment<T>, at: (usize, usize)) -> Verdict {
+    fn test(
+        &self,
+        ready: &ReadySegment<T>,
+        (fragment, footprint): (&Fragment<T>, Option<PixelFootprint>),
+        at: (usize, usize),
+    ) -> Verdict {
         if self.settings.antialiasing == Antialiasing::Analytic {
-            let share = ready.share(fragment);
+            let share = ready.share(fragment, footprint);
             return if share > 0.0 { Verdict::Inside(share) } else { Verdict::Outside };
         }
         if ready.holds(fragment) {
