@@ -165,6 +165,7 @@ impl Prepared for Prepare<'_> {
     }
 
     fn structure_bytes(&self) -> usize {
-        self.prepared.lines.bytes() + self.prepared.decals.as_ref().map_or(0, Decals::bytes)
+        self.prepared.lines.bytes()
+            + self.prepared.decals.as_ref().map_or(0, |decals| decals.memory().bytes())
     }
 }
