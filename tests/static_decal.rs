@@ -161,12 +161,8 @@ fn a_wide_outline_reaches_to_the_wrong_side_unless_the_whole_polygon_is_asked() 
 #[test]
 fn a_hole_and_an_island_are_outlined_on_their_own_sides_however_they_turn() {
     let ring = |r: i32, turns: bool| {
-        let mut ring = vec![
-            format!("[-{r}, -{r}]"),
-            format!("[{r}, -{r}]"),
-            format!("[{r}, {r}]"),
-            format!("[-{r}, {r}]"),
-        ];
+        let mut ring =
+            [format!("[-{r}, -{r}]"), format!("[{r}, -{r}]"), format!("[{r}, {r}]"), format!("[-{r}, {r}]")];
         if turns {
             ring.reverse();
         }
