@@ -114,7 +114,7 @@ static FACTORS: [Factor; 15] = [
         of: &[("5.10", STATIC)],
         factor: ("grid", false),
         is_between: false,
-        why: "Cells are built by count, prefix and fill, without a queue of tasks a cell: more of them take little more time, and smaller cells need shallower trees.",
+        why: "The work of a frame shrinks as the thesis says. Its time is mostly the terrain's and that of finding each sample's cell, which more cells make no cheaper.",
     },
     Factor {
         decals: "Polygons",
@@ -123,8 +123,8 @@ static FACTORS: [Factor; 15] = [
         of: &[("5.12", "polygons")],
         factor: ("leaf capacity", false),
         is_between: false,
-        why: "A leaf's edges lie side by side in memory and are tested in a row, which a processor does faster than it walks down a tree: larger leaves cost less \
-              here than on a graphics processor.",
+        why: "The work of a frame grows as the thesis says: more edges are tested. But a leaf's edges lie side by side in memory and are tested in a row, which a processor does \
+              faster than it walks down a tree, so that the time hardly changes.",
     },
     Factor {
         decals: "Polygons",
@@ -142,8 +142,8 @@ static FACTORS: [Factor; 15] = [
         of: &[("5.14", "static lines")],
         factor: ("width", false),
         is_between: false,
-        why: "Where cells are large beside the widths, no segment is put into another cell and nothing is built anew. Wide opaque lines also end the search of a \
-              sample sooner. Where widths reach the size of cells, references and the time to make them grow together.",
+        why: "Wider lines are put into more cells, and here that is most of what preparing them takes; in the thesis the queue of its cells hides it. A frame's work grows, but \
+              wide opaque lines also end the search of a sample sooner.",
     },
     Factor {
         decals: "Static lines",
@@ -161,8 +161,8 @@ static FACTORS: [Factor; 15] = [
         of: &[("5.16", "static lines")],
         factor: ("corners", false),
         is_between: false,
-        why: "Corners are made from their segments when a sample asks, and are not stored as positions. A round corner takes no fewer tests than a bevelled one in \
-              exact mathematics, which decides them by the same signs.",
+        why: "Corners are made from their segments when a sample asks, and are not stored as positions (3.6). In exact mathematics a round corner takes no fewer tests than a \
+              bevelled one, and covers a little more.",
     },
     Factor {
         decals: "Dynamic lines",
