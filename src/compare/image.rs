@@ -110,3 +110,39 @@ impl Image {
         if channel < self.channels { self.values[pixel * self.channels + channel] } else { 1.0 }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn code_values_are_255ths() {
+        let picture = Buffer::from_values(2, 1, vec![[0, 51, 102, 255], [255, 0, 204, 153]]);
+        let image = Image::from_rgba8(&picture).unwrap();
+        assert_eq!((image.width(), image.height(), image.channels()), (2, 1, 4));
+        assert_eq!(image.values(), [0.0, 0.2, 0.4, 1.0, 1.0, 0.0, 0.8, 0.6]);
+    }
+
+    #[test]
+    fn a_buffers_numbers_of_every_kind_stay_as_they_are() {
+        let of = |values: Values| {
+            let plane = Plane { name: "p", width: 1, height: 2, components: 1, values };
+            Image::from_plane(&plane).unwrap().values().to_vec()
+        };
+        assert_eq!(of(Values::F64(vec![0.1, -2.0])), [0.1, -2.0]);
+        assert_eq!(of(Values::F32(vec![0.5, f32::INFINITY])), [0.5, f64::INFINITY]);
+        assert_eq!(of(Values::U32(vec![7, u32::MAX])), [7.0, 4_294_967_295.0]);
+        assert_eq!(of(Values::U16(vec![7, 65535])), [7.0, 65535.0]);
+        assert_eq!(of(Values::U8(vec![7, 255])), [7.0, 255.0]);
+    }
+
+    #[test]
+    fn values_that_do_not_fill_a_picture_are_refused() {
+        let refused = |w, h, c, n| Image::new(w, h, c, vec![0.0; n]).unwrap_err().what().to_owned();
+        assert_eq!(refused(2, 3, 4, 23), "a picture of 2 x 3 pixels of 4 channels cannot have 23 values");
+        for (width, height, channels) in [(0, 3, 4), (2, 0, 4), (2, 3, 0)] {
+            assert!(refused(width, height, channels, 0).starts_with("there is nothing to compare"));
+        }
+        assert!(refused(usize::MAX, 2, 2, 4).contains("cannot have 4 values"));
+    }
+}

@@ -182,6 +182,7 @@ mod tests {
                 (&json["schema"], &json["verdict"], &json["width"]),
                 (&json!(1), &json!("fail"), &json!(2))
             );
+            assert_eq!((&json["tolerance"], &json["allow"]), (&json!(1.0 / 255.0), &json!(0)));
             assert_eq!(json["failure"]["name"], "over-tolerance");
             assert_eq!(json["channels"], json!(["red", "green", "blue", "alpha"]));
             let metrics = &json["metrics"];
@@ -190,6 +191,23 @@ mod tests {
             assert_eq!(metrics["densest"]["failing"], 1);
             assert_eq!(metrics["channel_max"], json!([0.2, 0.0, 0.0, 0.5]));
         });
+    }
+
+    #[test]
+    fn channels_have_the_names_of_their_number() {
+        let names = |channels: usize| {
+            let image = || Image::new(1, 1, channels, vec![0.0; channels]).unwrap();
+            channel_names(&Difference::of(&Expected::exactly(image()), &image()).unwrap()).join(" ")
+        };
+        assert_eq!([1, 2, 3, 4].map(names), ["value", "0 1", "red green blue", "red green blue alpha"]);
+    }
+
+    #[test]
+    fn distances_have_four_digits_and_their_codes_up_to_white() {
+        let written = [0.0, 0.2, 1.0, 1.5, f64::INFINITY].map(with_codes);
+        assert_eq!(written, ["0", "0.2 (51/255)", "1 (255/255)", "1.5", "inf"]);
+        let written = [0.001, 0.000_999_9, 999_999.0, 1e6, 120.0].map(short);
+        assert_eq!(written, ["0.001", "9.999e-4", "999999", "1.000e6", "120"]);
     }
 
     #[test]

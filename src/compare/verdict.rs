@@ -141,6 +141,23 @@ mod tests {
     }
 
     #[test]
+    fn what_was_measured_has_a_heat_map_by_the_same_tolerance() {
+        let limits = Limits::new(0.125, 0).unwrap();
+        let judged = verdict(&[0.5, 0.75, 0.5625], limits);
+        let measured = judged.outcome.as_ref().unwrap();
+        let [passing, failing] = [1.0, limits.tolerance()].map(|most| measured.difference.heat_map(most));
+        assert_ne!(passing, failing);
+        assert_eq!(judged.heat_map(), Some(failing));
+    }
+
+    #[test]
+    fn limits_are_told_as_they_were_set() {
+        let limits = Limits::new(0.125, 7).unwrap();
+        assert_eq!((limits.tolerance(), limits.allow()), (0.125, 7));
+        assert_eq!(Limits::new(0.0, 0).unwrap(), Limits::default());
+    }
+
+    #[test]
     fn a_tolerance_is_a_distance() {
         for wrong in [-0.5, f64::NAN, f64::INFINITY] {
             assert!(Limits::new(wrong, 0).unwrap_err().what().ends_with("is no tolerance"));

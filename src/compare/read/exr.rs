@@ -152,6 +152,29 @@ pub(super) mod tests {
     }
 
     #[test]
+    fn a_picture_in_parts_or_in_a_window_of_another_size_or_place_is_refused() {
+        let layer = |name: &str, at: (i32, i32)| {
+            let gray = [channel("Y", FlatSamples::F32(vec![0.5; 6]))];
+            let gray = AnyChannels::sort(gray.into_iter().collect());
+            let attributes = LayerAttributes::named(name).with_position(Vec2(at.0, at.1));
+            Layer::new((3, 2), attributes, Encoding::UNCOMPRESSED, gray)
+        };
+        let refused = |layers: Vec<Layer<AnyChannels<FlatSamples>>>, window: (usize, usize)| {
+            let attributes = ImageAttributes::new(IntegerBounds::from_dimensions(window));
+            let mut file = Cursor::new(Vec::new());
+            ExrImage::from_layers(attributes, layers).write().to_buffered(&mut file).unwrap();
+            decode(&file.into_inner()).map_err(|error| error.what().to_owned())
+        };
+        assert!(refused(vec![layer("one", (0, 0))], (3, 2)).is_ok());
+        let parts = vec![layer("one", (0, 0)), layer("two", (0, 0))];
+        assert_eq!(refused(parts, (3, 2)).unwrap_err(), "this EXR file has 2 parts");
+        for (at, window) in [((1, 0), (3, 2)), ((0, 0), (4, 2)), ((0, 0), (3, 3))] {
+            let error = refused(vec![layer("one", at)], window).unwrap_err();
+            assert_eq!(error, "this EXR file's data window is not its display window");
+        }
+    }
+
+    #[test]
     fn a_nan_is_kept_for_the_comparison_to_find() {
         let image = decode(&file(
             vec![channel("Z", FlatSamples::F32(vec![0.0, f32::NAN]))],

@@ -31,3 +31,27 @@ pub(super) fn check_promise(pixel_bytes: u64, file: usize) -> Result<()> {
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_picture_is_too_large_from_one_pixel_or_channel_more_than_the_most() {
+        assert!(check_size(MOST_PIXELS / 4, 4, MOST_CHANNELS).is_ok());
+        for (width, height, channels) in
+            [(MOST_PIXELS + 1, 1, 1), (1, 1, MOST_CHANNELS + 1), (usize::MAX, usize::MAX, 1)]
+        {
+            let error = check_size(width, height, channels).unwrap_err();
+            assert!(error.what().ends_with("is too large to compare"), "{error}");
+        }
+        assert_eq!((MOST_PIXELS, MOST_CHANNELS), (67_108_864, 64));
+    }
+
+    #[test]
+    fn a_file_holds_no_more_than_2064_bytes_of_pixels_a_byte() {
+        assert!(check_promise(10 * 2064, 10).is_ok());
+        let error = check_promise(10 * 2064 + 1, 10).unwrap_err();
+        assert_eq!(error.what(), "its 10 bytes cannot hold the 20641 bytes of pixels that it promises");
+    }
+}
