@@ -243,3 +243,25 @@ fn a_scene_without_decals_is_bare_and_polygons_over_everything_are_everywhere() 
         assert_eq!(colors(&draw(&everything, of).image), [[255, 0, 0, 255]], "{of:?}");
     }
 }
+
+#[test]
+fn a_point_on_the_centre_line_of_an_outline_lies_on_both_of_its_sides() {
+    // Centres of pixels lie on the eastern edge, however it turns.
+    for ring in
+        ["[-20, -20], [10.5, -20], [10.5, 20], [-20, 20]", "[-20, 20], [10.5, 20], [10.5, -20], [-20, -20]"]
+    {
+        for mode in ["inset", "offset"] {
+            let text = map(&format!(
+                "[[layer]]\nfeatures = [{{ polygon = [{ring}] }}]\noutline = {{ color = \"#ff0000\", width_m = 2.5, mode = \"{mode}\" }}\n"
+            ));
+            let image = draw(&text, &["samples=1"]).image;
+            let is_red = |x: usize| image.at(x, 32)[1] == 0;
+            let inside_and_outside = [is_red(41), is_red(43)];
+            assert_eq!(
+                (is_red(42), inside_and_outside),
+                (true, [mode == "inset", mode == "offset"]),
+                "{ring} {mode}"
+            );
+        }
+    }
+}

@@ -134,4 +134,35 @@ mod tests {
             [Some(0), None, Some(1), Some(0)]
         );
     }
+
+    #[test]
+    fn a_box_over_several_quarters_is_not_judged_by_one_of_them_and_a_small_one_enters_its_own() {
+        // A square with a notch from the east, whose tip lies in the box's north-eastern part.
+        let path = [
+            (0.0, 0.0),
+            (16.0, 0.0),
+            (16.0, 8.2),
+            (8.5, 8.5),
+            (16.0, 8.8),
+            (16.0, 16.0),
+            (0.0, 16.0),
+            (0.0, 0.0),
+        ]
+        .map(|(x, y)| Plan::new(x, y));
+        let tree = Quadtree::new(&path, 0, Limits { capacity: 1, depth: 8 }, LeafPolygons::Corner);
+        let plan = |low: f64, high: f64| PlanBox { min: Plan::new(low, low), max: Plan::new(high, high) };
+        let said = |start, plan: PlanBox| {
+            tree.turns_throughout(&path, start, (&plan, plan.min), &mut Counts::default())
+        };
+        assert_eq!(said(Start::ROOT, plan(7.0, 9.0)), None);
+        assert_eq!(said(Start::ROOT, plan(6.5, 6.9)), Some(1));
+        let start = tree.start_in(&plan(6.5, 6.9)).unwrap();
+        assert!(start.quad.level() > 1, "{start:?}");
+        assert_eq!(said(start, plan(6.5, 6.9)), Some(1));
+        assert_eq!(
+            tree.start_in(&plan(3.0, 5.0)).unwrap().quad.level(),
+            1,
+            "over all quarters of the south-western one"
+        );
+    }
 }

@@ -581,10 +581,50 @@ fn a_segment_has_two_sides_and_a_depth() {
     assert_eq!((depth(0, 10.0, 0.5), depth(1, 10.0, 0.5)), (1.5, 1.5), "where it goes on there is no border");
     assert_eq!(depth(0, 5.0, 3.0), -1.0);
     assert_eq!(depth(0, -3.0, 6.0), -5.0);
+    let normal = |x, y| segment(0).normal_to(Plan::new(x, y)).abs().to_array();
+    assert_eq!([normal(5.0, 0.0), normal(5.0, 1.0), normal(-1.0, 0.0)], [[0.0, 1.0], [0.0, 1.0], [1.0, 0.0]]);
 }
 
 #[test]
 fn a_width_in_pixels_is_no_static_line() {
     let line = Line { width: Width::Pixels(2.0), ..line(1.0, Join::Round, Cap::Butt) };
     assert_eq!(StrokeRules::of(&line, Joins::Thesis), None);
+}
+
+#[test]
+fn no_segment_reaches_farther_than_its_rules_say() {
+    let (sine, cosine) = (math::sin(41f64.to_radians()), math::cos(41f64.to_radians()));
+    let path = [(-10.0, 0.0), (0.0, 0.0), (-10.0 * cosine, 10.0 * sine)].map(plan);
+    let all = [
+        (Join::Miter { limit: 4.0 }, Cap::Butt, Joins::Thesis),
+        (Join::Miter { limit: 4.0 }, Cap::Butt, Joins::Style),
+        (Join::Bevel, Cap::Square, Joins::Style),
+        (Join::Round, Cap::Round, Joins::Style),
+    ];
+    for (join, cap, corners) in all {
+        let rules = rules(2.0, join, cap, corners);
+        for (segment, ends) in segments(&path, false, &rules).iter().zip(path.windows(2)) {
+            let most = PlanBox::around(ends.iter().copied()).grown(rules.reach());
+            assert!(most.contains(&segment.bounds()), "{rules:?}");
+        }
+    }
+}
+
+#[test]
+fn a_miter_that_reaches_just_to_the_limit_is_one_however_its_lengths_are_rounded() {
+    // The cosine of the turn is 7/25: the tip is 5/4 half widths away.
+    let rules = rules(2.0, Join::Miter { limit: 1.25 }, Cap::Butt, Joins::Style);
+    for k in 0..200 {
+        let (a, b) = (94_906_267.0 + f64::from(k), 67_108_859.0 - 3.0 * f64::from(k));
+        let path = [(-3.0 * a, -4.0 * a), (0.0, 0.0), (-3.0 * b, 4.0 * b)].map(plan);
+        assert!(Segment::new(&path, false, 1, &rules).holds(Plan::new(1.2, 0.0)), "{k}");
+    }
+}
+
+#[test]
+fn in_single_precision_both_halves_of_the_corner_where_a_closed_line_begins_are_there() {
+    let path = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0), (0.0, 0.0)].map(plan);
+    let rules = rules(2.0, Join::Miter { limit: 4.0 }, Cap::Butt, Joins::Style);
+    let holds = |at: [f32; 2]| (0..4).any(|k| SingleSegment::new(&path, true, k, &rules).holds(at));
+    assert_eq!([holds([-0.9, -0.5]), holds([-0.5, -0.9]), holds([-1.1, -0.5])], [true, true, false]);
 }

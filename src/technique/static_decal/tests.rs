@@ -283,3 +283,21 @@ proptest! {
         prop_assert!(off < 1e-12, "{}", off);
     }
 }
+
+#[test]
+fn more_samples_than_are_looked_up_together_are_each_looked_up_in_their_place() {
+    let off = off(EVERYTHING, 10, &["image.width=24", "image.height=16"]);
+    assert!(off < 1e-12, "{off}");
+}
+
+#[test]
+fn an_inverted_fill_alone_paints_what_lies_far_from_its_polygons() {
+    let head = EVERYTHING.split("[[layer]]").next().unwrap();
+    let text = format!(
+        "{head}[[layer]]\nfeatures = [{{ polygon = [[0, 0], [60, 0], [0, 60]] }}]\nfill = {{ color = \"#ff0000\", opacity = 0.5, invert = true }}\n"
+    );
+    for of in [&["grid=1"][..], &["grid=40", "hierarchy=curve"]] {
+        let off = off(&text, 3, of);
+        assert!(off < 1e-12, "{of:?}: {off}");
+    }
+}
