@@ -123,7 +123,7 @@ fn a_network_whose_plan_points_lie_below_it_has_the_bits_of_a_plain_one() {
         triangles.reverse();
         let given = Stage { mesh: Arc::new(Mesh::of_surface(vertices, triangles).unwrap()), ..stage };
         assert_eq!(given.mesh.drape(), Drape::Vertical);
-        for kind in Kind::ALL {
+        for kind in Kind::ALL.into_iter().filter(|kind| drapery::technique::applies(*kind, &plain).is_ok()) {
             assert_eq!(hashes(kind, &given), hashes(kind, &plain), "{kind:?}");
         }
         assert_eq!(supersampled(&given, 3), supersampled(&plain, 3));

@@ -30,7 +30,7 @@ fn drawn(stage: &Stage, pixels: &[[usize; 2]]) -> Vec<(String, Vec<[u8; 4]>)> {
         ("truth".to_owned(), pixels.iter().map(|[x, y]| codes(truth.estimate.at(*x, *y))).collect()),
         ("supersampling".to_owned(), pixels.iter().map(|[x, y]| codes(sampled.colors.at(*x, *y))).collect()),
     ];
-    for kind in Kind::ALL {
+    for kind in Kind::ALL.into_iter().filter(|kind| drapery::technique::applies(*kind, stage).is_ok()) {
         let frame = kind.draw(stage).unwrap();
         all.push((format!("{kind:?}"), pixels.iter().map(|[x, y]| *frame.image.at(*x, *y)).collect()));
     }

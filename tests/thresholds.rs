@@ -14,6 +14,7 @@ use drapery::stage::Stage;
 use drapery::technique::Kind;
 use drapery::technique::clipmap::{self, Joints, Overlaps, PolygonRaster};
 use drapery::technique::inverse_projection;
+use drapery::technique::static_decal;
 use drapery::technique::stencil_volume::{self, VolumeJoins};
 use drapery::truth::{Budget, Truth, certify};
 use drawing::{frame_of, kinds_for, loaded};
@@ -37,6 +38,8 @@ fn map() -> Scene {
     });
     scene.technique.set(inverse_projection::Settings::default());
     scene.technique.set(stencil_volume::Settings { joins: VolumeJoins::Style, ..Default::default() });
+    // The others look at pixels' centres alone.
+    scene.technique.set(static_decal::Settings { samples: 1, ..Default::default() });
     scene
 }
 
