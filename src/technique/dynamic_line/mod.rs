@@ -11,7 +11,7 @@
 //! The default is what the thesis does; its failures (Figs. 3.7a, 4.4a, 4.9b) and what it leaves open are settings. Where it is silent, see these files and
 //! `docs/semantics.md`.
 //!
-//! Fills and widths in metres of such a scene are static decals ([`decal`](crate::decal)), looked up at pixels' centres and composed with
+//! Fills and widths in metres of such a scene are static decals ([`decal`]), looked up at pixels' centres and composed with
 //! the lines in draw order (`statics`).
 //!
 //! Refuses: scenes without a width in pixels, outlines in pixels that are inset or offset (3.6: those are of static lines), terrains that are not
