@@ -1,5 +1,6 @@
-//! Static decals: which items of a draw list hold a point of the plan. S. Zechmeister (2020), "Interactive visualization of vector data on heightfields" (the thesis), chapters 3 and 4, after
-//! M. Thöny, M. Billeter, R. Pajarola (2017) for lines and L. Frasson, T. Engel, C. Pozzer (2018) for polygons.
+//! Static decals: which items of a draw list hold a point of the plan. S. Zechmeister (2020), "Interactive visualization of vector data on
+//! heightfields" (the thesis), chapters 3 and 4, after M. Thöny, M. Billeter, R. Pajarola (2017) for lines and A. Frasson, T. A. Engel,
+//! C. T. Pozzer (2018) for polygons.
 //!
 //! Input: a [`DrawList`](crate::draw_list::DrawList), the terrain's box in the plan. Output: [`Decals`], which answer for the samples of a pixel
 //! with [`Hits`]; [`Palette`] composes them. Refuses: nothing. From the sample inwards, as Algorithm 3.5 goes:

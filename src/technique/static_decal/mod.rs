@@ -1,4 +1,5 @@
-//! Static decals: S. Zechmeister (2020), "Interactive visualization of vector data on heightfields" (the thesis), after Thöny et al. 2017 and Frasson et al. 2018.
+//! Static decals: S. Zechmeister (2020), "Interactive visualization of vector data on heightfields" (the thesis), after Thöny et al. 2017 and
+//! Frasson et al. 2018.
 //!
 //! Input: a [`Stage`]. Output: a picture whose every sample asks the plan which decals hold it:
 //! 1. preprocess: a grid of cells with trees of line segments and of polygons' quadtrees (3.2.1, 4.2.1): the room [`decal`](crate::decal);
