@@ -72,20 +72,8 @@ impl<'l> Source<'l> {
         });
         let mut all = IndexPart::default();
         parts.into_iter().for_each(|part| all.append(part));
-        let around = |boxes: &[PlanBox]| {
-            let mut sum = PlanBox::EMPTY;
-            for plan in boxes.iter().filter(|plan| !plan.is_empty()) {
-                sum.include(plan.min);
-                sum.include(plan.max);
-            }
-            sum
-        };
-        let mut bounds = around(&all.run_boxes);
-        let of_rings = around(&all.ring_boxes);
-        if !of_rings.is_empty() {
-            bounds.include(of_rings.min);
-            bounds.include(of_rings.max);
-        }
+        let mut bounds = PlanBox::EMPTY;
+        all.run_boxes.iter().chain(&all.ring_boxes).for_each(|plan| bounds.include_box(plan));
         Self {
             list,
             limits: Limits { capacity: settings.leaf_capacity, depth: settings.depth },
@@ -165,9 +153,7 @@ impl<'l> Source<'l> {
                 let quadtree = self.quadtree(ring);
                 if let Some(start) = quadtree.start_in(plan) {
                     contents.rings.push(RingPart { ring, start });
-                    let part = quadtree.bounds();
-                    bounds.include(part.min);
-                    bounds.include(part.max);
+                    bounds.include_box(&quadtree.bounds());
                 }
             }
             if contents.rings.len() == first {

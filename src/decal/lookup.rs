@@ -85,7 +85,7 @@ impl<'l> Decals<'l> {
         // Where the terrain is not, nothing is seen; what paints everywhere needs all of it.
         let bounds = match source.is_everywhere() {
             true => *terrain,
-            false => common(&source.bounds, terrain),
+            false => source.bounds.common(terrain),
         };
         let grid = DecalGrid::new(&bounds, settings.grid);
         let cells = (0..grid.count()).map(|_| OnceLock::new()).collect();
@@ -512,13 +512,4 @@ fn of<P>(points: &[P], mut wanted: u64, is: impl Fn(&P) -> bool) -> u64 {
 #[inline(always)]
 fn single(at: Plan) -> [f32; 2] {
     [at.x as f32, at.y as f32]
-}
-
-/// What two boxes share.
-fn common(a: &PlanBox, b: &PlanBox) -> PlanBox {
-    use crate::math::{max, min};
-    PlanBox {
-        min: Plan::new(max(a.min.x, b.min.x), max(a.min.y, b.min.y)),
-        max: Plan::new(min(a.max.x, b.max.x), min(a.max.y, b.max.y)),
-    }
 }

@@ -24,10 +24,7 @@ impl BoxTree {
     /// A tree over these boxes; those that are empty meet nothing.
     pub fn new(boxes: &[PlanBox]) -> Self {
         let mut whole = PlanBox::EMPTY;
-        for plan in boxes.iter().filter(|b| !b.is_empty()) {
-            whole.include(plan.min);
-            whole.include(plan.max);
-        }
+        boxes.iter().for_each(|plan| whole.include_box(plan));
         let mut order: Vec<(u64, u32)> =
             boxes.iter().enumerate().map(|(k, plan)| (place(&whole, plan), k as u32)).collect();
         parallel::sort_by_key(&mut order, |entry| *entry);

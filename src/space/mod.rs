@@ -235,6 +235,24 @@ impl PlanBox {
         self.max = Plan::new(crate::math::max(p.x, self.max.x), crate::math::max(p.y, self.max.y));
     }
 
+    /// Grows to contain another box; an empty one changes nothing.
+    pub fn include_box(&mut self, other: &Self) {
+        if !other.is_empty() {
+            self.include(other.min);
+            self.include(other.max);
+        }
+    }
+
+    /// What both contain.
+    #[must_use]
+    pub fn common(&self, other: &Self) -> Self {
+        use crate::math::{max, min};
+        Self {
+            min: Plan::new(max(self.min.x, other.min.x), max(self.min.y, other.min.y)),
+            max: Plan::new(min(self.max.x, other.max.x), min(self.max.y, other.max.y)),
+        }
+    }
+
     /// Whether it contains nothing.
     pub fn is_empty(&self) -> bool {
         !(self.min.x <= self.max.x && self.min.y <= self.max.y)

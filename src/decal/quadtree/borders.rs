@@ -1,6 +1,6 @@
 //! Where the borders of a tree's nodes are: one formula, for all levels.
 
-use crate::math::{max, min};
+use crate::math::min;
 use crate::space::{Plan, PlanBox};
 
 /// The deepest level: Zechmeister 2020 tries depths of 2 to 16 (section 5.2.3, Figure 5.13).
@@ -178,10 +178,7 @@ impl Borders {
 
     /// The part of the root's box that two boxes share; `None` if there is none.
     pub(super) fn shared(one: &PlanBox, other: &PlanBox) -> Option<PlanBox> {
-        let shared = PlanBox {
-            min: Plan::new(max(one.min.x, other.min.x), max(one.min.y, other.min.y)),
-            max: Plan::new(min(one.max.x, other.max.x), min(one.max.y, other.max.y)),
-        };
+        let shared = one.common(other);
         (!shared.is_empty()).then_some(shared)
     }
 }

@@ -18,9 +18,7 @@ impl Segment {
         }
         for (at, end) in [self.parts.from, self.parts.to].into_iter().zip(self.parts.ends) {
             if end == End::Round {
-                let disc = PlanBox::around([at]).grown(half);
-                all.include(disc.min);
-                all.include(disc.max);
+                all.include_box(&PlanBox::around([at]).grown(half));
             }
         }
         let wedge = self.wedge();

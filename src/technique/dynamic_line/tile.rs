@@ -111,7 +111,7 @@ impl<T: Real> FrameContext<'_, T> {
             return drawn;
         }
         let is_wide = width >= height;
-        let cut = |from: usize, size: usize| {
+        let mut cut = |from: usize, size: usize| {
             let (axis, other) = if is_wide { (0, 1) } else { (1, 0) };
             let (mut corner, mut part) = (place.corner, place.size);
             corner[axis] += from;
@@ -119,7 +119,6 @@ impl<T: Real> FrameContext<'_, T> {
             part[other] = place.size[other];
             self.draw(TilePlace { corner, size: part }, near, record)
         };
-        let mut cut = cut;
         let whole = if is_wide { width } else { height };
         let first = cut(0, whole / 2);
         let second = cut(whole / 2, whole - whole / 2);
