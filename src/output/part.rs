@@ -4,6 +4,7 @@
 //! Whoever writes into a part holds a lock in it, which the system drops when a process ends however it ends; so a part whose lock is
 //! free belongs to nobody. Where a file system has no locks nothing is cleared.
 
+use same_file::Handle;
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -18,7 +19,7 @@ const LOCK: &str = "lock";
 #[derive(Debug)]
 pub(super) struct Part {
     path: PathBuf,
-    _lock: File,
+    _lock: Handle,
 }
 
 impl Part {
@@ -37,13 +38,16 @@ impl Part {
     fn create(path: PathBuf) -> io::Result<Self> {
         fs::create_dir(&path)?;
         let within = || {
-            let lock = File::create_new(path.join(LOCK))?;
+            let lock = Handle::from_file(File::create_new(path.join(LOCK))?)?;
             // A file system without locks goes without.
-            let _ = lock.lock();
+            let _ = lock.as_file().lock();
+            if !is_lock_of(&path, &lock) {
+                return Err(io::ErrorKind::NotFound.into());
+            }
             fs::create_dir(files_of(&path)).map(|()| lock)
         };
         let lock = within().map_err(|error| match error.kind() {
-            // Until it was locked it looked like a dead one's, and was cleared.
+            // Until it was locked it looked like a dead one's, and was cleared; another's may stand there by now.
             io::ErrorKind::NotFound => io::ErrorKind::AlreadyExists.into(),
             _ => error,
         })?;
@@ -79,10 +83,17 @@ fn clear_one(path: &Path) -> io::Result<()> {
         // Killed before it had a lock, or while it was being removed: nothing is in it. (If something is, it stays.)
         return fs::remove_dir(path);
     };
-    match lock.try_lock() {
-        Ok(()) => remove(path),
-        Err(TryLockError::WouldBlock | TryLockError::Error(_)) => Ok(()),
+    let lock = Handle::from_file(lock)?;
+    match lock.as_file().try_lock() {
+        Ok(()) if is_lock_of(path, &lock) => remove(path),
+        Ok(()) | Err(TryLockError::WouldBlock | TryLockError::Error(_)) => Ok(()),
     }
+}
+
+/// Whether a lock is still the one in this part: between opening and locking it, the part may have gone and a new one come to its place.
+/// Who holds a part's lock and finds that it is, has the part to himself: nobody else removes it.
+fn is_lock_of(part: &Path, lock: &Handle) -> bool {
+    Handle::from_path(part.join(LOCK)).is_ok_and(|there| there == *lock)
 }
 
 /// Removes a part, its lock last: what is left at any moment is still known for what it is.
@@ -147,6 +158,20 @@ mod tests {
         fs::create_dir_all(place.path().join(".out.3.part/mine")).unwrap();
         clear(place.path(), "out");
         assert_eq!(names_in(place.path()).len(), others.len() + 1);
+    }
+
+    #[test]
+    fn the_lock_of_a_part_that_went_is_not_that_of_the_next_in_its_place() {
+        let place = tempfile::tempdir().unwrap();
+        let gone = Part::new(place.path(), "out").unwrap();
+        let lock = Handle::from_path(gone.path.join(LOCK)).unwrap();
+        assert!(is_lock_of(&gone.path, &lock));
+        let path = gone.path.clone();
+        drop(gone);
+        assert!(!is_lock_of(&path, &lock));
+        let next = Part::new(place.path(), "out").unwrap();
+        assert_eq!(next.path, path);
+        assert!(!is_lock_of(&path, &lock));
     }
 
     #[test]
