@@ -12,6 +12,7 @@
 
 mod drape;
 mod grid;
+pub mod lod;
 mod tin;
 
 pub use drape::{Drape, PlanMap, SurfaceTriangle, SurfaceVertex, TriangleDrape, upward_normal};
