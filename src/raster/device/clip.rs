@@ -105,11 +105,91 @@ impl<T: Real> Volume<T> {
         out
     }
 
+    /// What remains of a segment; its direction stays. An end behind the eye is cut off first: what remains lies before it.
+    pub(super) fn clip_segment(&self, [mut a, mut b]: [Clip<T>; 2]) -> Option<[Clip<T>; 2]> {
+        if ![a, b].iter().flat_map(|end| end.to_array()).all(|v| v.get().is_finite()) {
+            return None;
+        }
+        for plane in Plane::ALL {
+            match (self.is_inside(plane, a), self.is_inside(plane, b)) {
+                (true, true) => {}
+                (true, false) => b = self.before_the_eye(self.crossing(plane, a, b)),
+                (false, true) => a = self.before_the_eye(self.crossing(plane, b, a)),
+                (false, false) => return None,
+            }
+        }
+        Some([a, b])
+    }
+
+    /// A crossing whose w rounding has not put behind the eye, where the picture would be mirrored.
+    fn before_the_eye(&self, crossing: Clip<T>) -> Clip<T> {
+        let w = if crossing.w < self.least_w { self.least_w } else { crossing.w };
+        Clip { w, ..crossing }
+    }
+
     /// Where an edge leaves: always from its inner end, so that the two triangles of a shared edge find the same point.
     fn crossing(&self, plane: Plane, inside: Clip<T>, outside: Clip<T>) -> Clip<T> {
         let (d, e) = (self.distance(plane, inside), self.distance(plane, outside));
         let t = d / (d - e);
         let (from, to) = (inside.to_array(), outside.to_array());
         Clip::from_array([0, 1, 2, 3].map(|k| from[k] + (to[k] - from[k]) * t))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::space::{Viewpoint, World};
+    use glam::DVec3;
+
+    fn volume<T: Real>() -> Volume<T> {
+        let (eye, target) = (World::new(0.0, 0.0, 0.0), World::new(0.0, 1.0, 0.0));
+        let view = Viewpoint { eye, target, up: DVec3::Z, near: 1.0, far: f64::INFINITY };
+        Volume::new(&ViewFrame::perspective(&view, 60.0, (64, 64)).unwrap(), true)
+    }
+
+    fn lies_before_the_eye<T: Real>() {
+        let volume = volume::<T>();
+        let clip = |[x, y, w]: [f64; 3]| Clip { x, y, z: 1.0, w }.to_array().map(T::of);
+        let mut left = 0;
+        for power in 0..36 {
+            let far = f64::from(1u32 << (power % 18)) * f64::from(1u32 << (power / 2));
+            for behind in [0.5, 0.0, -3.0, -1e3, -1e7] {
+                for x in [-0.3, 0.0, 0.7] {
+                    let ends =
+                        [[x * far, far / 3.0, far], [x, 0.0, behind]].map(|p| Clip::from_array(clip(p)));
+                    for ends in [ends, [ends[1], ends[0]]] {
+                        let Some(rest) = volume.clip_segment(ends) else { continue };
+                        left += 1;
+                        assert!(rest.iter().all(|end| end.w >= volume.least_w), "{ends:?} becomes {rest:?}");
+                    }
+                }
+            }
+        }
+        assert!(left > 500, "{left}");
+    }
+
+    #[test]
+    fn what_remains_of_a_segment_lies_before_the_eye_however_much_is_rounded() {
+        lies_before_the_eye::<f64>();
+        lies_before_the_eye::<f32>();
+    }
+
+    #[test]
+    fn a_segment_keeps_its_direction_and_its_inner_end() {
+        let volume = volume::<f64>();
+        let inner = Clip { x: 0.0, y: 0.0, z: 1.0, w: 5.0 };
+        let outer = Clip { x: 0.0, y: 2.0, z: 1.0, w: -3.0 };
+        // From w = 5 to the near plane's w = z = 1: half of the way.
+        let crossing = Clip { x: 0.0, y: 1.0, z: 1.0, w: 1.0 };
+        let close = |a: Clip<f64>, b: Clip<f64>| {
+            a.to_array().iter().zip(b.to_array()).all(|(a, b)| (a - b).abs() < 1e-12)
+        };
+        let [a, b] = volume.clip_segment([inner, outer]).unwrap();
+        assert!(a == inner && close(b, crossing), "{b:?}");
+        let [a, b] = volume.clip_segment([outer, inner]).unwrap();
+        assert!(b == inner && close(a, crossing), "{a:?}");
+        assert!(volume.clip_segment([inner, inner]).is_some_and(|rest| rest == [inner, inner]));
+        assert!(volume.clip_segment([outer, outer]).is_none());
     }
 }

@@ -23,6 +23,13 @@ impl DepthBuffer {
         }
     }
 
+    /// The least difference that two depths up to some largest one keep: a step of a fixed-point format; of a
+    /// floating-point one, with 23 bits behind the point, the step of the largest depth.
+    pub(super) fn step(self, largest: f64) -> f64 {
+        let largest = largest as f32;
+        self.most().map_or_else(|| f64::from(largest.next_up()) - f64::from(largest), |most| 1.0 / most)
+    }
+
     /// What the buffer is cleared to: the far plane. (So terrain whose depth rounds to the far plane's is not seen.)
     pub fn cleared(self) -> f32 {
         if self.is_reversed() { 0.0 } else { self.most().unwrap_or(1.0) as f32 }

@@ -1,8 +1,8 @@
 //! The imitated machine's path from a triangle of the world to triangles of the screen.
 //!
 //! Input: triangles of a [`Mesh`] by number, a [`ViewFrame`], a [`Device`]. Output: [`Primitive`]s: snapped screen triangles
-//! with depth, and [`Pipeline::draw`], which draws them into [`Samples`]. What a graphics processor leaves open is
-//! chosen here, once:
+//! with depth, and [`Pipeline::draw`], which draws them into [`Samples`]; of segments [`LinePrimitive`]s, which draw
+//! themselves. What a graphics processor leaves open is chosen here, once:
 //! - one matrix takes scene-local points to clip space; it is composed in double precision and rounded to the device's;
 //!   products are summed from left to right, without fused operations;
 //! - clip space is that of zero-to-one depth (0 <= z <= w); an infinite far plane clips nothing, depth is clamped;
@@ -18,12 +18,16 @@
 
 mod clip;
 mod depth;
+mod line;
 mod matrix;
 mod number;
+mod offset;
 mod scan;
 
 pub use depth::DepthBuffer;
+pub use line::{LineFragment, LinePrimitive, LineStyle, Stipple};
 pub use number::Real;
+pub use offset::PolygonOffset;
 pub use scan::{Primitive, Window};
 
 use super::{Lattice, Samples};
@@ -47,7 +51,11 @@ pub struct Pipeline<T> {
     depth: DepthBuffer,
     subpixel_bits: u32,
     is_parallel: bool,
+    offset: Option<PolygonOffset>,
 }
+
+/// No place on the screen lies farther from its zero point: the guard band ends before 2^17 pixels, but for rounding.
+const FARTHEST: f64 = (1u32 << 18) as f64;
 
 impl<T: Real> Pipeline<T> {
     /// The machine for a view of a terrain.
@@ -65,7 +73,15 @@ impl<T: Real> Pipeline<T> {
             depth,
             subpixel_bits: device.subpixel_bits.min(GRID_BITS),
             is_parallel: matches!(frame.lens(), Lens::Parallel { .. }),
+            offset: None,
         }
+    }
+
+    /// The machine with the depth of all its [primitives](Self::primitives) moved, and so what its depth buffer says of
+    /// places.
+    #[must_use]
+    pub fn with_polygon_offset(self, offset: PolygonOffset) -> Self {
+        Self { offset: Some(offset), ..self }
     }
 
     /// The screen triangles, in order, of those of `ids` whose box holds a sample of the lattice.
@@ -79,7 +95,7 @@ impl<T: Real> Pipeline<T> {
             self.volume.clip(&corners, false, |triangle| {
                 let primitive = Primitive { id, corners: triangle.map(|c| self.screen_from_clip(c)) };
                 if primitive.window(lattice).is_some() {
-                    out.push(primitive);
+                    out.push(self.offset.map_or(primitive, |offset| offset.applied(&primitive, self.depth)));
                 }
             });
         }
@@ -110,6 +126,15 @@ impl<T: Real> Pipeline<T> {
                 scan::visit::<T, T>(&primitive, (lattice, window), &mut store);
             }
         });
+    }
+
+    /// A segment on the screen: what the near plane, the far plane and the guard band leave of it. `None`: nothing, or
+    /// it leaves the range of the machine's numbers.
+    pub fn line(&self, ends: [World; 2]) -> Option<LinePrimitive<T>> {
+        let ends =
+            self.volume.clip_segment(ends.map(|p| self.clip(p)))?.map(|end| self.screen_from_clip(end));
+        let is_near = |[x, y, _]: &[T; 3]| x.get().abs() <= FARTHEST && y.get().abs() <= FARTHEST;
+        ends.iter().all(is_near).then_some(LinePrimitive { ends })
     }
 
     /// The depth buffer.
