@@ -1,4 +1,4 @@
-//! The transcendental functions and comparisons that give the same bits on every machine.
+//! The transcendental functions, comparisons and the hash that give the same bits on every machine.
 //!
 //! std's `sin`, `exp`, ... call the C library, whose results differ between machines; std's `min` and `max` may
 //! return either zero for `(-0, +0)`. Everything that can decide a pixel goes through here; `clippy.toml` refuses the rest.
@@ -29,6 +29,14 @@ pub fn min_f32(a: f32, b: f32) -> f32 {
 #[inline(always)]
 pub fn max_f32(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }
+}
+
+/// Scrambles a number so that neighbours have nothing in common (the finalizer of SplitMix64: Steele, Lea, Flood 2014).
+pub const fn scramble(number: u64) -> u64 {
+    let mut z = number.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
 }
 
 #[cfg(test)]

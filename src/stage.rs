@@ -4,11 +4,12 @@
 //! it, serves many frames. Refuses: a surface without a triangle, more than can be numbered.
 
 use crate::draw_list::DrawList;
-use crate::error::Result;
-use crate::scene::{Scene, Surface};
+use crate::error::{Error, Result};
+use crate::scene::{LevelOfDetail, Scene, Surface};
 use crate::space::ViewFrame;
 use crate::terrain::Mesh;
-use std::sync::Arc;
+use crate::terrain::lod::Hierarchy;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// A scene ready to be drawn.
 #[derive(Debug)]
@@ -19,13 +20,25 @@ pub struct Stage {
     pub draw_list: DrawList,
     /// The terrain: what structures that serve any view are made for. What a view shows is [`Stage::mesh_for`].
     pub mesh: Arc<Mesh>,
+    /// What views' meshes are made from, where they have a level of detail of their own.
+    detail: Option<ByView>,
+}
+
+/// Meshes that are made for views.
+#[derive(Debug)]
+struct ByView {
+    hierarchy: Hierarchy,
+    wanted: LevelOfDetail,
+    /// The last one, so that all that draw a view take the same; no result depends on it.
+    last: Mutex<Option<(ViewFrame, Arc<Mesh>)>>,
 }
 
 impl Stage {
     /// Decides what is painted and triangulates the terrain.
     ///
     /// # Errors
-    /// When the surface has no triangle, or too many, or the layers have more than can be numbered.
+    /// When the surface has no triangle, or too many, or the layers have more than can be numbered; when the scene wants a level of detail
+    /// that the terrain does not have.
     pub fn new(scene: Scene, surface: Surface) -> Result<Self> {
         let mesh = Mesh::new(surface, scene.diagonal)?;
         Self::of_mesh(scene, mesh)
@@ -34,16 +47,25 @@ impl Stage {
     /// A scene over a mesh.
     ///
     /// # Errors
-    /// When there are more features than can be numbered.
+    /// When there are more features than can be numbered; when the scene wants a level of detail that the mesh does not have.
     pub fn of_mesh(mut scene: Scene, mesh: Mesh) -> Result<Self> {
         let draw_list = DrawList::new(&mut scene.layers, &mesh.plan_bounds())?;
-        Ok(Self { scene, draw_list, mesh: Arc::new(mesh) })
+        Self::of_draw_list(scene, draw_list, Arc::new(mesh))
     }
 
-    /// The mesh that a view shows; the truth, supersampling, techniques and bundles draw it. Today it is the same for every view; what it may
-    /// become for one lies within the bounds of [`Stage::mesh`], in the plan and in height.
-    pub fn mesh_for(&self, _view: &ViewFrame) -> Arc<Mesh> {
-        Arc::clone(&self.mesh)
+    /// A scene that is painted as a list says, over a mesh.
+    ///
+    /// # Errors
+    /// When the scene wants a level of detail that the mesh does not have.
+    pub fn of_draw_list(scene: Scene, draw_list: DrawList, mesh: Arc<Mesh>) -> Result<Self> {
+        let detail = scene.lod.map(|wanted| ByView::new(&mesh, wanted)).transpose()?;
+        Ok(Self { scene, draw_list, mesh, detail })
+    }
+
+    /// The mesh that a view shows; the truth, supersampling, techniques and bundles draw it. It is the same for every view, or one with a level of
+    /// detail for this one, which lies within the bounds of [`Stage::mesh`], in the plan and in height.
+    pub fn mesh_for(&self, view: &ViewFrame) -> Arc<Mesh> {
+        self.detail.as_ref().map_or_else(|| Arc::clone(&self.mesh), |detail| detail.mesh_for(view))
     }
 
     /// The view of the scene's own camera on its own picture.
@@ -52,5 +74,31 @@ impl Stage {
     /// When the camera shows nothing (eye = target, `up` along the view, an angle out of range).
     pub fn view(&self) -> Result<ViewFrame> {
         self.scene.camera.view(&self.scene.image)
+    }
+}
+
+impl ByView {
+    fn new(mesh: &Mesh, wanted: LevelOfDetail) -> Result<Self> {
+        let Mesh::Grid(grid) = mesh else {
+            return Err(Error::unsupported("only a grid of posts has a level-of-detail mesh").help(
+                "leave `terrain.lod` out for scattered points and surfaces that are given as triangles",
+            ));
+        };
+        let hierarchy = Hierarchy::new(Arc::clone(grid))?;
+        hierarchy.check(&wanted)?;
+        Ok(Self { hierarchy, wanted, last: Mutex::new(None) })
+    }
+
+    fn mesh_for(&self, view: &ViewFrame) -> Arc<Mesh> {
+        // A thread that failed while it held the lock has left what was there.
+        let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
+        match &*last {
+            Some((seen, mesh)) if seen == view => Arc::clone(mesh),
+            _ => {
+                let mesh = Arc::new(Mesh::Lod(Box::new(self.hierarchy.mesh_for(view, &self.wanted))));
+                *last = Some((*view, Arc::clone(&mesh)));
+                mesh
+            }
+        }
     }
 }

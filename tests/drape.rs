@@ -49,12 +49,17 @@ fn surface_of(mesh: &Mesh) -> (Vec<SurfaceVertex>, Vec<[u32; 3]>) {
     (mesh.vertices().collect(), triangles.collect())
 }
 
+/// A stage over another mesh.
+fn on(stage: Stage, mesh: Mesh) -> Stage {
+    Stage::of_draw_list(stage.scene, stage.draw_list, Arc::new(mesh)).unwrap()
+}
+
 /// The hills, their triangles numbered along the plan.
 fn hills(more: &str, changes: &[&str]) -> Stage {
     let text = drawing::scene(TERRAIN, CAMERA, more);
     let stage = drawing::stage(&text, &[&["terrain.shade=hillshade"], changes].concat());
     let (vertices, triangles) = surface_of(&stage.mesh);
-    Stage { mesh: Arc::new(Mesh::of_surface(vertices, triangles).unwrap()), ..stage }
+    on(stage, Mesh::of_surface(vertices, triangles).unwrap())
 }
 
 /// The same stage with its world turned and shifted: terrain, camera, what is up; plan points stay.
@@ -73,7 +78,7 @@ fn turned(stage: &Stage, turn: DQuat) -> Stage {
     let camera = stage.scene.camera;
     let (eye, target, up) = (place(camera.eye), place(camera.target), turn * camera.up);
     scene.camera = Camera { eye, target, up, ..camera };
-    Stage { scene, draw_list: stage.draw_list.clone(), mesh: Arc::new(mesh) }
+    Stage::of_draw_list(scene, stage.draw_list.clone(), Arc::new(mesh)).unwrap()
 }
 
 fn turns() -> [DQuat; 3] {
@@ -118,10 +123,10 @@ fn a_network_whose_plan_points_lie_below_it_has_the_bits_of_a_plain_one() {
         let points = stage.mesh.vertices().map(|vertex| vertex.world);
         let points = points.map(|p| World::new(p.x + 0.03 * p.z, p.y - 0.02 * p.z, p.z)).collect();
         let plain = Stage::new(stage.scene.clone(), Surface::Points(points)).unwrap();
-        let plain = Stage { draw_list: stage.draw_list.clone(), ..plain };
+        let plain = Stage::of_draw_list(plain.scene, stage.draw_list.clone(), plain.mesh).unwrap();
         let (vertices, mut triangles) = surface_of(&plain.mesh);
         triangles.reverse();
-        let given = Stage { mesh: Arc::new(Mesh::of_surface(vertices, triangles).unwrap()), ..stage };
+        let given = on(stage, Mesh::of_surface(vertices, triangles).unwrap());
         assert_eq!(given.mesh.drape(), Drape::Vertical);
         for kind in Kind::ALL.into_iter().filter(|kind| drapery::technique::applies(*kind, &plain).is_ok()) {
             assert_eq!(hashes(kind, &given), hashes(kind, &plain), "{kind:?}");

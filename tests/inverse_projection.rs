@@ -37,6 +37,7 @@ fn scene(size: (usize, usize), camera: Camera, layers: Vec<Layer>, settings: Set
         image: ImageSettings { width: size.0, height: size.1, background: Color([0.0, 0.0, 1.0, 1.0]) },
         camera,
         diagonal: Diagonal::SwNe,
+        lod: None,
         ground: Ground::flat(WHITE),
         layers,
         compositing: Compositing::default(),

@@ -42,6 +42,7 @@ fn scene(size: (usize, usize), camera: Camera, layers: Vec<Layer>) -> Scene {
         image: ImageSettings { width: size.0, height: size.1, background: WHITE },
         camera,
         diagonal: Diagonal::SwNe,
+        lod: None,
         ground: Ground::flat(WHITE),
         layers,
         compositing: Compositing::default(),

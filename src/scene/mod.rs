@@ -5,12 +5,14 @@
 
 mod attribute;
 mod camera;
+mod detail;
 mod ground;
 mod layer;
 mod settings;
 
 pub use attribute::{Attribute, Column};
 pub use camera::{Camera, Projection};
+pub use detail::{Detail, LevelOfDetail};
 pub use ground::{Ground, GroundColors, Imagery, Light};
 pub use layer::{
     Cap, Feature, Fill, Group, Join, Layer, Line, Outline, OutlineMode, Rule, Shape, Style, Width,
@@ -40,6 +42,8 @@ pub struct Scene {
     pub camera: Camera,
     /// How cells of a grid are split.
     pub diagonal: Diagonal,
+    /// The level-of-detail mesh that each view draws; `None`: the whole grid.
+    pub lod: Option<LevelOfDetail>,
     /// The terrain's own colour.
     pub ground: Ground,
     /// Vector layers, drawn in this order.
@@ -68,6 +72,7 @@ impl Scene {
             },
             camera,
             diagonal: Diagonal::default(),
+            lod: None,
             ground: Ground::flat(Color::from_rgba8([0xc8, 0xb8, 0x9a, 0xff])),
             layers,
             compositing: Compositing::default(),

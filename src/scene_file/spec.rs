@@ -5,7 +5,7 @@ use super::case_study::{DataGroup, Study};
 use crate::error::Position;
 use crate::parameter::words;
 use crate::scene::{
-    Attribute, Color, Compositing, Device, Diagonal, ImageSettings, Light, Projection, Shape,
+    Attribute, Color, Compositing, Device, Diagonal, ImageSettings, LevelOfDetail, Light, Projection, Shape,
     TechniqueSettings,
 };
 use glam::{DVec2, DVec3};
@@ -105,6 +105,8 @@ pub struct TerrainSpec {
     pub nodata: Option<f64>,
     /// How cells are split.
     pub diagonal: Diagonal,
+    /// The level-of-detail mesh that each view draws; `None`: the whole grid.
+    pub lod: Option<LevelOfDetail>,
     /// Heights are multiplied by this.
     pub vertical_scale: f64,
     /// The terrain's own colour.

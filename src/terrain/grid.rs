@@ -130,9 +130,20 @@ impl Grid {
         height.is_finite().then_some(height)
     }
 
+    /// The smaller side of its cells.
+    pub(super) fn resolution(&self) -> f64 {
+        math::min(self.posts.east().length(), self.posts.north().length())
+    }
+
     pub(super) fn plan_bounds(&self) -> PlanBox {
         let (i, j) = (self.posts.columns() - 1, self.posts.rows() - 1);
         PlanBox::around([(0, 0), (i, 0), (0, j), (i, j)].map(|(i, j)| self.posts.plan(i, j)))
+    }
+
+    /// The lowest and the highest post; 0 where there is none.
+    pub(super) fn heights(&self) -> (f64, f64) {
+        let all = self.levels.last().map_or(NOTHING, |top| top.heights[0]);
+        if all.0 <= all.1 { all } else { (0.0, 0.0) }
     }
 
     pub(super) fn levels(&self) -> usize {
@@ -238,7 +249,7 @@ mod tests {
     fn grid(columns: usize, rows: usize, height: impl Fn(usize, usize) -> f64) -> Mesh {
         let heights = (0..columns * rows).map(|k| height(k % columns, k / columns)).collect();
         let posts = Posts::new((columns, rows), Plan::default(), (DVec2::X, DVec2::Y), heights).unwrap();
-        Mesh::Grid(Grid::new(posts, Diagonal::SwNe).unwrap())
+        Mesh::Grid(Grid::new(posts, Diagonal::SwNe).unwrap().into())
     }
 
     #[test]
@@ -255,7 +266,7 @@ mod tests {
             let heights = (0..7 * 5).map(|k| if k == hole { f64::NAN } else { f64::from(k * 7919 % 23) });
             let steps = (DVec2::new(3.0, 0.5), DVec2::new(-0.25, 2.0));
             let posts = Posts::new((7, 5), Plan::new(10.0, -4.0), steps, heights.collect()).unwrap();
-            let mesh = Mesh::Grid(Grid::new(posts, diagonal).unwrap());
+            let mesh = Mesh::Grid(Grid::new(posts, diagonal).unwrap().into());
             assert_eq!(mesh.resolution(), DVec2::new(-0.25, 2.0).length());
             for id in 0..mesh.triangle_ids() {
                 let Mesh::Grid(grid) = &mesh else { unreachable!() };

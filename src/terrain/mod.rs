@@ -24,7 +24,9 @@ use crate::math;
 use crate::scene::{Diagonal, Surface};
 use crate::space::{Plan, PlanBox, World};
 use glam::DVec3;
+use lod::LodMesh;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// Cells a side of a grid's smallest node.
 pub const BLOCK: usize = 15;
@@ -36,9 +38,11 @@ pub const SKY: u32 = u32::MAX;
 #[derive(Debug, Clone)]
 pub enum Mesh {
     /// Two triangles a cell of a grid of posts.
-    Grid(Grid),
+    Grid(Arc<Grid>),
     /// Triangles over scattered points, or over vertices with plan points of their own.
     Tin(Tin),
+    /// Triangles over some posts of a grid, as many as a view needs.
+    Lod(Box<LodMesh>),
 }
 
 /// What a leaf of the hierarchy holds.
@@ -100,7 +104,7 @@ impl Mesh {
     /// When there are too many triangles to number, or none.
     pub fn new(surface: Surface, diagonal: Diagonal) -> Result<Self> {
         match surface {
-            Surface::Grid(posts) => Ok(Self::Grid(Grid::new(posts, diagonal)?)),
+            Surface::Grid(posts) => Ok(Self::Grid(Arc::new(Grid::new(posts, diagonal)?))),
             Surface::Points(points) => Ok(Self::Tin(Tin::new(points)?)),
         }
     }
@@ -122,6 +126,7 @@ impl Mesh {
         match self {
             Self::Grid(_) => Drape::Vertical,
             Self::Tin(tin) => tin.drape(),
+            Self::Lod(_) => Drape::Vertical,
         }
     }
 
@@ -134,6 +139,7 @@ impl Mesh {
         match self {
             Self::Grid(grid) => grid.triangle(id),
             Self::Tin(tin) => Some(tin.triangle(id)),
+            Self::Lod(lod) => Some(lod.tin().triangle(id)),
         }
     }
 
@@ -146,6 +152,7 @@ impl Mesh {
         match self {
             Self::Grid(grid) => grid.triangle(id).map(SurfaceTriangle::vertical),
             Self::Tin(tin) => Some(tin.surface_triangle(id)),
+            Self::Lod(lod) => Some(lod.tin().surface_triangle(id)),
         }
     }
 
@@ -169,6 +176,7 @@ impl Mesh {
         match self {
             Self::Grid(grid) => grid.corners(id),
             Self::Tin(tin) => Some(tin.triangles()[id as usize]),
+            Self::Lod(lod) => Some(lod.tin().triangles()[id as usize]),
         }
     }
 
@@ -177,10 +185,12 @@ impl Mesh {
         let count = match self {
             Self::Grid(grid) => grid.posts().heights().len(),
             Self::Tin(tin) => tin.vertices().len(),
+            Self::Lod(lod) => lod.tin().vertices().len(),
         };
         (0..count).map(move |number| match self {
             Self::Grid(grid) => SurfaceVertex::vertical(grid.vertex(number)),
             Self::Tin(tin) => tin.vertex(number),
+            Self::Lod(lod) => lod.tin().vertex(number),
         })
     }
 
@@ -189,6 +199,7 @@ impl Mesh {
         match self {
             Self::Grid(grid) => grid.triangle_ids(),
             Self::Tin(tin) => tin.triangles().len() as u32,
+            Self::Lod(lod) => lod.tin().triangles().len() as u32,
         }
     }
 
@@ -196,6 +207,7 @@ impl Mesh {
     pub fn plan_bounds(&self) -> PlanBox {
         match self {
             Self::Grid(grid) => grid.plan_bounds(),
+            Self::Lod(lod) => lod.grid().plan_bounds(),
             Self::Tin(_) => PlanBox::around(self.vertices().map(|vertex| vertex.plan)),
         }
     }
@@ -205,6 +217,7 @@ impl Mesh {
         let level = match self {
             Self::Grid(grid) => grid.levels() - 1,
             Self::Tin(tin) => tin.levels() - 1,
+            Self::Lod(lod) => lod.tin().levels() - 1,
         };
         Node { level: level as u32, x: 0, y: 0 }
     }
@@ -215,6 +228,7 @@ impl Mesh {
         match self {
             Self::Grid(grid) => grid.bounds(node),
             Self::Tin(tin) => Some(tin.bounds(node)),
+            Self::Lod(lod) => lod.bounds(node),
         }
     }
 
@@ -223,6 +237,7 @@ impl Mesh {
         match self {
             Self::Grid(grid) => grid.bounds(node).map(|bounds| bounds.below()),
             Self::Tin(tin) => Some(tin.plan_of(node)),
+            Self::Lod(lod) => lod.bounds(node).map(|bounds| bounds.below()),
         }
     }
 
@@ -237,14 +252,17 @@ impl Mesh {
         match self {
             Self::Grid(grid) => grid.height_at(at),
             Self::Tin(tin) => tin.height_at(at),
+            Self::Lod(lod) => lod.height_at(at),
         }
     }
 
-    /// How far apart posts are, metres of the plan: the smaller side of a grid's cells; of a TIN the side of the square that two triangles cover
+    /// How far apart posts are, metres of the plan: the smaller side of a grid's cells, whatever of it a level-of-detail mesh
+    /// has; of a TIN the side of the square that two triangles cover
     /// on the average.
     pub fn resolution(&self) -> f64 {
         match self {
-            Self::Grid(grid) => math::min(grid.posts().east().length(), grid.posts().north().length()),
+            Self::Grid(grid) => grid.resolution(),
+            Self::Lod(lod) => lod.grid().resolution(),
             Self::Tin(tin) => tin.resolution(),
         }
     }
@@ -263,6 +281,7 @@ impl Mesh {
         match self {
             Self::Grid(grid) => Leaf::Cells(grid),
             Self::Tin(tin) => Leaf::Triangles(tin.leaf(node)),
+            Self::Lod(lod) => Leaf::Triangles(lod.tin().leaf(node)),
         }
     }
 
@@ -286,6 +305,7 @@ impl Mesh {
         match self {
             Self::Grid(grid) => grid.for_each_child(node, visit),
             Self::Tin(tin) => tin.for_each_child(node, visit),
+            Self::Lod(lod) => lod.tin().for_each_child(node, visit),
         }
     }
 
@@ -294,6 +314,7 @@ impl Mesh {
         match self {
             Self::Grid(grid) => grid.bytes(),
             Self::Tin(tin) => tin.bytes(),
+            Self::Lod(lod) => lod.bytes(),
         }
     }
 }

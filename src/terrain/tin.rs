@@ -99,6 +99,12 @@ impl Tin {
         Ok(Self { vertices: world, triangles, levels, draped })
     }
 
+    /// Triangles that are draped vertically, numbered as they are given: neighbours near one another.
+    pub(super) fn in_order(vertices: Vec<World>, triangles: Vec<[u32; 3]>) -> Self {
+        let levels = box_levels(&vertices, &triangles);
+        Self { vertices, triangles, levels, draped: None }
+    }
+
     pub(super) fn drape(&self) -> Drape {
         if self.draped.is_some() { Drape::Affine } else { Drape::Vertical }
     }

@@ -2,7 +2,8 @@
 
 use super::{data_file, rectangle};
 use crate::error::Result;
-use crate::scene::{Color, Light};
+use crate::parameter::Named;
+use crate::scene::{Color, Detail, Diagonal, LevelOfDetail, Light};
 use crate::scene_file::names::{ShadeName, TerrainName};
 use crate::scene_file::section::{Section, Taken};
 use crate::scene_file::spec::{
@@ -14,6 +15,7 @@ use glam::DVec3;
 const MOST_POSTS: usize = 1 << 28;
 
 pub(super) fn terrain(section: &mut Section<'_>) -> Result<TerrainSpec> {
+    let diagonal = section.name("diagonal")?.unwrap_or_default();
     Ok(TerrainSpec {
         source: source(section)?,
         window: rectangle(section, "window")?,
@@ -23,7 +25,8 @@ pub(super) fn terrain(section: &mut Section<'_>) -> Result<TerrainSpec> {
         encoding: section.name("encoding")?,
         band: section.integer("band")?,
         nodata: section.number("nodata")?,
-        diagonal: section.name("diagonal")?.unwrap_or_default(),
+        diagonal,
+        lod: level_of_detail(section, diagonal)?,
         vertical_scale: section.number("vertical_scale")?.unwrap_or(1.0),
         ground: ground(section)?,
     })
@@ -64,6 +67,22 @@ fn ground(section: &mut Section<'_>) -> Result<GroundSpec> {
         },
     };
     Ok(GroundSpec { colors, light })
+}
+
+fn level_of_detail(section: &mut Section<'_>, diagonal: Diagonal) -> Result<Option<LevelOfDetail>> {
+    if let Some((_, place)) = section.first_of(&["lod"]).filter(|_| diagonal != Diagonal::Alternating) {
+        let what =
+            format!("cells that are split \"{}\" do not nest in a level-of-detail mesh", diagonal.word());
+        return Err(section.error_at(place, what).help("write diagonal = \"alternating\" under [terrain]"));
+    }
+    let read = |section: &mut Section<'_>| {
+        let detail = match section.integer("level")? {
+            Some(level) => Detail::Level(level),
+            None => Detail::ErrorPx(section.number("error_px")?.unwrap_or(0.0)),
+        };
+        Ok(LevelOfDetail { detail, borrow: section.number("borrow")?.unwrap_or(0.0) })
+    };
+    section.take("lod").map(|node| Section::read(section.origin(), node, read)).transpose()
 }
 
 fn light(section: &mut Section<'_>) -> Result<Light> {

@@ -44,6 +44,11 @@ pub(super) static TERRAIN: TableShape = TableShape {
         ),
         key("diagonal", choice::<Diagonal>(), "How cells are split. Default: \"sw-ne\"."),
         key(
+            "lod",
+            Shape::Table(&LOD),
+            "A level-of-detail mesh of the grid instead of all of it, with diagonal = \"alternating\".",
+        ),
+        key(
             "vertical_scale",
             Shape::Number(Range::NotNegative),
             "Heights are multiplied by this. Default: 1.",
@@ -78,6 +83,23 @@ static LIGHT: TableShape = TableShape {
         ),
     ],
     rules: &[],
+};
+
+static LOD: TableShape = TableShape {
+    keys: &[
+        key(
+            "error_px",
+            Shape::Number(Range::NotNegative),
+            "No triangle in view is farther from the full surface, in pixels at its distance. 0: all posts.",
+        ),
+        key("level", Shape::Integer(0, 20), "Every 2^n-th post of every 2^n-th row, in every view."),
+        key(
+            "borrow",
+            Shape::Number(Range::Share),
+            "The share of quads that are drawn by the vertices of one that holds them. Default: 0.",
+        ),
+    ],
+    rules: &[Keys::One(&["error_px", "level"])],
 };
 
 static GENERATE_TERRAIN: TableShape = TableShape {

@@ -1,12 +1,6 @@
 //! Numbers that look random and are the same on every machine: a hash of integers, and a counter run through it.
 
-/// Scrambles a number so that neighbours have nothing in common (the finalizer of SplitMix64: Steele, Lea, Flood 2014).
-pub(super) const fn scramble(number: u64) -> u64 {
-    let mut z = number.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
-}
+pub(super) use crate::math::scramble;
 
 /// A hash of a place on a lattice.
 pub(super) const fn at(seed: u64, i: i64, j: i64) -> u64 {

@@ -81,6 +81,7 @@ pub fn load(file: &SceneFile, progress: &dyn Fn(&str)) -> Result<(Scene, Surface
         image: file.image,
         camera,
         diagonal: file.terrain.diagonal,
+        lod: file.terrain.lod,
         ground,
         layers,
         compositing: file.compositing,

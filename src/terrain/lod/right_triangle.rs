@@ -103,7 +103,7 @@ mod tests {
     fn all_below(triangle: RightTriangle, visit: &mut impl FnMut(RightTriangle)) {
         visit(triangle);
         if let Some(halves) = triangle.halves() {
-            halves.map(|half| all_below(half, visit));
+            halves.into_iter().for_each(|half| all_below(half, visit));
         }
     }
 

@@ -132,7 +132,7 @@ pub(super) fn part(stage: &Stage, decals: Decals, look: &Look) -> Result<Option<
     let mut scene = stage.scene.clone();
     scene.layers = layers;
     let draw_list = DrawList::new(&mut scene.layers, &stage.mesh.plan_bounds())?;
-    Ok(Some(Stage { scene, draw_list, mesh: Arc::clone(&stage.mesh) }))
+    Stage::of_draw_list(scene, draw_list, Arc::clone(&stage.mesh)).map(Some)
 }
 
 /// The style of a feature that is one item.

@@ -1,0 +1,172 @@
+//! The level-of-detail mesh of a view.
+//!
+//! Input: a grid, which of its posts are vertices. Output: [`LodMesh`]. Refuses: nothing; it may have no triangle.
+
+use super::extent::Extent;
+use super::quad::QuadInUse;
+use super::refinement::Refinement;
+use super::right_triangle::{Post, RightTriangle};
+use super::vertices::{Numbered, Vertices};
+use crate::space::Plan;
+use crate::terrain::{Bounds, Grid, Node, Tin};
+use std::sync::Arc;
+
+/// How far a mesh is from the full surface, over the triangles that its view may see.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Deviation {
+    /// No more than so many metres, up or down.
+    pub metres: f64,
+    /// No more than so many pixels, of their size where each triangle comes nearest to the eye; infinite where the eye may be in one.
+    pub pixels: f64,
+    /// Triangles that are left out because some of the posts in them are missing, and some are not: larger holes than the full surface has.
+    pub left_out: u32,
+}
+
+/// A restricted quadtree triangulation of a grid (Wartell et al. 2003, 2.1), draped vertically: of its posts those that a view needs.
+#[derive(Debug, Clone)]
+pub struct LodMesh {
+    tin: Tin,
+    /// The post of each vertex.
+    posts: Vec<Post>,
+    grid: Arc<Grid>,
+    vertices: Vertices,
+    quads: Vec<QuadInUse>,
+    deviation: Deviation,
+}
+
+impl LodMesh {
+    /// The mesh of a refinement's triangles, of which `collected` has those that are drawn.
+    pub(super) fn new(
+        grid: &Arc<Grid>,
+        refinement: Refinement,
+        collected: Collected,
+        deviation: Deviation,
+    ) -> Self {
+        let Collected { posts, triangles } = collected;
+        let world = |post: &Post| grid.posts().world(post[0] as usize, post[1] as usize);
+        let tin = Tin::in_order(posts.iter().map(world).collect(), triangles);
+        let quads = refinement.quads();
+        Self { tin, posts, grid: Arc::clone(grid), vertices: refinement.into_vertices(), quads, deviation }
+    }
+
+    /// Its triangles.
+    pub fn tin(&self) -> &Tin {
+        &self.tin
+    }
+
+    /// The grid that it is a mesh of.
+    pub fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    /// Whether a post is enabled (3.2.1): the triangles whose longest side it halves are split. Posts beyond the grid may be.
+    #[inline]
+    pub fn has_vertex(&self, post: Post) -> bool {
+        self.vertices.contains(post)
+    }
+
+    /// The quads that are drawn, along the curve that runs through a quarter before the next.
+    pub fn quads(&self) -> &[QuadInUse] {
+        &self.quads
+    }
+
+    /// The post that a vertex is.
+    ///
+    /// # Panics
+    /// When there is no such vertex.
+    #[inline]
+    pub fn post_of(&self, vertex: u32) -> Post {
+        self.posts[vertex as usize]
+    }
+
+    /// A triangle as one of the hierarchy.
+    ///
+    /// # Panics
+    /// When there is no such triangle.
+    #[inline]
+    pub fn right_triangle(&self, id: u32) -> RightTriangle {
+        let [apex, left, right] = self.tin.triangles()[id as usize].map(|vertex| self.post_of(vertex));
+        RightTriangle { apex, left, right }
+    }
+
+    /// How far it is from the full surface.
+    pub fn deviation(&self) -> Deviation {
+        self.deviation
+    }
+
+    /// The box around a node of its triangles; `None` where there is no triangle.
+    #[inline]
+    pub(in crate::terrain) fn bounds(&self, node: Node) -> Option<Bounds> {
+        (!self.tin.triangles().is_empty()).then(|| self.tin.bounds(node))
+    }
+
+    /// The height over a plan point; `None` beside its triangles.
+    pub(in crate::terrain) fn height_at(&self, at: Plan) -> Option<f64> {
+        if self.tin.triangles().is_empty() { None } else { self.tin.height_at(at) }
+    }
+
+    /// Bytes held, without the grid.
+    pub(in crate::terrain) fn bytes(&self) -> usize {
+        self.tin.bytes() + size_of_val(&self.posts[..]) + self.vertices.bytes() + size_of_val(&self.quads[..])
+    }
+}
+
+/// The vertex is no corner so far.
+const NO_NUMBER: u32 = u32::MAX;
+
+/// Triangles that are drawn, and the posts that are their corners in the order of first use.
+#[derive(Debug, Default)]
+pub(super) struct Collected {
+    posts: Vec<Post>,
+    triangles: Vec<[u32; 3]>,
+}
+
+impl Collected {
+    /// Those of a set of vertices; `is_drawn` tells of each triangle that is not split whether it is drawn.
+    pub fn of(extent: Extent, vertices: &Vertices, is_drawn: &mut dyn FnMut(&RightTriangle) -> bool) -> Self {
+        let numbered = Numbered::new(vertices);
+        let numbers = vec![NO_NUMBER; numbered.count()];
+        let mut collecting =
+            Collecting { extent, vertices, is_drawn, numbered, numbers, all: Self::default() };
+        extent.root().roots().into_iter().for_each(|root| collecting.add(root));
+        collecting.all
+    }
+}
+
+/// Triangles being collected.
+struct Collecting<'a> {
+    extent: Extent,
+    vertices: &'a Vertices,
+    is_drawn: &'a mut dyn FnMut(&RightTriangle) -> bool,
+    numbered: Numbered<'a>,
+    /// The numbers that vertices get when a triangle first has them as a corner.
+    numbers: Vec<u32>,
+    all: Collected,
+}
+
+impl Collecting<'_> {
+    /// Collects what a triangle is split into.
+    fn add(&mut self, triangle: RightTriangle) {
+        if !self.extent.holds(&triangle) {
+            return;
+        }
+        let middle = triangle.middle().filter(|middle| self.vertices.contains(*middle));
+        match middle.and_then(|_| triangle.halves()) {
+            Some(halves) => halves.into_iter().for_each(|half| self.add(half)),
+            None if (self.is_drawn)(&triangle) => {
+                let corners = triangle.corners().map(|post| self.number_of(post));
+                self.all.triangles.push(corners);
+            }
+            None => {}
+        }
+    }
+
+    fn number_of(&mut self, post: Post) -> u32 {
+        let number = &mut self.numbers[self.numbered.of(post)];
+        if *number == NO_NUMBER {
+            *number = self.all.posts.len() as u32;
+            self.all.posts.push(post);
+        }
+        *number
+    }
+}
