@@ -137,6 +137,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "sampling",
             "visibility",
             "stage",
+            "terrain",
             "scene",
             "space",
             "parameter",

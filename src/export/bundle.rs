@@ -7,7 +7,7 @@ use super::{
 };
 use crate::buffer::Buffer;
 use crate::error::Result;
-use crate::measure::{Certified, Unwatched, Watch, scene_result};
+use crate::measure::{Certified, Unwatched, Watch, view_result};
 use crate::output::{Batch, Npy, RESULT_SCHEMA, RenderResult, write_png};
 use crate::scene::{Column, GroundColors, Imagery};
 use crate::stage::Stage;
@@ -87,7 +87,7 @@ impl<'a> Bundle<'a> {
         self.stage_scene(&mesh, &mut batch)?;
         let settings = (self.technique.name(), run.parameters.clone(), run.device.clone());
         let parameters = Parameters::new((&stage.scene, &mesh, view), settings).to_json()?;
-        let (scene, notes) = (scene_result(stage, self.hash), stage.scene.notes.clone());
+        let (scene, notes) = (view_result(stage, view, self.hash), stage.scene.notes.clone());
         let result =
             RenderResult { schema: RESULT_SCHEMA, scene, notes, runs: vec![truth, run] }.to_json()?;
         let texts = [("parameters.json", &parameters[..]), ("result.json", &result), ("README.md", LAYOUT)];

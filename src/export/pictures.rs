@@ -3,7 +3,7 @@
 use super::Buffers;
 use super::run_files::RunFiles;
 use crate::error::Result;
-use crate::measure::{Certified, Watch, scene_result};
+use crate::measure::{Certified, Watch, view_result};
 use crate::output::{Batch, RESULT_SCHEMA, RenderResult, RunResult};
 use crate::stage::Stage;
 use crate::technique::Kind;
@@ -54,7 +54,7 @@ impl Pictures<'_> {
         let runs: Result<Vec<RunResult>> = truth.into_iter().chain(techniques).collect();
         let result = RenderResult {
             schema: RESULT_SCHEMA,
-            scene: scene_result(self.stage, self.hash),
+            scene: view_result(self.stage, &view, self.hash),
             notes: self.stage.scene.notes.clone(),
             runs: runs?,
         };

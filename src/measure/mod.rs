@@ -45,10 +45,12 @@ pub use touched::touched;
 pub use watch::{Unwatched, Watch, timed};
 
 use crate::error::Error;
-use crate::output::{ByName, SceneResult};
+use crate::output::{ByName, SceneResult, SurfaceError};
 use crate::parameter::{Settings, Value};
 use crate::scene::Device;
+use crate::space::ViewFrame;
 use crate::stage::Stage;
+use crate::terrain::lod::Deviation;
 use serde_json::Value as Json;
 
 /// A device as a scene file writes it under `[device]`.
@@ -67,7 +69,17 @@ pub fn scene_result(stage: &Stage, hash: &str) -> SceneResult {
         plan_space: scene.plan_space.clone(),
         origin: scene.origin.truncate().to_array(),
         origin_height: scene.origin.z,
+        surface_error: None,
     }
+}
+
+/// What is told of a scene in a view.
+pub fn view_result(stage: &Stage, view: &ViewFrame, hash: &str) -> SceneResult {
+    let told = stage.mesh_for(view).deviation().map(|deviation| {
+        let Deviation { metres, pixels, left_out } = deviation;
+        SurfaceError { metres, pixels, left_out }
+    });
+    SceneResult { surface_error: told, ..scene_result(stage, hash) }
 }
 
 /// Two pictures of one scene that should be the same are not.

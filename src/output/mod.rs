@@ -19,5 +19,6 @@ pub use npy::{Npy, absolute};
 pub use picture::{small_png, write_png};
 pub use result::{
     BufferResult, ByName, ErrorResult, ImageResult, RESULT_SCHEMA, RenderResult, RunResult, SceneResult,
+    SurfaceError,
 };
 pub use whole::write_whole;

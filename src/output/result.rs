@@ -36,6 +36,20 @@ pub struct SceneResult {
     pub origin: [f64; 2],
     /// Its absolute height.
     pub origin_height: f64,
+    /// Where the view shows a level-of-detail mesh: how far that is from the full surface.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub surface_error: Option<SurfaceError>,
+}
+
+/// How far a view's mesh is from the full surface, over the triangles that the view may see: upper bounds.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub struct SurfaceError {
+    /// Up or down.
+    pub metres: f64,
+    /// In pixels of their size where each triangle comes nearest to the eye; `null` where the eye may be in one.
+    pub pixels: f64,
+    /// Triangles that are left out, as some of the posts in them are missing and some are not.
+    pub left_out: u32,
 }
 
 /// One technique's run.
@@ -155,6 +169,7 @@ mod tests {
                 plan_space: "EPSG:32733".into(),
                 origin: [500_000.1, 0.0],
                 origin_height: 120.0,
+                surface_error: Some(SurfaceError { metres: 1.5, pixels: f64::INFINITY, left_out: 0 }),
             },
             notes: vec!["a \"note\"".into()],
             runs: vec![RunResult {

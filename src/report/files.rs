@@ -64,7 +64,14 @@ mod tests {
     fn named(name: &str) -> SceneReport {
         let (hash, plan_space) = (String::new(), String::new());
         SceneReport {
-            scene: SceneResult { name: name.into(), hash, plan_space, origin: [0.0; 2], origin_height: 0.0 },
+            scene: SceneResult {
+                name: name.into(),
+                hash,
+                plan_space,
+                origin: [0.0; 2],
+                origin_height: 0.0,
+                surface_error: None,
+            },
             width: 1,
             height: 1,
             notes: Vec::new(),

@@ -7,7 +7,7 @@ use crate::buffer::Buffer;
 use crate::compare::{Difference, Expected, Image};
 use crate::error::{Error, Result};
 use crate::measure::{self, Certified, Drawn, Times, Watch};
-use crate::measure::{applicable, device_words, scene_result, supersampled, touched};
+use crate::measure::{applicable, device_words, supersampled, touched, view_result};
 use crate::open::Opened;
 use crate::output::ByName;
 use crate::resolve::code_values;
@@ -243,7 +243,7 @@ impl<'a> Measuring<'a> {
     /// The scene's part of the report.
     fn finish(self) -> Measured {
         let mut report = SceneReport {
-            scene: scene_result(&self.scene.stage, &self.scene.text.file.hash),
+            scene: view_result(&self.scene.stage, &self.view, &self.scene.text.file.hash),
             width: self.view.width(),
             height: self.view.height(),
             notes: self.notes,

@@ -309,6 +309,14 @@ impl Mesh {
         }
     }
 
+    /// How far a level-of-detail mesh is from all of the grid; `None`: it is all that is known of the terrain.
+    pub fn deviation(&self) -> Option<lod::Deviation> {
+        match self {
+            Self::Grid(_) | Self::Tin(_) => None,
+            Self::Lod(lod) => Some(lod.deviation()),
+        }
+    }
+
     /// Bytes held by the mesh and its hierarchy.
     pub fn bytes(&self) -> usize {
         match self {

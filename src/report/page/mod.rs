@@ -146,6 +146,9 @@ fn facts(scene: &SceneReport) -> Markup {
         p.facts {
             (scene.width) " × " (scene.height) " pixels · " (scene.scene.plan_space)
             " · " (scene.feature_pixels) " of them touched by features · widest interval of the truth " (super::axis::short(scene.reference_width_max))
+            @if let Some(error) = &scene.scene.surface_error {
+                " · the terrain up to " (super::axis::short(error.metres)) " m, " (super::axis::short(error.pixels)) " pixels from the full surface"
+            }
             " · scene " code { (scene.scene.hash.get(..12).unwrap_or(&scene.scene.hash)) }
         }
         @for note in &scene.notes { p.note { (note) } }

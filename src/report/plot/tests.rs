@@ -36,6 +36,7 @@ fn scene(runs: Vec<Run>) -> SceneReport {
         name: "a <b> & c".into(),
         hash: String::new(),
         plan_space: String::new(),
+        surface_error: None,
         origin: [0.0; 2],
         origin_height: 0.0,
     };

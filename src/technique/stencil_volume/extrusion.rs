@@ -84,12 +84,12 @@ pub struct Extrusion<'l> {
 }
 
 impl<'l> Extrusion<'l> {
-    /// Extrudes all items.
-    pub fn new(list: &'l DrawList, mesh: &Mesh, settings: &Settings) -> Self {
+    /// Extrudes all items over a terrain; views of one that is not fixed may show other heights between the same lowest and highest.
+    pub fn new(list: &'l DrawList, (mesh, is_fixed): (&Mesh, bool), settings: &Settings) -> Self {
         let (corners, volumes, objects, passes) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         let mut all = Self { list, corners, volumes, objects, passes };
         list.numbered().for_each(|(number, item)| all.add_object(number, item, settings.joins));
-        let levels = parallel::map(&all.volumes, |volume| all.levels(mesh, volume));
+        let levels = parallel::map(&all.volumes, |volume| all.levels((mesh, is_fixed), volume));
         for (volume, (low, high)) in all.volumes.iter_mut().zip(levels) {
             (volume.low, volume.high) = (low, high);
         }
@@ -172,13 +172,14 @@ impl<'l> Extrusion<'l> {
     }
 
     /// The levels of a volume's caps; the same one twice where there is no terrain.
-    fn levels(&self, mesh: &Mesh, volume: &Volume) -> (f64, f64) {
+    fn levels(&self, (mesh, is_fixed): (&Mesh, bool), volume: &Volume) -> (f64, f64) {
         let is_convex = volume.is_box;
         let ring = self.rings_of(volume).next().unwrap_or(&[]);
         let region = if is_convex { Region::convex(ring) } else { Region::rectangle(volume.plan) };
-        let Some((low, high)) = heights_under(mesh, &region) else {
+        let Some(under) = heights_under(mesh, &region) else {
             return (0.0, 0.0);
         };
+        let (low, high) = if is_fixed { under } else { mesh.heights().unwrap_or(under) };
         let extent = (volume.plan.max - volume.plan.min).element_sum();
         let clearance = (high - low) / 32.0 + extent / 512.0 + 1e-12 * (low.abs() + high.abs());
         (low - clearance, high + clearance)

@@ -85,7 +85,9 @@ impl<'s> Prepare<'s> {
     pub fn new(stage: &'s Stage) -> Result<Self> {
         applies(stage)?;
         let settings: Settings = stage.scene.technique.get();
-        let extrusion = Extrusion::new(&stage.draw_list, &stage.mesh, &settings);
+        // A coarse triangle may lie above or below all of the full surface in a volume.
+        let terrain = (&*stage.mesh, stage.scene.lod.is_none());
+        let extrusion = Extrusion::new(&stage.draw_list, terrain, &settings);
         if extrusion.corners.len() > u32::MAX as usize / 2 {
             return Err(Error::unsupported("more corners of volumes than this program can number")
                 .help("give the terrain a `window`"));

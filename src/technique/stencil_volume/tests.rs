@@ -81,7 +81,7 @@ fn stencil(
 
 /// The counts that all samples should have of each object, in as many bits as it is counted in.
 fn expected_of_objects(stage: &Stage, settings: &Settings, points: &[Option<[RBig; 2]>]) -> Vec<Vec<u16>> {
-    let extrusion = Extrusion::new(&stage.draw_list, &stage.mesh, settings);
+    let extrusion = Extrusion::new(&stage.draw_list, (&stage.mesh, true), settings);
     let of_object = |(number, object): (u32, &Object)| {
         let volumes = &extrusion.volumes[object.volumes.start as usize..object.volumes.end as usize];
         let bits = if extrusion.cut_of(number).is_some() { 0x7fff } else { 0xffff };

@@ -8,6 +8,9 @@
 use super::quad::{CELLS, Quad};
 use super::right_triangle::{Post, RightTriangle};
 
+/// The corner of no box over a grid.
+const NOWHERE: [i64; 2] = [i64::MAX; 2];
+
 /// How far a grid reaches, and the quad that holds it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Extent {
@@ -95,8 +98,9 @@ impl Extent {
                     .map(|side| ([at[0], at[1] + side * step], [at[0] - step, at[1] + side.min(0) * step])),
                 [false, true] => [1, -1]
                     .map(|side| ([at[0] + side * step, at[1]], [at[0] + side.min(0) * step, at[1] - step])),
-                [false, false] => [(at, [i64::MAX; 2]); 2],
+                [false, false] => [(at, NOWHERE); 2],
             };
+        let around = if n < self.top() { around } else { [(at, NOWHERE); 2] };
         let last = self.last.map(i64::from);
         let is_over = move |low: [i64; 2]| (0..2).all(|k| low[k] >= 0 && low[k] < last[k]);
         around.into_iter().filter(move |(_, low)| is_over(*low)).map(|(apex, _)| apex.map(|at| at as u32))

@@ -22,3 +22,6 @@ pub use hierarchy::Hierarchy;
 pub use mesh::{Deviation, LodMesh};
 pub use quad::{CELLS, Quad, QuadInUse};
 pub use right_triangle::{Post, RightTriangle, splits_sw_ne};
+
+#[cfg(test)]
+mod tests;

@@ -323,8 +323,14 @@ mod tests {
 
     fn data_set(rows: Vec<Row>) -> DataSet {
         let (origin, hash) = ([0.0; 2], String::new());
-        let scene =
-            SceneResult { name: "a".into(), hash, plan_space: String::new(), origin, origin_height: 0.0 };
+        let scene = SceneResult {
+            name: "a".into(),
+            hash,
+            plan_space: String::new(),
+            origin,
+            origin_height: 0.0,
+            surface_error: None,
+        };
         let (amounts, groups) = Default::default();
         DataSet { scene, grid: 9, width: 1, height: 1, amounts, groups, thesis: None, rows }
     }

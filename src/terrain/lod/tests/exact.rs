@@ -1,0 +1,135 @@
+//! Errors against exact arithmetic: heights are whole multiples of a power of two.
+
+use super::super::errors::{Errors, MIXED, NOTHING};
+use super::super::extent::Extent;
+use super::{Dice, for_each_below, posts_in};
+use crate::scene::Posts;
+use crate::space::Plan;
+use crate::terrain::lod::{Post, RightTriangle};
+use glam::DVec2;
+use std::collections::BTreeMap;
+
+/// Heights are multiples of 2^-32 metres: all 53 bits of a double are used, and sums of them round.
+const UNIT: f64 = 1.0 / 4_294_967_296.0;
+
+/// A grid of whole numbers, `None`: no data.
+struct Whole {
+    columns: u32,
+    rows: u32,
+    heights: Vec<Option<i64>>,
+}
+
+impl Whole {
+    fn new(columns: u32, rows: u32, height: &mut dyn FnMut(Post) -> Option<i64>) -> Self {
+        let heights = (0..columns * rows).map(|k| height([k % columns, k / columns])).collect();
+        Self { columns, rows, heights }
+    }
+
+    fn at(&self, [i, j]: Post) -> Option<i64> {
+        (i < self.columns && j < self.rows).then(|| self.heights[(j * self.columns + i) as usize])?
+    }
+
+    fn posts(&self) -> Posts {
+        let metres = self.heights.iter().map(|height| height.map_or(f64::NAN, |whole| whole as f64 * UNIT));
+        let size = (self.columns as usize, self.rows as usize);
+        Posts::new(size, Plan::default(), (DVec2::X, DVec2::Y), metres.collect()).unwrap()
+    }
+
+    /// Twice the triangle's area in cells, and the largest distance of a post in it times that, in units; `None` where a post is missing.
+    fn deviation(&self, triangle: &RightTriangle) -> Option<(i128, i128)> {
+        let cross = |a: [i128; 2], b: [i128; 2], p: [i128; 2]| {
+            (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
+        };
+        let corners = triangle.corners();
+        let [a, b, c] = corners.map(|post| post.map(i128::from));
+        let [za, zb, zc] = corners.map(|post| self.at(post).map(i128::from));
+        let area = cross(a, b, c);
+        let mut most = 0;
+        for post in posts_in(triangle) {
+            let (height, p) = (i128::from(self.at(post)?), post.map(i128::from));
+            let plane = zc? * cross(a, b, p) + za? * cross(b, c, p) + zb? * cross(c, a, p);
+            most = most.max((plane - height * area).abs());
+        }
+        Some((area, most))
+    }
+
+    fn has_some(&self, triangle: &RightTriangle) -> bool {
+        posts_in(triangle).into_iter().any(|post| self.at(post).is_some())
+    }
+}
+
+/// The errors that triangles must have: the exact largest distances of themselves and all below them, and what is stored.
+fn check(whole: &Whole) -> [usize; 3] {
+    let posts = whole.posts();
+    let heights = whole.heights.iter().flatten().map(|whole| *whole as f64 * UNIT);
+    let largest = heights.clone().fold(0.0, |most: f64, height| most.max(height.abs()));
+    let range = (heights.clone().fold(0.0, f64::min), heights.fold(0.0, f64::max));
+    let errors = Errors::new(&posts, range);
+    let extent = Extent::new(posts.columns(), posts.rows());
+    // From the smallest to the largest, whether it is exact and how large.
+    let mut exact: BTreeMap<RightTriangle, f64> = BTreeMap::new();
+    let mut all = Vec::new();
+    for root in extent.root().roots() {
+        for_each_below(root, &mut |triangle| {
+            if triangle.layer() > 0 && extent.holds(triangle) {
+                all.push(*triangle);
+            }
+        });
+    }
+    all.sort_by_key(RightTriangle::layer);
+    let mut seen = [0; 3];
+    for triangle in all {
+        let stored = errors.of(&triangle);
+        let Some((area, most)) = whole.deviation(&triangle) else {
+            let (kind, expected) = if whole.has_some(&triangle) { (1, MIXED) } else { (2, NOTHING) };
+            assert_eq!(stored, expected, "{triangle:?}");
+            seen[kind] += 1;
+            continue;
+        };
+        let halves = triangle.halves().into_iter().flatten();
+        let below = halves.filter_map(|half| exact.get(&half)).fold(0.0, |a: f64, b| a.max(*b));
+        // An exact quotient by a power of two, rounded once.
+        let own = most as f64 / area as f64 * UNIT;
+        let error = own.max(below);
+        exact.insert(triangle, error);
+        let scaled = f64::from(stored) / UNIT * area as f64;
+        assert!(stored.is_finite() && scaled as i128 >= most, "{triangle:?}: {stored} < {own}");
+        let most_stored = error * (1.0 + f64::from(f32::EPSILON)) + 64.0 * f64::EPSILON * largest;
+        assert!(f64::from(stored) <= most_stored, "{triangle:?}: {stored} > {error}");
+        seen[0] += 1;
+    }
+    seen
+}
+
+#[test]
+fn an_error_is_the_largest_distance_of_a_post_from_the_triangle_or_what_it_is_split_into_rounded_up() {
+    let mut dice = Dice(1);
+    for (columns, rows) in [(17, 17), (25, 20), (5, 40)] {
+        let mut height = |_: Post| Some(dice.below(1 << 45) as i64 - (1 << 44));
+        let seen = check(&Whole::new(columns, rows, &mut height));
+        assert!(seen[0] > 100 && seen[1] > 0, "{seen:?}");
+    }
+}
+
+#[test]
+fn triangles_larger_than_a_quad_have_exact_errors_too() {
+    let mut dice = Dice(2);
+    // Smooth, so that large triangles are far off and not all alike.
+    let mut height = |[i, j]: Post| {
+        let wave = crate::math::sin(f64::from(i) / 31.0) + crate::math::sin(f64::from(j) / 57.0);
+        Some((wave * 1e12) as i64 + dice.below(1 << 20) as i64)
+    };
+    let seen = check(&Whole::new(257, 140, &mut height));
+    assert!(seen[0] > 60_000, "{seen:?}");
+}
+
+#[test]
+fn a_triangle_with_a_missing_post_is_mixed_and_one_without_any_is_nothing() {
+    let mut dice = Dice(3);
+    let mut height = |[i, j]: Post| {
+        let is_hole = dice.below(40) == 0 || (20..30).contains(&i) && (3..19).contains(&j);
+        (!is_hole).then(|| dice.below(1 << 40) as i64)
+    };
+    let seen = check(&Whole::new(50, 34, &mut height));
+    assert!(seen.iter().all(|count| *count > 20), "{seen:?}");
+}
