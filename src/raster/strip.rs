@@ -9,7 +9,7 @@ use super::tile::Tile;
 use super::{KEY_ERROR, TileView};
 use crate::math::{max_f32, min_f32};
 use crate::scene::Diagonal;
-use crate::terrain::{Grid, Node};
+use crate::terrain::{Grid, Node, SKY};
 use glam::DVec3;
 
 /// Triangles handled together.
@@ -130,6 +130,9 @@ pub struct Patch {
     point_error: f32,
 }
 
+/// Points whose pictures are kept while the triangles of a leaf are drawn.
+const KNOWN: usize = 128;
+
 /// How far from a tile's middle a patch may reach, in samples.
 const GUARD: f64 = 256.0;
 /// What projecting in double precision may add to a point's error, in samples.
@@ -183,14 +186,22 @@ impl Patch {
     /// Draws numbered triangles of the tile's mesh, sixteen at a time.
     pub fn draw_triangles(&self, tile: &mut Tile, ids: std::ops::Range<u32>) {
         let (arch, mut sorted) = (tile.arch, Sorted::NOTHING);
+        // Triangles that follow one another share corners: pictures of points by the last digits of their numbers.
+        let mut known = [(SKY, (0.0, 0.0, 0.0)); KNOWN];
         for start in ids.clone().step_by(LANES) {
             let mut corners = [Points::NONE; 3];
             for id in start..ids.end.min(start + LANES as u32) {
-                let Some(triangle) = tile.mesh.triangle(id) else { continue };
-                for (points, corner) in corners.iter_mut().zip(triangle) {
-                    let h = tile.view.map_point(corner);
-                    let key = tile.key_of_depth(tile.view.frame.depth(corner));
-                    points.set((id - start) as usize, ((h.x / h.z) as f32, (h.y / h.z) as f32, key as f32));
+                let Some((numbers, triangle)) = tile.mesh.corners(id).zip(tile.mesh.triangle(id)) else {
+                    continue;
+                };
+                for (points, (number, corner)) in corners.iter_mut().zip(numbers.into_iter().zip(triangle)) {
+                    let place = &mut known[number as usize % KNOWN];
+                    if place.0 != number {
+                        let h = tile.view.map_point(corner);
+                        let key = tile.key_of_depth(tile.view.frame.depth(corner));
+                        *place = (number, ((h.x / h.z) as f32, (h.y / h.z) as f32, key as f32));
+                    }
+                    points.set((id - start) as usize, place.1);
                 }
             }
             let sixteen = [corners[0].from::<0>(), corners[1].from::<0>(), corners[2].from::<0>()];

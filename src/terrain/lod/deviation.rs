@@ -7,6 +7,7 @@
 use super::right_triangle::{Post, RightTriangle};
 use crate::math;
 use crate::scene::Posts;
+use std::ops::Range;
 
 /// The distance of a triangle from the posts in it, and which there are.
 #[derive(Debug, Clone, Copy, Default)]
@@ -67,6 +68,22 @@ impl Slope {
     }
 }
 
+/// The deviation of a triangle of layer 1 or 2 whose posts are all there: besides its corners these are the middles of its longest side, and of
+/// all three.
+#[inline]
+fn of_small(triangle: &RightTriangle, height: impl Fn(Post) -> f64) -> f64 {
+    let [a, l, r] = triangle.corners();
+    let [za, zl, zr] = [a, l, r].map(&height);
+    let off = |(p, zp): (Post, f64), (q, zq): (Post, f64)| {
+        (0.5 * (zp + zq) - height([(p[0] + q[0]) / 2, (p[1] + q[1]) / 2])).abs()
+    };
+    let longest = off((l, zl), (r, zr));
+    if triangle.layer() == 1 {
+        return longest;
+    }
+    math::max(math::max(off((a, za), (l, zl)), off((a, za), (r, zr))), longest)
+}
+
 /// The first and last column of a row's posts in a triangle.
 #[inline(always)]
 fn columns(triangle: &RightTriangle, row: u32) -> (u32, u32) {
@@ -99,26 +116,68 @@ pub(super) fn deviation(posts: &Posts, triangle: &RightTriangle, window: &Window
     let height = |[i, j]: Post| posts.heights()[j as usize * posts.columns() + i as usize];
     let is_inside = (east as usize) < posts.columns() && (north as usize) < posts.rows();
     let heights = if is_inside { corners.map(height) } else { [f64::NAN; 3] };
+    if is_inside && window.is_whole && triangle.layer() < 3 {
+        return Deviation { most: of_small(triangle, height), some_there: true, some_missing: false };
+    }
     let slope = Slope::of(triangle, heights);
     // Heights so large that their differences are not finite are as far as can be.
     let most = if slope.by.iter().all(|by| by.is_finite()) { 0.0 } else { f64::INFINITY };
-    let mut found = Deviation { most, some_missing: !is_inside, some_there: false };
-    for row in south.max(window.low[1])..=north.min(window.high[1]) {
-        let (first, last) = columns(triangle, row);
-        let (first, last) = (first.max(window.low[0]), last.min(window.high[0]));
-        if west > window.high[0] || first > last {
-            continue;
-        }
-        let start = row as usize * posts.columns();
-        let line = &posts.heights()[start + first as usize..=start + last as usize];
-        if is_inside && window.is_whole {
-            found.some_there = true;
-            found.most = math::max(farthest(line, slope.at(first, row), slope.by[0]), found.most);
-        } else {
-            found = found.joined(sparse(line, slope.at(first, row), slope.by[0]));
-        }
+    let found = Deviation { most, some_missing: !is_inside, some_there: false };
+    let rows = south.max(window.low[1])..north.min(window.high[1]) + 1;
+    if west > window.high[0] || rows.is_empty() {
+        return found;
     }
-    found
+    let over = Over { posts, triangle, window, slope, rows };
+    if is_inside && window.is_whole {
+        pulp::Arch::new().dispatch(Whole { over, found })
+    } else {
+        over.lines().fold(found, |found, (line, start)| found.joined(sparse(line, start, over.slope.by[0])))
+    }
+}
+
+/// The posts of a window in a triangle, row by row.
+struct Over<'a> {
+    posts: &'a Posts,
+    triangle: &'a RightTriangle,
+    window: &'a Window,
+    slope: Slope,
+    rows: Range<u32>,
+}
+
+impl Over<'_> {
+    /// Of each row the heights, and the triangle's height at the first of them.
+    #[inline(always)]
+    fn lines(&self) -> impl Iterator<Item = (&[f64], f64)> {
+        self.rows.clone().filter_map(|row| {
+            let (first, last) = columns(self.triangle, row);
+            let (first, last) = (first.max(self.window.low[0]), last.min(self.window.high[0]));
+            let start = row as usize * self.posts.columns();
+            (first <= last).then(|| {
+                let line = &self.posts.heights()[start + first as usize..=start + last as usize];
+                (line, self.slope.at(first, row))
+            })
+        })
+    }
+}
+
+/// [`farthest`] of all lines, compiled for the widest vectors of the machine at hand.
+struct Whole<'a> {
+    over: Over<'a>,
+    found: Deviation,
+}
+
+impl pulp::WithSimd for Whole<'_> {
+    type Output = Deviation;
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) -> Deviation {
+        let mut found = self.found;
+        for (line, start) in self.over.lines() {
+            found.some_there = true;
+            found.most = math::max(farthest(line, start, self.over.slope.by[0]), found.most);
+        }
+        found
+    }
 }
 
 /// Posts that are looked at together.

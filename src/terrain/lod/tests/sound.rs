@@ -144,7 +144,8 @@ fn a_mesh_of_borrowed_vertices_has_no_cracks_and_no_vertex_of_quads_that_are_not
     let hierarchy = Hierarchy::new(grid(300, 200, with_holes)).unwrap();
     let mut dice = Dice(5);
     let (mut borrowed, mut fine) = (0, 0);
-    for (wanted, share) in [(Detail::ErrorPx(0.5), 0.3), (Detail::Level(0), 0.4), (Detail::ErrorPx(0.1), 0.6)]
+    for (wanted, share) in
+        [(Detail::ErrorPx(0.5), 0.15), (Detail::Level(0), 0.12), (Detail::ErrorPx(0.1), 0.3)]
     {
         let mesh = hierarchy.mesh_for(&view(&mut dice), &LevelOfDetail { detail: wanted, borrow: share });
         check(&hierarchy, &mesh);
