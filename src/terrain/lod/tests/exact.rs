@@ -94,6 +94,7 @@ fn check(whole: &Whole) -> [usize; 3] {
         exact.insert(triangle, error);
         let scaled = f64::from(stored) / UNIT * area as f64;
         assert!(stored.is_finite() && scaled as i128 >= most, "{triangle:?}: {stored} < {own}");
+        assert!(f64::from(stored) >= error, "{triangle:?}: {stored} < {error} of what is below");
         let most_stored = error * (1.0 + f64::from(f32::EPSILON)) + 64.0 * f64::EPSILON * largest;
         assert!(f64::from(stored) <= most_stored, "{triangle:?}: {stored} > {error}");
         seen[0] += 1;
