@@ -9,7 +9,7 @@ use crate::scene::{LevelOfDetail, Scene, Surface};
 use crate::space::ViewFrame;
 use crate::terrain::Mesh;
 use crate::terrain::lod::Hierarchy;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// A scene ready to be drawn.
 #[derive(Debug)]
@@ -30,8 +30,11 @@ struct ByView {
     hierarchy: Hierarchy,
     wanted: LevelOfDetail,
     /// The last one, so that all that draw a view take the same; no result depends on it.
-    last: Mutex<Option<(ViewFrame, Arc<Mesh>)>>,
+    last: Mutex<Last>,
 }
+
+/// A view and its mesh.
+type Last = Option<(ViewFrame, Arc<Mesh>)>;
 
 impl Stage {
     /// Decides what is painted and triangulates the terrain.
@@ -90,15 +93,25 @@ impl ByView {
     }
 
     fn mesh_for(&self, view: &ViewFrame) -> Arc<Mesh> {
-        // A thread that failed while it held the lock has left what was there.
-        let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
-        match &*last {
-            Some((seen, mesh)) if seen == view => Arc::clone(mesh),
-            _ => {
-                let mesh = Arc::new(Mesh::Lod(Box::new(self.hierarchy.mesh_for(view, &self.wanted))));
-                *last = Some((*view, Arc::clone(&mesh)));
-                mesh
-            }
+        if let Some(kept) = kept(&self.last(), view) {
+            return kept;
         }
+        // Nobody waits for a mesh: two threads may make the same one, and then take the first.
+        let mesh = Arc::new(Mesh::Lod(Box::new(self.hierarchy.mesh_for(view, &self.wanted))));
+        let mut last = self.last();
+        kept(&last, view).unwrap_or_else(|| {
+            *last = Some((*view, Arc::clone(&mesh)));
+            mesh
+        })
     }
+
+    /// The last mesh; a thread that failed while it held the lock has left what was there.
+    fn last(&self) -> MutexGuard<'_, Last> {
+        self.last.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// The mesh that is kept, if it is this view's.
+fn kept(last: &Last, view: &ViewFrame) -> Option<Arc<Mesh>> {
+    last.as_ref().filter(|(seen, _)| seen == view).map(|(_, mesh)| Arc::clone(mesh))
 }

@@ -37,6 +37,7 @@ encoding = "terrarium"
 band = 1
 nodata = -9999.0
 diagonal = "alternating"
+lod = { error_px = 1.5, borrow = 0.25 }
 vertical_scale = 1.5
 color = "#c8b89a"
 shade = "hillshade"
@@ -123,7 +124,7 @@ terrain = { generate = { kind = "ramp", slope_deg = 20, posts = [9, 9], cell_m =
 "#,
     r#"
 schema = 1
-terrain.generate = { kind = "fbm", seed = 3, wavelength_m = 900, octaves = 5 }
+terrain = { generate = { kind = "fbm", seed = 3, wavelength_m = 900, octaves = 5 }, diagonal = "alternating", lod = { level = 3 } }
 "#,
     r##"
 schema = 1

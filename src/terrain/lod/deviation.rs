@@ -68,22 +68,6 @@ impl Slope {
     }
 }
 
-/// The deviation of a triangle of layer 1 or 2 whose posts are all there: besides its corners these are the middles of its longest side, and of
-/// all three.
-#[inline]
-fn of_small(triangle: &RightTriangle, height: impl Fn(Post) -> f64) -> f64 {
-    let [a, l, r] = triangle.corners();
-    let [za, zl, zr] = [a, l, r].map(&height);
-    let off = |(p, zp): (Post, f64), (q, zq): (Post, f64)| {
-        (0.5 * (zp + zq) - height([(p[0] + q[0]) / 2, (p[1] + q[1]) / 2])).abs()
-    };
-    let longest = off((l, zl), (r, zr));
-    if triangle.layer() == 1 {
-        return longest;
-    }
-    math::max(math::max(off((a, za), (l, zl)), off((a, za), (r, zr))), longest)
-}
-
 /// The first and last column of a row's posts in a triangle.
 #[inline(always)]
 fn columns(triangle: &RightTriangle, row: u32) -> (u32, u32) {
@@ -105,7 +89,7 @@ fn columns(triangle: &RightTriangle, row: u32) -> (u32, u32) {
     (low, high)
 }
 
-/// The deviation of a triangle over the posts of a window.
+/// The deviation of a triangle over the posts of a window; of the smallest that can be split, what their halves' deviations do not tell.
 pub(super) fn deviation(posts: &Posts, triangle: &RightTriangle, window: &Window) -> Deviation {
     let corners = triangle.corners();
     let range = |k: usize| {
@@ -116,8 +100,10 @@ pub(super) fn deviation(posts: &Posts, triangle: &RightTriangle, window: &Window
     let height = |[i, j]: Post| posts.heights()[j as usize * posts.columns() + i as usize];
     let is_inside = (east as usize) < posts.columns() && (north as usize) < posts.rows();
     let heights = if is_inside { corners.map(height) } else { [f64::NAN; 3] };
-    if is_inside && window.is_whole && triangle.layer() < 3 {
-        return Deviation { most: of_small(triangle, height), some_there: true, some_missing: false };
+    if let Some(middle) = triangle.middle().filter(|_| is_inside && window.is_whole && triangle.layer() < 3) {
+        // Other posts of these are corners, or such middles of their halves.
+        let most = (0.5 * (heights[1] + heights[2]) - height(middle)).abs();
+        return Deviation { most, some_there: true, some_missing: false };
     }
     let slope = Slope::of(triangle, heights);
     // Heights so large that their differences are not finite are as far as can be.

@@ -13,7 +13,7 @@ use crate::scene::Diagonal;
 use crate::space::World;
 use crate::terrain::{Bounds, Grid};
 use glam::DVec3;
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 /// All restricted quadtree triangulations of a grid.
 #[derive(Debug)]
@@ -21,11 +21,11 @@ pub struct Hierarchy {
     grid: Arc<Grid>,
     extent: Extent,
     heights: (f64, f64),
-    errors: OnceLock<Errors>,
+    errors: Errors,
 }
 
 impl Hierarchy {
-    /// That of a grid; the errors of triangles are found when they are first asked for.
+    /// That of a grid, with the errors of its triangles.
     ///
     /// # Errors
     /// When the grid's diagonals do not alternate, or both its sides have fewer than 129 posts.
@@ -43,7 +43,8 @@ impl Hierarchy {
         }
         let extent = Extent::new(columns, rows);
         let heights = grid.heights();
-        Ok(Self { grid, extent, heights, errors: OnceLock::new() })
+        let errors = Errors::new(grid.posts(), heights);
+        Ok(Self { grid, extent, heights, errors })
     }
 
     /// The grid.
@@ -58,12 +59,12 @@ impl Hierarchy {
 
     /// The errors of its triangles.
     pub(super) fn errors(&self) -> &Errors {
-        self.errors.get_or_init(|| Errors::new(self.grid.posts(), self.heights))
+        &self.errors
     }
 
     /// Bytes held beside the grid.
     pub fn bytes(&self) -> usize {
-        self.errors.get().map_or(0, Errors::bytes)
+        self.errors.bytes()
     }
 
     /// The box around a triangle and what of the full surface lies over it.
