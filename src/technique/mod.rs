@@ -10,6 +10,7 @@
 pub mod clipmap;
 mod declaration;
 pub mod dynamic_line;
+mod geometry_overlay;
 pub mod inverse_projection;
 pub mod static_decal;
 pub mod stencil_volume;

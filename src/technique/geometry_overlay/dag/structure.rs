@@ -1,0 +1,180 @@
+//! The structures, named as the paper's (3.1).
+//!
+//! Input: chains, a quad and its layers. Output: [`PolylineLods`]. Refuses: nothing.
+
+use super::cells::{Block, Cells, Layers};
+use super::chains::{Chains, GridPoint};
+use super::climb::climb;
+use super::crossing::Crossing;
+use super::trace::trace;
+use crate::terrain::lod::{Post, RightTriangle};
+use std::ops::Range;
+
+/// The number of no clipping and of no crossing.
+pub(super) const NONE: u32 = u32::MAX;
+
+/// The polylines that cross a quad (`polyline_LODs_t`).
+#[derive(Debug, PartialEq)]
+pub struct PolylineLods {
+    /// The quad's block of vertices.
+    pub block: Block,
+    /// Those of which something lies in the quad, in the chains' order.
+    pub polylines: Vec<PolylineLod>,
+}
+
+/// A polyline that crosses a quad (`polyline_LOD_t`).
+#[derive(Debug, PartialEq)]
+pub struct PolylineLod {
+    /// Its number among the chains.
+    pub chain: u32,
+    /// What of it lies in the quad, in its order.
+    pub quad_clippings: Vec<QuadClipping>,
+}
+
+/// What of a polyline lies in a quad from an entrance (or its start) to an exit, or its end (`quad_clipping_t`).
+#[derive(Debug, PartialEq)]
+pub struct QuadClipping {
+    /// The number, in the chain, of the first of its vertices.
+    pub first_vertex: u32,
+    /// Its vertices, in grid coordinates: the projectors of 3.3.
+    pub vertices: Vec<GridPoint>,
+    /// Where it crosses edges of the smallest triangles, in its order; the entrance and the exit too.
+    pub crossings: Vec<Crossing>,
+    /// Its clippings: those of the smallest triangles first, in the order in which it visits them, then layer by layer (3.2).
+    pub triangle_clippings: Vec<TriangleClipping>,
+}
+
+/// What of a polyline lies in a triangle from an entrance to an exit (`triangle_clipping_t`).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct TriangleClipping {
+    /// The triangle.
+    pub triangle: RightTriangle,
+    /// If this is a vertex of the mesh in use, the first of two `next` follows, otherwise the second. Without a second it says nothing.
+    pub decision_vertex: Post,
+    /// Of the quad clipping's vertices, the first and the one after the last.
+    pub(super) vertices: [u32; 2],
+    /// Entrance and exit among the quad clipping's crossings; [`NONE`] where the polyline starts or ends.
+    pub(super) crossings: [u32; 2],
+    pub(super) next: [u32; 2],
+    pub(super) parent: u32,
+    /// The clipping of a smallest triangle that it ends with: whose exit edge lies in its own, or that holds the polyline's end. Of a smallest
+    /// triangle's, itself.
+    pub finest_exit_descendant: u32,
+}
+
+/// A number that may be none's.
+fn some(number: u32) -> Option<u32> {
+    (number != NONE).then_some(number)
+}
+
+impl TriangleClipping {
+    /// The clippings of which one follows (`nextTriangle`): the first unless the second is there and [`Self::decision_vertex`] is no vertex
+    /// of the mesh in use.
+    #[inline]
+    pub fn next(&self) -> [Option<u32>; 2] {
+        self.next.map(some)
+    }
+
+    /// The clipping of the triangle that this one is a half of; `None` in the coarsest layer.
+    #[inline]
+    pub fn parent(&self) -> Option<u32> {
+        some(self.parent)
+    }
+
+    /// Which of the quad clipping's vertices it has.
+    pub fn vertices(&self) -> Range<usize> {
+        self.vertices[0] as usize..self.vertices[1] as usize
+    }
+
+    /// Its entrance and its exit among the quad clipping's crossings; `None` where the polyline starts or ends in it.
+    pub fn crossings(&self) -> [Option<u32>; 2] {
+        self.crossings.map(some)
+    }
+
+    /// How many points it has.
+    pub fn point_count(&self) -> usize {
+        self.vertices().len() + self.crossings().iter().flatten().count()
+    }
+
+    /// Goes on as far as a part of it.
+    pub(super) fn take_end_of(&mut self, part: &Self) {
+        self.vertices[1] = part.vertices[1];
+        self.crossings[1] = part.crossings[1];
+        self.finest_exit_descendant = part.finest_exit_descendant;
+    }
+}
+
+impl PolylineLods {
+    /// Cuts chains at the triangles of a quad (3.2).
+    pub fn new(block: Block, layers: Layers, chains: &Chains) -> Self {
+        let cells = Cells::new(block, layers);
+        let count = match layers {
+            Layers::All => 2 * (block.square.side / block.stride).ilog2() + 1,
+            Layers::Smallest(_) => 1,
+        };
+        let mut polylines: Vec<PolylineLod> = Vec::new();
+        for (chain, start, points) in chains.near(block.square) {
+            let sections = trace(&cells, points);
+            let clippings = sections.into_iter().map(|section| {
+                let vertices = section.triangles.last().map_or(0, |(_, end)| *end as usize);
+                QuadClipping {
+                    first_vertex: start + section.first as u32,
+                    vertices: points[section.first..][..vertices].to_vec(),
+                    triangle_clippings: climb(&section, count),
+                    crossings: section.crossings,
+                }
+            });
+            let clippings: Vec<QuadClipping> = clippings.collect();
+            match polylines.last_mut() {
+                Some(last) if last.chain == chain => last.quad_clippings.extend(clippings),
+                _ if clippings.is_empty() => {}
+                _ => polylines.push(PolylineLod { chain, quad_clippings: clippings }),
+            }
+        }
+        Self { block, polylines }
+    }
+}
+
+impl QuadClipping {
+    /// The points of a clipping in its triangle's plane, in order: grid coordinates and height. None where a corner's height is NaN (a hole).
+    ///
+    /// A crossing is as high as the edge there, whichever of its two triangles asks.
+    pub fn points(
+        &self,
+        clipping: &TriangleClipping,
+        height: impl Fn(Post) -> f64,
+    ) -> impl Iterator<Item = [f64; 3]> {
+        let triangle = clipping.triangle;
+        let [apex, left, right] = triangle.corners().map(&height);
+        let is_whole = [apex, left, right].iter().all(|z| !z.is_nan());
+        let heights = move |post: Post| match post {
+            post if post == triangle.apex => apex,
+            post if post == triangle.left => left,
+            _ => right,
+        };
+        let [entrance, exit] = clipping.crossings().map(move |number| {
+            let crossing = self.crossings.get(number? as usize)?;
+            Some(on_edge(crossing, crossing.direction.edge_of(&triangle)?, heights))
+        });
+        let vertices = self.vertices[clipping.vertices()].iter().map(move |&[x, y]| {
+            let [east, north] = [x - f64::from(triangle.apex[0]), y - f64::from(triangle.apex[1])];
+            // Legs at a right angle, as long as powers of two or diagonals of such squares.
+            let share = |end: Post| {
+                let [u, v] = [0, 1].map(|k| f64::from(end[k]) - f64::from(triangle.apex[k]));
+                (u * east + v * north) / (u * u + v * v)
+            };
+            [x, y, apex + share(triangle.left) * (left - apex) + share(triangle.right) * (right - apex)]
+        });
+        let all = entrance.into_iter().chain(vertices).chain(exit);
+        all.filter(move |_| is_whole)
+    }
+}
+
+/// A crossing with its height over an edge.
+fn on_edge(crossing: &Crossing, [low, high]: [Post; 2], height: impl Fn(Post) -> f64) -> [f64; 3] {
+    let k = usize::from(low[0] == high[0]);
+    let [from, to] = [low, high].map(|end| f64::from(end[k]));
+    let (start, end) = (height(low), height(high));
+    let [x, y] = crossing.at;
+    [x, y, start + (crossing.at[k] - from) / (to - from) * (end - start)]
+}
