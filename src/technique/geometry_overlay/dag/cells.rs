@@ -2,9 +2,9 @@
 //!
 //! Input: a quad, how its cells are split. Output: [`Cells`]. Refuses: nothing.
 
-use super::chains::GridPoint;
+use super::grid::{Block, GridPoint};
 use super::side::{is_left_of_edge, is_left_of_way};
-use crate::terrain::lod::{Post, Quad, RightTriangle, splits_sw_ne};
+use crate::terrain::lod::{Post, RightTriangle, splits_sw_ne};
 
 /// Which triangles a quad has.
 #[derive(Clone, Copy)]
@@ -14,61 +14,6 @@ pub enum Layers<'a> {
     /// The smallest alone, of a grid of which no level-of-detail mesh is made: whether the cell at column and row is split from south-west to
     /// north-east.
     Smallest(&'a dyn Fn([u32; 2]) -> bool),
-}
-
-/// A square of the grid, at a multiple of its side.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Square {
-    /// How long its sides are, posts.
-    pub side: u32,
-    /// Its south-western corner.
-    pub low: Post,
-}
-
-/// A square with cells: a quad's block of vertices.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Block {
-    /// All of it.
-    pub square: Square,
-    /// How far apart its vertices are, posts.
-    pub stride: u32,
-}
-
-impl From<Quad> for Square {
-    fn from(quad: Quad) -> Self {
-        Self { side: quad.side(), low: quad.corners()[0] }
-    }
-}
-
-impl From<Quad> for Block {
-    fn from(quad: Quad) -> Self {
-        Self { square: quad.into(), stride: quad.stride() }
-    }
-}
-
-impl Square {
-    /// Its south-western and its north-eastern corner.
-    pub fn corners(&self) -> [Post; 2] {
-        [self.low, self.low.map(|at| at + self.side)]
-    }
-
-    /// The square of such a side that holds a triangle, which is no larger.
-    #[inline]
-    pub fn around(side: u32, triangle: &RightTriangle) -> Self {
-        // The middle of its corners is no point of a border.
-        let [a, b, c] = triangle.corners();
-        let low = [0, 1].map(|k| {
-            let sum = u64::from(a[k]) + u64::from(b[k]) + u64::from(c[k]);
-            (sum / (3 * u64::from(side))) as u32 * side
-        });
-        Self { side, low }
-    }
-
-    /// Whether a moved point lies in it.
-    fn holds(&self, point: GridPoint) -> bool {
-        let [low, high] = self.corners().map(|corner| corner.map(f64::from));
-        (0..2).all(|k| low[k] <= point[k] && point[k] < high[k])
-    }
 }
 
 /// A triangle, and which of its edges (0 from the apex, then counter-clockwise).
@@ -127,7 +72,7 @@ impl<'a> Cells<'a> {
             let (low, high) = (f64::from(low[k]), f64::from(high[k]));
             (p[k] < low && q[k] < low) || (p[k] >= high && q[k] >= high)
         };
-        if p == q || is_beyond(0) || is_beyond(1) {
+        if is_beyond(0) || is_beyond(1) {
             return None;
         }
         let corners = [low, [high[0], low[1]], high, [low[0], high[1]]];

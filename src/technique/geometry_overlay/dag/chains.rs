@@ -2,13 +2,9 @@
 //!
 //! Input: points in grid coordinates. Output: [`Chains`]. Refuses: nothing.
 
+use super::grid::{GridPoint, Square};
 use crate::index::BoxTree;
 use crate::space::{Plan, PlanBox};
-
-use super::cells::Square;
-
-/// A place in grid coordinates: columns east and rows north of the south-western post.
-pub type GridPoint = [f64; 2];
 
 /// Segments of which it is known together whether they may meet a square.
 const SEGMENTS: usize = 32;

@@ -2,7 +2,7 @@
 //!
 //! Input: the ends of a segment and of an edge. Output: [`Crossing`]. Refuses: nothing.
 
-use super::chains::GridPoint;
+use super::grid::GridPoint;
 use crate::predicate::Expansion;
 use crate::terrain::lod::{Post, RightTriangle};
 

@@ -15,11 +15,17 @@
 //! if its apex is a vertex of the mesh in use, otherwise the one it is a half of. So a leg leads one layer finer or to the same layer, a longest side to
 //! the same layer or one layer coarser. A run of pieces in one triangle without a gap is one clipping; a chain that comes back makes another.
 
+mod arrays;
+mod blg;
+mod borrowed;
+mod build;
 mod cells;
 mod chains;
 mod climb;
 mod crossing;
+mod grid;
 mod side;
+mod storage;
 mod structure;
 mod trace;
 mod traverse;
@@ -27,8 +33,13 @@ mod traverse;
 #[cfg(test)]
 mod tests;
 
-pub use cells::{Block, Layers, Square};
-pub use chains::{Chain, Chains, GridPoint};
+pub use arrays::Arrays;
+pub use blg::BlgTree;
+pub use borrowed::{Borrowed, SubPolylineLod, SubPolylineLods, SubQuadClipping};
+pub use cells::Layers;
+pub use chains::{Chain, Chains};
 pub use crossing::{Crossing, Direction};
+pub use grid::{Block, GridPoint, Square};
+pub use storage::{Bytes, Counts, PointForm, Storage, StoredLayers};
 pub use structure::{PolylineLod, PolylineLods, QuadClipping, TriangleClipping};
 pub use traverse::Cost;

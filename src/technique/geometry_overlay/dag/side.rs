@@ -2,7 +2,7 @@
 //!
 //! Posts stay where they are. So no moved point lies on an edge, and no post on the line through two moved points.
 
-use super::chains::GridPoint;
+use super::grid::GridPoint;
 use crate::predicate::orient2d;
 use crate::space::Plan;
 use crate::terrain::lod::Post;

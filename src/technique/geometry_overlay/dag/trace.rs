@@ -3,8 +3,8 @@
 //! Input: the points of a part of a chain, the quad's cells. Output: [`Section`]s, each with one entrance and one exit. Refuses: nothing.
 
 use super::cells::{AtEdge, Cells, edge_of};
-use super::chains::GridPoint;
 use super::crossing::Crossing;
+use super::grid::GridPoint;
 use super::side::{is_left_of_edge, is_left_of_way};
 use crate::terrain::lod::RightTriangle;
 

@@ -46,9 +46,14 @@ impl QuadClipping {
         cost
     }
 
+    /// How many clippings over smallest triangles there are: the first ones.
+    pub(super) fn finest_count(&self) -> u32 {
+        self.triangle_clippings.last().map_or(0, |last| last.finest_exit_descendant + 1)
+    }
+
     /// The clipping over a triangle in use that holds one over a smallest triangle: climbs to the first with enabled vertices. (The apex is
     /// enabled after the ends of the longest side.)
-    fn in_use(
+    pub(super) fn in_use(
         &self,
         finest: u32,
         has_vertex: impl Fn(Post) -> bool,
@@ -68,7 +73,7 @@ impl QuadClipping {
     }
 
     /// Which of the next clippings follows.
-    fn following(
+    pub(super) fn following(
         &self,
         clipping: &TriangleClipping,
         has_vertex: impl Fn(Post) -> bool,

@@ -1,6 +1,6 @@
 //! Chains cut at the triangles of a mesh in rational arithmetic, one triangle and one segment after the other.
 
-use super::super::chains::GridPoint;
+use super::super::grid::GridPoint;
 use crate::terrain::lod::{Post, RightTriangle};
 use dashu::integer::IBig;
 use dashu::rational::RBig;
@@ -95,14 +95,14 @@ pub fn cut(chain: &[GridPoint], triangles: &BTreeSet<RightTriangle>) -> Vec<Piec
             let [p, q] = [exact(ends[0]), exact(ends[1])];
             Some([0, 1].map(|k| (p[k].clone() + (q[k].clone() - p[k].clone()) * t.clone()).to_f64().value()))
         };
-        for ([low, high], triangle) in spans {
+        for ([[_, low], [moved_high, high]], triangle) in spans {
             let mut piece = here.take().unwrap_or_else(|| Piece {
                 entrance: at(&low),
                 vertices: vec![],
                 ..first(triangle)
             });
             assert_eq!(piece.triangle, *triangle);
-            if high == RBig::ONE {
+            if moved_high == RBig::ONE {
                 piece.vertices.push(k + 1);
                 here = Some(piece);
             } else {
@@ -115,18 +115,20 @@ pub fn cut(chain: &[GridPoint], triangles: &BTreeSet<RightTriangle>) -> Vec<Piec
     pieces
 }
 
-/// The parameters of a moved segment between which it lies in a triangle. They are as near to those of the segment as the step is small.
-fn span(triangle: &RightTriangle, ends: &[GridPoint]) -> Option<[RBig; 2]> {
-    let [from, to] = [sides(triangle, &moved(ends[0])), sides(triangle, &moved(ends[1]))];
-    let (mut low, mut high) = (RBig::ZERO, RBig::ONE);
-    for (from, to) in from.into_iter().zip(to) {
+/// The parameters of a moved segment between which it lies in a triangle, each with that of the segment that is not moved.
+fn span(triangle: &RightTriangle, ends: &[GridPoint]) -> Option<[[RBig; 2]; 2]> {
+    let [from, to] = [0, 1].map(|k| sides(triangle, &moved(ends[k])));
+    let start = sides(triangle, &exact(ends[0]));
+    let (mut low, mut high) = ([RBig::ZERO, RBig::ZERO], [RBig::ONE, RBig::ONE]);
+    for ((from, to), start) in from.into_iter().zip(to).zip(start) {
         if from <= RBig::ZERO && to <= RBig::ZERO {
             return None;
         }
         if from == to {
             continue;
         }
-        let at = from.clone() / (from.clone() - to.clone());
+        let change = from.clone() - to.clone();
+        let at = [from.clone() / change.clone(), start / change];
         if to > from { low = low.max(at) } else { high = high.min(at) }
     }
     (low < high).then_some([low, high])
