@@ -78,11 +78,9 @@ impl<'a> Cells<'a> {
         let corners = [low, [high[0], low[1]], high, [low[0], high[1]]];
         let is_left = |post: Post| is_left_of_way(p, q, post);
         let lefts = corners.map(is_left);
+        // As not both lie beyond the same side, neither has p the square behind it nor q before it: the line's entrance is the way's.
         let k = (0..4).find(|&k| lefts[k] && !lefts[(k + 1) % 4])?;
         let side = [corners[k], corners[(k + 1) % 4]];
-        if is_left_of_edge(side, p) || !is_left_of_edge(side, q) {
-            return None;
-        }
         // Of the posts of this side the first ones are on the left of the way.
         let post = |n: u32| {
             [0, 1].map(|k| match side[1][k].cmp(&side[0][k]) {

@@ -1,16 +1,12 @@
 //! The structure and its walks against cuts in rational arithmetic (`brute_force`), over quads of 8 x 8 cells.
 
-#[path = "tests/borrowing.rs"]
 mod borrowing;
-#[path = "tests/brute_force.rs"]
 mod brute_force;
-#[path = "tests/points.rs"]
 mod points;
-#[path = "tests/tables.rs"]
 mod tables;
 
 use super::*;
-use crate::terrain::lod::{Post, RightTriangle};
+use crate::terrain::lod::{Post, Quad, RightTriangle};
 use brute_force::{Mesh, Piece, cut};
 use proptest::prelude::*;
 use std::collections::BTreeSet;
@@ -140,7 +136,7 @@ proptest! {
 
     #[test]
     fn algorithm_1_draws_what_the_cut_at_the_triangles_in_use_is(
-        (stride, chain) in (0..2u32).prop_flat_map(|k| (Just(1 << k), chain([SIDE << k, 2 * SIDE << k], SIDE << k))),
+        (stride, chain) in (0..2u32).prop_flat_map(|k| (Just(1 << k), chain([SIDE << k, (2 * SIDE) << k], SIDE << k))),
         splits in splits(),
     ) {
         let block = block(1, 2, stride);
@@ -210,13 +206,26 @@ fn chains_without_length_and_along_edges_and_over_corners_have_their_pieces() {
 }
 
 #[test]
+fn a_point_over_a_quad_of_129_posts_a_side_is_covered_by_15_triangles() {
+    let quad = Quad { level: 1, x: 1, y: 0 };
+    let lods = lods(quad.into(), &[vec![[300.7, 100.1]]]);
+    let clippings = &lods.polylines[0].quad_clippings[0].triangle_clippings;
+    let layers: Vec<u32> = clippings.iter().map(|clipping| clipping.triangle.layer()).collect();
+    assert_eq!(layers, (2..17).collect::<Vec<_>>());
+    assert!(quad.roots().contains(&clippings[14].triangle));
+    assert!(clippings.iter().all(|clipping| clipping.vertices() == (0..1)));
+}
+
+#[test]
 fn a_long_chain_is_the_same_line_however_few_of_its_parts_are_near() {
     // In and out of the quad, by steps of many lengths.
     let at = |k: u32| [k * k % 61, k * k * k % 67].map(|n| f64::from(n) * 0.31 - 6.0);
     let chain: Vec<GridPoint> = (0..150).map(|k| at(k / 3 * 2 + k % 3)).collect();
-    // The first thirds of hundreds of points lie far away.
-    let far = |k: usize| if (40..110).contains(&k) { 100.0 } else { 0.0 };
-    let chain: Vec<GridPoint> = chain.iter().enumerate().map(|(k, [x, y])| [x + far(k), *y]).collect();
+    // Of its parts of 32 segments the third lies far away, with the last point of the second and the first of the fourth, whose neighbours
+    // lie in the quad.
+    let far = |k: usize| if (64..97).contains(&k) { 100.0 } else { 0.0 };
+    let mut chain: Vec<GridPoint> = chain.iter().enumerate().map(|(k, [x, y])| [x + far(k), *y]).collect();
+    (chain[63], chain[97]) = ([3.3, 4.4], [5.5, 2.2]);
     let mesh = uniform(block(0, 0, 1), 2);
     let found = drawn(&lods(block(0, 0, 1), std::slice::from_ref(&chain)), &mesh.vertices());
     assert_eq!(found, cut(&chain, &mesh.triangles));
