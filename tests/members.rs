@@ -11,7 +11,7 @@ use drapery::technique::clipmap::{self, Overlaps, PolygonRaster};
 use drapery::technique::inverse_projection::{self, PointInPolygon};
 use drapery::technique::static_decal;
 use drapery::technique::stencil_volume::{self, Grouping};
-use drawing::{frame_of, kinds_for, loaded, truth_of};
+use drawing::{frame_of, kinds_of_footprints_for, loaded, truth_of};
 use proptest::prelude::*;
 
 const SIDE: usize = 40;
@@ -108,7 +108,7 @@ fn check_layer(
     for technique in settings() {
         let stage = stage(vec![layer.clone()], &technique);
         let truth = truth_of(&stage).image();
-        let kinds = kinds_for(&stage).into_iter();
+        let kinds = kinds_of_footprints_for(&stage).into_iter();
         let images: Vec<_> = kinds.map(|kind| (kind.name(), frame_of(kind, &stage, &[]).image)).collect();
         for (name, image) in images.iter().map(|(name, image)| (*name, image)).chain([("truth", &truth)]) {
             for (x, y) in (0..SIDE).flat_map(|y| (0..SIDE).map(move |x| (x, y))) {
@@ -172,7 +172,7 @@ fn members_side_by_side_are_painted_without_a_seam() {
         (0..25).map(|k| vec![square(place(k).0 * 62.0 + 1.25, place(k).1 * 62.0 + 0.75, 31.0)]).collect();
     for technique in settings() {
         let stage = stage(vec![layer(members.clone(), filled(Rule::EvenOdd, 0.5))], &technique);
-        for kind in kinds_for(&stage) {
+        for kind in kinds_of_footprints_for(&stage) {
             let image = frame_of(kind, &stage, &[]).image;
             let inside = (10..30).flat_map(|y| (10..30).map(move |x| (x, y)));
             let seam = inside.filter(|(x, y)| image.at(*x, *y)[0].abs_diff(128) > 1).count();
@@ -201,7 +201,7 @@ fn an_outline_follows_all_rings_and_is_cut_to_the_union() {
         for technique in settings() {
             let stage = stage(vec![layer(members.clone(), style)], &technique);
             let truth = truth_of(&stage).image();
-            let kinds = kinds_for(&stage).into_iter();
+            let kinds = kinds_of_footprints_for(&stage).into_iter();
             let images: Vec<_> = kinds.map(|kind| (kind.name(), frame_of(kind, &stage, &[]).image)).collect();
             for (name, image) in images.iter().map(|(name, image)| (*name, image)).chain([("truth", &truth)])
             {

@@ -1,11 +1,12 @@
 //! What a style says is what every technique, supersampling and the truth draw.
 #![cfg(feature = "render")]
 
+mod drawing;
+
 use drapery::sampling;
 use drapery::scene_file::SceneFile;
 use drapery::source::load;
 use drapery::stage::Stage;
-use drapery::technique::Kind;
 use drapery::truth::{Budget, certify};
 
 /// A plane seen from straight above, a metre a pixel, with what is said.
@@ -30,7 +31,7 @@ fn drawn(stage: &Stage, pixels: &[[usize; 2]]) -> Vec<(String, Vec<[u8; 4]>)> {
         ("truth".to_owned(), pixels.iter().map(|[x, y]| codes(truth.estimate.at(*x, *y))).collect()),
         ("supersampling".to_owned(), pixels.iter().map(|[x, y]| codes(sampled.colors.at(*x, *y))).collect()),
     ];
-    for kind in Kind::ALL.into_iter().filter(|kind| drapery::technique::applies(*kind, stage).is_ok()) {
+    for kind in drawing::kinds_of_footprints_for(stage) {
         let frame = kind.draw(stage).unwrap();
         all.push((format!("{kind:?}"), pixels.iter().map(|[x, y]| *frame.image.at(*x, *y)).collect()));
     }

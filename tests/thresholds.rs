@@ -17,7 +17,7 @@ use drapery::technique::inverse_projection;
 use drapery::technique::static_decal;
 use drapery::technique::stencil_volume::{self, VolumeJoins};
 use drapery::truth::{Budget, Truth, certify};
-use drawing::{frame_of, kinds_for, loaded};
+use drawing::{frame_of, kinds_of_footprints_for, loaded};
 use glam::{DVec2, DVec3};
 
 const BLACK: Color = Color([0.0, 0.0, 0.0, 1.0]);
@@ -146,7 +146,7 @@ fn check_band(stage: &Stage, (top, bottom): (f64, f64), what: &str) {
             bottom - top
         );
     }
-    for kind in kinds_for(stage) {
+    for kind in kinds_of_footprints_for(stage) {
         let image = frame_of(kind, stage, &[]).image;
         for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
             let is_ground = (top..bottom).contains(&(y as f64 + 0.5));
@@ -212,7 +212,7 @@ fn hillshade_is_lamberts_cosine_to_the_code_value() {
                     low - 1e-9 <= light && light <= high + 1e-9 && high - low < 1e-6,
                     "{what}, the truth: {light} is not in [{low}, {high}]"
                 );
-                for kind in kinds_for(&stage) {
+                for kind in kinds_of_footprints_for(&stage) {
                     let seen = *frame_of(kind, &stage, &[]).image.at(x, y);
                     assert_eq!(seen, right, "{what}, {}", kind.name());
                 }

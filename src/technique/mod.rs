@@ -10,7 +10,7 @@
 pub mod clipmap;
 mod declaration;
 pub mod dynamic_line;
-mod geometry_overlay;
+pub mod geometry_overlay;
 pub mod inverse_projection;
 pub mod static_decal;
 pub mod stencil_volume;
@@ -31,13 +31,12 @@ declaration::techniques! {
     InverseProjection is inverse_projection,
     StaticDecal is static_decal,
     DynamicLine is dynamic_line,
+    GeometryOverlay is geometry_overlay,
 }
 
 /// Techniques that are known and not built yet: their names, and what they are in a line.
-pub const PLANNED: [(&str, &str); 2] = [
-    ("geometry-overlay", "Geometry overlay (Wartell)"),
-    ("analytic", "Hierarchical classification and closed-form coverage (ours)"),
-];
+pub const PLANNED: [(&str, &str); 1] =
+    [("analytic", "Hierarchical classification and closed-form coverage (ours)")];
 
 impl Kind {
     /// Draws a stage once, from its scene's own camera. ([`prepare`] once and [`Prepared::frame`] draw many views.)

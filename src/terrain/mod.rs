@@ -180,6 +180,14 @@ impl Mesh {
         }
     }
 
+    /// The layer of triangle `id` of a level-of-detail mesh ([`lod::RightTriangle::layer`]); `None` of other meshes.
+    ///
+    /// # Panics
+    /// When `id` is not below [`Mesh::triangle_ids`].
+    pub fn layer_of(&self, id: u32) -> Option<u32> {
+        if let Self::Lod(lod) = self { Some(lod.right_triangle(id).layer()) } else { None }
+    }
+
     /// The vertices in the order of their numbers. Those that no triangle has may have no height (NaN).
     pub fn vertices(&self) -> impl Iterator<Item = SurfaceVertex> + '_ {
         let count = match self {

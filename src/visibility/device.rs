@@ -7,7 +7,7 @@
 use super::{Hit, Visible, VisibleTile};
 use crate::index::bins;
 use crate::parallel;
-use crate::raster::device::{Pipeline, Primitive, Real, Window};
+use crate::raster::device::{Pipeline, PolygonOffset, Primitive, Real, Window};
 use crate::raster::{Counts, Lattice};
 use crate::scene::{Device, Precision};
 use crate::space::{Screen, ViewFrame, World};
@@ -31,6 +31,15 @@ impl Machine {
         match device.precision {
             Precision::F32 => Self::Single(Pipeline::new(frame, mesh, device)),
             Precision::F64 => Self::Double(Pipeline::new(frame, mesh, device)),
+        }
+    }
+
+    /// The machine that moves what it sees back by a polygon offset.
+    #[must_use]
+    pub fn with_polygon_offset(self, offset: PolygonOffset) -> Self {
+        match self {
+            Self::Single(pipeline) => Self::Single(pipeline.with_polygon_offset(offset)),
+            Self::Double(pipeline) => Self::Double(pipeline.with_polygon_offset(offset)),
         }
     }
 

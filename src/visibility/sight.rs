@@ -3,6 +3,7 @@
 use super::hit::on_plane;
 use super::{Hit, Machine, Visible, hit};
 use crate::predicate::TrianglePlane;
+use crate::raster::device::PolygonOffset;
 use crate::raster::{Counts, Lattice};
 use crate::scene::Device;
 use crate::space::{Plan, ViewFrame, World};
@@ -43,6 +44,13 @@ impl<'a> Sight<'a> {
             ids: vec![SKY; lattice.columns * lattice.rows],
             stored: Vec::new(),
         }
+    }
+
+    /// The same with a polygon offset: an imitated machine moves back what it stores, and with it where that is. (Exact mathematics stores nothing.)
+    #[must_use]
+    pub fn with_polygon_offset(mut self, offset: PolygonOffset) -> Self {
+        self.machine = self.machine.map(|machine| machine.with_polygon_offset(offset));
+        self
     }
 
     /// Finds what each sample sees.

@@ -46,6 +46,11 @@ pub fn kinds_for(stage: &Stage) -> Vec<Kind> {
     Kind::ALL.into_iter().filter(|kind| technique::applies(*kind, stage).is_ok()).collect()
 }
 
+/// Those of them that draw footprints: geometry overlay draws lines of the screen, and polygons by their outlines.
+pub fn kinds_of_footprints_for(stage: &Stage) -> Vec<Kind> {
+    kinds_for(stage).into_iter().filter(|kind| *kind != Kind::GeometryOverlay).collect()
+}
+
 /// The truth of a stage.
 pub fn truth_of(stage: &Stage) -> Truth {
     truth::certify(stage, &stage.view().unwrap(), &Budget::default(), &|_| {})

@@ -32,8 +32,8 @@ impl<T: Real> Matrix<T> {
 /// and 1 for a parallel one), and half the picture's extent at depth 1.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Projection {
-    slope: f64,
-    constant: f64,
+    pub(super) slope: f64,
+    pub(super) constant: f64,
     half: [f64; 2],
 }
 

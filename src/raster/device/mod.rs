@@ -23,12 +23,14 @@ mod matrix;
 mod number;
 mod offset;
 mod scan;
+mod surface;
 
 pub use depth::DepthBuffer;
 pub use line::{LineFragment, LinePrimitive, LineStyle, Stipple};
 pub use number::Real;
 pub use offset::PolygonOffset;
 pub use scan::{Primitive, Window};
+pub use surface::SurfaceDepth;
 
 use super::{Lattice, Samples};
 use crate::scene::Device;

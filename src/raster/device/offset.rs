@@ -25,11 +25,15 @@ impl PolygonOffset {
         Primitive { corners: primitive.corners.map(|[x, y, z]| [x, y, z + offset]), ..*primitive }
     }
 
-    /// What is added to a triangle's depths, in -1..=1.
     fn of<T: Real>(&self, primitive: &Primitive<T>, buffer: DepthBuffer) -> T {
+        self.at(slope(primitive), T::of(largest_depth(primitive)), buffer)
+    }
+
+    /// What is added to depths of a triangle with this largest slope (depth a pixel) and this largest depth, in -1..=1.
+    pub fn at<T: Real>(&self, slope: T, largest_depth: T, buffer: DepthBuffer) -> T {
         let farther = if buffer.is_reversed() { -1.0 } else { 1.0 };
-        let step = T::of(buffer.step(largest_depth(primitive)));
-        let offset = slope(primitive) * T::of(farther * self.factor) + step * T::of(farther * self.units);
+        let step = T::of(buffer.step(largest_depth.get()));
+        let offset = slope * T::of(farther * self.factor) + step * T::of(farther * self.units);
         // One is as far as depth reaches; a triangle thin enough to leave the range of numbers is moved so far.
         T::of(math::max(-1.0, math::min(offset.get(), 1.0)))
     }

@@ -1,3 +1,129 @@
-//! Geometry overlay: Z. Wartell et al. (2003), "Rendering vector data over global, multi-resolution 3D terrain".
+//! Geometry overlay: Z. Wartell, E. Kang, T. Wasilewski, W. Ribarsky, N. Faust (2003), "Rendering vector data over global, multi-resolution 3D terrain",
+//! VisSym '03.
+//!
+//! Input: a [`Stage`]. Output: a picture whose lines are cut to the triangles of the mesh in use and drawn as lines of the screen:
+//! 1. preprocessing: each line is cut at all triangles that a quad's mesh may be made of (`dag`, 3.1, 3.2), when a view first uses the quad (`store`);
+//! 2. the view: of the quads in use, walks along their clippings follow the mesh (`strips`; Algorithm 1, 3.2.1), within a triangle a line may be
+//!    simplified (3.2.2);
+//! 3. drawing: lines as OpenGL draws them, moved before the mesh by polygon offset (`drawing`, `tile`; 3.2.1).
+//!
+//! Polygons are drawn as their outlines: a fill without one by its border, one pixel wide, in its colour; an outline on its border, whichever side of
+//! it the style asks for. A mesh without levels (`terrain.lod`) has only
+//! the smallest triangles; cells may be split in any way then. Where the paper is silent, see `dag` and `docs/semantics.md`.
+//!
+//! Refuses: terrains that are no grid (there are no quads), points (there are no lines).
 
-pub mod dag;
+mod dag;
+mod drawing;
+mod frame;
+mod mesh;
+mod settings;
+mod step;
+mod store;
+mod strips;
+mod structures;
+mod sweep;
+#[cfg(test)]
+mod tests;
+mod tile;
+
+pub use settings::{Borrowed, Lines, Primitives, Settings, Widths};
+pub use step::Step;
+
+use super::{Declaration, Explanation, Frame, FrameOptions, Parameters, Prepared};
+use crate::buffer::{Look, PlaneKind};
+use crate::draw_list::Role;
+use crate::error::{Error, Result};
+use crate::space::ViewFrame;
+use crate::stage::Stage;
+use crate::terrain::Mesh;
+use mesh::GridMap;
+use store::Store;
+
+/// The technique, said once.
+pub const DECLARATION: Declaration = Declaration {
+    parameters: Parameters::of::<Settings>(),
+    paper: "Wartell et al. 2003, \"Rendering vector data over global, multi-resolution 3D terrain\".",
+    title: "Geometry overlay (Wartell et al.)",
+    contradiction: |_| None,
+    planes: &[
+        PlaneKind::structure("quads"),
+        PlaneKind::structure("polylines"),
+        PlaneKind::structure("quad-clippings"),
+        PlaneKind::structure("triangle-clippings"),
+        PlaneKind::structure("line-vertices"),
+        PlaneKind::structure("crossings"),
+        PlaneKind::structure("directions"),
+        PlaneKind::DEPTH,
+        PlaneKind::TRIANGLE,
+        PlaneKind::PLAN,
+        PlaneKind::new("layer", Look::Number),
+        PlaneKind::new("clipping", Look::Number),
+        PlaneKind::COLOR,
+    ],
+    sweep: sweep::SWEEP,
+    applies,
+    prepare: |stage, _| Ok(Box::new(Prepare::new(stage)?)),
+};
+
+/// The technique with its lines indexed.
+#[derive(Debug)]
+pub struct Prepare<'s> {
+    stage: &'s Stage,
+    settings: Settings,
+    map: GridMap,
+    store: Store,
+}
+
+impl<'s> Prepare<'s> {
+    /// Indexes the scene's lines. Their clippings are made when a view first uses a quad.
+    ///
+    /// # Errors
+    /// When the technique does not draw such a scene.
+    pub fn new(stage: &'s Stage) -> Result<Self> {
+        applies(stage)?;
+        let Mesh::Grid(grid) = &*stage.mesh else { return Err(no_quads()) };
+        let map = GridMap::new(grid.posts());
+        let store = Store::new(&stage.draw_list, &map);
+        Ok(Self { stage, settings: stage.scene.technique.get(), map, store })
+    }
+}
+
+fn no_quads() -> Error {
+    Error::unsupported("geometry-overlay cuts lines at the triangles of a grid's quads, this terrain is no grid")
+        .help("leave the technique out")
+}
+
+/// Whether the technique can draw the scene.
+///
+/// # Errors
+/// The reason why it cannot.
+pub fn applies(stage: &Stage) -> Result<()> {
+    if !matches!(&*stage.mesh, Mesh::Grid(_)) {
+        return Err(no_quads());
+    }
+    let is_point = |number: u32| stage.draw_list.style_of(number).role == Role::Point;
+    match stage.draw_list.numbered().find(|(number, _)| is_point(*number)) {
+        None => Ok(()),
+        Some((_, item)) => Err(Error::unsupported(format!(
+            "geometry-overlay draws lines, layer `{}` has points",
+            stage.scene.layers[item.layer as usize].name
+        ))
+        .help("leave the technique out")),
+    }
+}
+
+impl Prepared for Prepare<'_> {
+    fn frame(&self, view: &ViewFrame, options: &FrameOptions) -> Result<Frame> {
+        frame::draw(self, view, options)
+    }
+
+    fn steps(&self, view: &ViewFrame, pixel: [usize; 2]) -> Result<Explanation> {
+        let (steps, code) = frame::explain(self, view, pixel);
+        Ok(Explanation::new(steps, code))
+    }
+
+    fn structure_bytes(&self) -> usize {
+        self.store.bytes()
+    }
+}

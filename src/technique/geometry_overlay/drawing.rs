@@ -1,0 +1,128 @@
+//! What a frame draws: strips of points on the mesh become segments on the screen, each with its style (3.2.1).
+//!
+//! Input: strips in the order in which they are drawn. Output: [`Segment`]s and their fragments. Refuses: nothing.
+
+use super::settings::{Lines, Primitives, Settings, Widths};
+use crate::draw_list::DrawList;
+use crate::parallel;
+use crate::raster::device::{LineFragment, LinePrimitive, LineStyle, Pipeline, Real, Stipple, Window};
+use crate::scene::{Device, Width};
+use crate::space::{ViewFrame, World};
+use crate::terrain::lod::RightTriangle;
+use std::ops::Range;
+
+/// What is drawn of a quad clipping.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Strip {
+    /// The item that it is of.
+    pub item: u32,
+    /// Its triangle clippings: the triangle of each, and which of `points` it has.
+    pub clippings: Vec<(RightTriangle, Range<u32>)>,
+    /// Points on the mesh.
+    pub points: Vec<World>,
+}
+
+/// A segment on the screen.
+#[derive(Debug, Clone)]
+pub(super) struct Segment<T> {
+    /// The item that it is of.
+    pub item: u32,
+    /// The number of its triangle clipping among those that the frame draws.
+    pub clipping: u32,
+    /// The clipping's triangle.
+    pub triangle: RightTriangle,
+    /// The pixels that it may cover.
+    pub window: Window,
+    line: LinePrimitive<T>,
+    style: LineStyle,
+    /// The stipple's counter at its start.
+    counter: u64,
+}
+
+/// How lines are drawn.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct LineDrawing {
+    settings: Settings,
+    device: Device,
+}
+
+impl LineDrawing {
+    pub(super) fn new(settings: &Settings, device: &Device) -> Self {
+        Self { settings: *settings, device: *device }
+    }
+
+    /// Whether a line covers shares of pixels.
+    pub(super) fn is_antialiased(&self) -> bool {
+        self.settings.lines == Lines::Antialiased
+    }
+
+    /// The segments of strips, in their order.
+    pub(super) fn segments<T: Real>(
+        &self,
+        strips: &[Strip],
+        (list, view, pipeline): (&DrawList, &ViewFrame, &Pipeline<T>),
+    ) -> Vec<Segment<T>> {
+        let mut first = 0;
+        let numbered: Vec<(u32, &Strip)> = strips
+            .iter()
+            .map(|strip| {
+                let own = first;
+                first += strip.clippings.len() as u32;
+                (own, strip)
+            })
+            .collect();
+        let of = |(first, strip): &(u32, &Strip)| self.of_strip(*first, strip, (list, view, pipeline));
+        parallel::map(&numbered, of).concat()
+    }
+
+    fn of_strip<T: Real>(
+        &self,
+        first: u32,
+        strip: &Strip,
+        (list, view, pipeline): (&DrawList, &ViewFrame, &Pipeline<T>),
+    ) -> Vec<Segment<T>> {
+        let picture = Window { columns: 0..view.width(), rows: 0..view.height() };
+        let style = self.style(strip, list, view);
+        let (mut out, mut counter) = (Vec::new(), 0);
+        for (clipping, (triangle, points)) in (first..).zip(&strip.clippings) {
+            for ends in strip.points[points.start as usize..points.end as usize].windows(2) {
+                let Some(line) = pipeline.line([ends[0], ends[1]]) else { continue };
+                if self.settings.primitives == Primitives::Lines {
+                    counter = 0;
+                }
+                if let Some(window) = line.window(&style, &picture) {
+                    let (item, triangle) = (strip.item, *triangle);
+                    out.push(Segment { item, clipping, triangle, window, line, style, counter });
+                }
+                if self.settings.primitives == Primitives::Strips && self.settings.stipple != 0xffff {
+                    counter += line.steps(&style);
+                }
+            }
+        }
+        out
+    }
+
+    /// How a strip is drawn. GL has one width for all of it: where it comes nearest to the eye.
+    fn style(&self, strip: &Strip, list: &DrawList, view: &ViewFrame) -> LineStyle {
+        let stroke = list.style_of(strip.item).stroke;
+        let pixel = || {
+            let sizes = strip.points.iter().map(|at| view.pixel_m(*at));
+            sizes.fold(f64::INFINITY, crate::math::min)
+        };
+        let width = match (self.settings.widths, stroke.map(|line| line.width)) {
+            (Widths::One, _) | (_, None) => 1.0,
+            (Widths::Style, Some(Width::Pixels(width))) => width,
+            (Widths::Style, Some(Width::Metres(width))) => width / pixel(),
+        };
+        let stipple =
+            Stipple { pattern: self.settings.stipple as u16, factor: self.settings.stipple_factor };
+        LineStyle::new(width, stipple, self.is_antialiased(), &self.device)
+    }
+}
+
+impl<T: Real> Segment<T> {
+    /// Calls `visit` with its fragments in a window of the picture, from its start to its end.
+    pub(super) fn fragments(&self, window: &Window, visit: &mut dyn FnMut(LineFragment)) {
+        self.line.draw(&self.style, self.counter, window, visit);
+    }
+}
