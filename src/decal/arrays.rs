@@ -6,7 +6,7 @@
 use super::build::Source;
 use super::bvh::Bvh;
 use super::cell::{Cell, LineLeaf};
-use super::lookup::Decals;
+use super::decals::Decals;
 use super::quadtree::{Kind, LeafEdges};
 use super::settings::{Joins, Outlines};
 use super::stroke::{REACH_OF_40, StrokeRules, around};

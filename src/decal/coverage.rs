@@ -6,7 +6,7 @@
 
 use super::bvh::Walk;
 use super::cell::{Cell, NOTHING};
-use super::lookup::Decals;
+use super::decals::Decals;
 use super::share::{PlanPixel, Shares};
 use crate::draw_list::{Role, Side};
 use crate::math;
