@@ -9,6 +9,9 @@ use crate::space::{Plan, ViewFrame};
 use crate::terrain::Mesh;
 use crate::visibility::{Hit, Sight};
 
+/// Rows whose plan points are one piece of parallel work.
+const ROWS_AT_A_TIME: usize = 16;
+
 /// What the samples of a lattice see, with their plan points at hand.
 #[derive(Debug)]
 pub struct GBuffer<'a> {
@@ -24,7 +27,11 @@ impl<'a> GBuffer<'a> {
         let mut sight = Sight::new(view, mesh, device, lattice, tile);
         sight.see();
         let mut plan = vec![Plan::default(); lattice.columns * lattice.rows];
-        parallel::for_each_chunk(&mut plan, lattice.columns, |row, points| sight.plan_of_row(row, points));
+        parallel::for_each_chunk(&mut plan, ROWS_AT_A_TIME * lattice.columns, |chunk, rows| {
+            for (k, points) in rows.chunks_mut(lattice.columns).enumerate() {
+                sight.plan_of_row(ROWS_AT_A_TIME * chunk + k, points);
+            }
+        });
         Self { sight, columns: lattice.columns, plan }
     }
 
@@ -37,6 +44,11 @@ impl<'a> GBuffer<'a> {
     #[inline(always)]
     pub fn triangle(&self, column: usize, row: usize) -> u32 {
         self.sight.triangle(column, row)
+    }
+
+    /// The plan points of all samples, rows from the top, infinite where the sky is seen.
+    pub fn plan_points(&self) -> &[Plan] {
+        &self.plan
     }
 
     /// The plan point of a sample, infinite where the sky is seen.

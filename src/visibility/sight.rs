@@ -153,31 +153,18 @@ impl<'a> Sight<'a> {
     }
 
     fn points_of_row<P: From<World>>(&self, (first, row): (usize, usize), points: &mut [P]) {
-        let sky = || P::from(World::new(f64::INFINITY, f64::INFINITY, f64::INFINITY));
         if self.machine.is_some() {
+            let sky = || P::from(World::new(f64::INFINITY, f64::INFINITY, f64::INFINITY));
             for (k, to) in points.iter_mut().enumerate() {
                 *to = self.hit(first + k, row).map_or_else(sky, |hit| P::from(hit.world));
             }
             return;
         }
-        // Neighbours often see the same triangle: its plane is made once.
-        let start = row * self.visible.lattice.columns + first;
-        let ids = &self.ids[start..start + points.len()];
-        let mut column = 0;
-        for run in ids.chunk_by(|a, b| a == b) {
-            let points = &mut points[column..column + run.len()];
-            let triangle = if run[0] == SKY { None } else { self.mesh.triangle(run[0]) };
-            match triangle {
-                None => points.fill_with(sky),
-                Some(triangle) => {
-                    self.points_of_run((first + column, row), &TrianglePlane::new(&triangle), points);
-                }
-            }
-            column += run.len();
-        }
+        pulp::Arch::new().dispatch(Neighbours { sight: self, first, row, points });
     }
 
-    /// The surface points of neighbours in a row that see one plane.
+    /// The surface points of neighbours in a row that see one plane, as [`super::hit()`] computes them.
+    #[inline(always)]
     fn points_of_run<P: From<World>>(
         &self,
         (column, row): (usize, usize),
@@ -185,11 +172,29 @@ impl<'a> Sight<'a> {
         points: &mut [P],
     ) {
         let (frame, lattice) = (self.frame, &self.visible.lattice);
-        let run = Run { frame, lattice, column, row, plane, points };
-        if !pulp::Arch::new().dispatch(run) {
-            for (k, to) in points.iter_mut().enumerate() {
-                *to = P::from(on_plane(frame, &frame.ray(lattice.at(column + k, row)), plane).0);
-            }
+        let mut all_sure = true;
+        for (k, to) in points.iter_mut().enumerate() {
+            let ray = frame.ray(lattice.at(column + k, row));
+            let (t, is_sure) = plane.quick_hit_parameter(&ray);
+            *to = P::from(ray.from + (ray.through - ray.from) * t);
+            all_sure &= is_sure;
+        }
+        if !all_sure {
+            self.points_of_grazing_run((column, row), plane, points);
+        }
+    }
+
+    /// The same, of a run in which a point is not precise enough in plain doubles.
+    #[cold]
+    fn points_of_grazing_run<P: From<World>>(
+        &self,
+        (column, row): (usize, usize),
+        plane: &TrianglePlane,
+        points: &mut [P],
+    ) {
+        for (k, to) in points.iter_mut().enumerate() {
+            let ray = self.frame.ray(self.visible.lattice.at(column + k, row));
+            *to = P::from(on_plane(self.frame, &ray, plane).0);
         }
     }
 
@@ -199,29 +204,34 @@ impl<'a> Sight<'a> {
     }
 }
 
-/// The surface points of neighbours that see one plane, as [`super::hit()`] computes them; compiled for the widest vectors of
-/// the machine at hand. False: one of them is not precise enough in plain doubles.
-struct Run<'a, P> {
-    frame: &'a ViewFrame,
-    lattice: &'a Lattice,
-    column: usize,
+/// The surface points of neighbours in a row from column `first` on, compiled for the widest vectors of the machine at hand.
+struct Neighbours<'a, P> {
+    sight: &'a Sight<'a>,
+    first: usize,
     row: usize,
-    plane: &'a TrianglePlane,
     points: &'a mut [P],
 }
 
-impl<P: From<World>> pulp::WithSimd for Run<'_, P> {
-    type Output = bool;
+impl<P: From<World>> pulp::WithSimd for Neighbours<'_, P> {
+    type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) -> bool {
-        let mut all_sure = true;
-        for (k, to) in self.points.iter_mut().enumerate() {
-            let ray = self.frame.ray(self.lattice.at(self.column + k, self.row));
-            let (t, is_sure) = self.plane.quick_hit_parameter(&ray);
-            *to = P::from(ray.from + (ray.through - ray.from) * t);
-            all_sure &= is_sure;
+    fn with_simd<S: pulp::Simd>(self, _: S) {
+        let Self { sight, first, row, points } = self;
+        // Neighbours often see the same triangle: its plane is made once.
+        let start = row * sight.visible.lattice.columns + first;
+        let ids = &sight.ids[start..start + points.len()];
+        let mut column = 0;
+        for run in ids.chunk_by(|a, b| a == b) {
+            let points = &mut points[column..column + run.len()];
+            let triangle = if run[0] == SKY { None } else { sight.mesh.triangle(run[0]) };
+            match triangle {
+                None => points.fill_with(|| P::from(World::new(f64::INFINITY, f64::INFINITY, f64::INFINITY))),
+                Some(triangle) => {
+                    sight.points_of_run((first + column, row), &TrianglePlane::new(&triangle), points);
+                }
+            }
+            column += run.len();
         }
-        all_sure
     }
 }
