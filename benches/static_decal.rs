@@ -186,5 +186,29 @@ fn frames(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, queries, frames);
+/// A picture of a terrain with hardly anything on it: what a frame costs where cells are not crowded.
+fn sparse(c: &mut Criterion) {
+    let few = "[[layer]]\ngenerate = { kind = \"roads\", seed = 5, count = 3, segment_m = 200.0 }\nline = { color = \"#ffee88\", width_m = 6.0 }\n";
+    let mut stage = stage(few, "eye = [0, -12000, 8000], target = [0, -500, 0]", 20_000.0);
+    let view = stage.view().expect("a view");
+    let mut group = c.benchmark_group("three roads");
+    group.sample_size(10);
+    for samples in [1, 8] {
+        stage.scene.technique.set(Settings { samples, ..Settings::default() });
+        let prepared = technique::prepare(Kind::StaticDecal, &stage).expect("widths in metres");
+        group.throughput(Throughput::Elements((view.width() * view.height()) as u64 * u64::from(samples)));
+        for tile in [64, 128] {
+            let options = FrameOptions { tile, buffers: &[], progress: &|_| {} };
+            group.bench_function(
+                BenchmarkId::new(format!("frame of {samples} samples a pixel"), tile),
+                |b| {
+                    b.iter(|| black_box(prepared.frame(&view, &options).expect("no buffers")));
+                },
+            );
+        }
+    }
+    group.finish();
+}
+
+criterion_group!(benches, queries, frames, sparse);
 criterion_main!(benches);

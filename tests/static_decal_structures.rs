@@ -16,58 +16,8 @@ use drapery::technique::{Frame, FrameOptions, Kind, Prepared};
 use drawing::stage;
 use std::collections::BTreeSet;
 
-/// Fills by both rules, with holes, crossings and islands; polygons that overlap; outlines on each side; lines with each join and cap; dots, rings,
-/// turns back, and sharp ones; an inverted layer; a layer as a whole.
-const SCENE: &str = r##"
-schema = 1
-image = { width = 40, height = 30, background = "#dde8f0" }
-camera = { eye = [-420.0, -1150.0, 520.0], target = [20.0, -40.0, 90.0] }
-
-[terrain]
-generate = { kind = "fbm", seed = 11, posts = [33, 29], cell_m = 40.0, height_m = 320.0 }
-
-[[layer]]
-generate = { kind = "mosaic", seed = 4, count = 30, holes = 0.3 }
-fill = { color = "#558855", opacity = 0.8 }
-outline = { color = "#223322", width_m = 9.0, mode = "inset", opacity = 0.5, join = "miter" }
-
-[[layer]]
-features = [
-  { polygon = [[[-300, -300], [300, -250], [250, 200], [-320, 150]], [[-100, -100], [100, -90], [90, 80], [-90, 90]], [[-50, -50], [50, -40], [40, 40]]] },
-  { polygon = [[-500, 200], [-100, 420], [-480, 430], [-120, 190]] },
-]
-fill = { color = "#2266ee", opacity = 0.45, rule = "nonzero" }
-outline = { color = "#221166", width_m = 25.0, mode = "offset", join = "round" }
-opacity = 0.7
-
-[[layer]]
-features = [{ polygon = [[200, 200], [520, 180], [500, 460], [220, 440]] }, { polygon = [[320, 280], [620, 300], [600, 540], [300, 520]] }]
-fill = { color = "#ee2266", opacity = 0.5, invert = true }
-
-[[layer]]
-features = [{ line = [[-520, 300], [-300, 60], [-80, 300], [-90, 310]] }, { line = [[-520, 0], [-500, 0]] }, { line = [[-400, -400], [-380, -400], [-380, -380], [-400, -400]] }]
-line = { color = "#aa2233", width_m = 70.0, join = "round", cap = "round", opacity = 0.7 }
-
-[[layer]]
-features = [{ line = [[60, 300], [280, 60], [500, 300]] }, { line = [[60, -60], [500, -60], [70, -100]] }, { line = [[0, 0], [100, 0.0001], [200, 0], [50, 0]] }]
-line = { color = "#2233aa", width_m = 50.0, join = "miter", miter_limit = 3.0, cap = "square", opacity = 0.7 }
-
-[[layer]]
-features = [{ line = [[-520, -120], [-300, -360], [-80, -120], [-80, -380], [-520, -380]] }]
-line = { color = "#22aa55", width_m = 60.0, join = "bevel", cap = "butt" }
-
-[[layer]]
-features = [{ line = [[-600, 500], [0, 470], [-600, 400]] }]
-line = { color = "#123456", width_m = 160.0, join = "miter", cap = "butt" }
-
-[[layer]]
-features = [{ polygon = [[-600, -500], [-420, -470], [-450, -300], [-610, -330]] }]
-outline = { color = "#000000", width_m = 60.0, mode = "inset", join = "bevel" }
-
-[[layer]]
-generate = { kind = "roads", seed = 21, count = 60, segment_m = 90.0 }
-line = { color = "#ffee88", width_m = 6.0 }
-"##;
+/// Everything that static decals draw.
+const SCENE: &str = include_str!("../src/technique/static_decal/every_decal.toml");
 
 /// The number of no row.
 const NONE: u32 = u32::MAX;
@@ -411,12 +361,14 @@ fn the_arrays_are_of_all_cells_whatever_was_drawn_before() {
 
 #[test]
 fn a_frame_tells_the_bytes_of_what_has_been_built_by_what_they_are_for() {
+    let whole = stage_of(&["grid=20", "preparation=whole"]);
     let stage = stage_of(&["grid=20"]);
     let prepared = Prepare::new(&stage, &|_| {}).unwrap();
     let parts = ["grid_bytes", "line_bytes", "polygon_bytes", "quadtree_bytes", "index_bytes"];
     let count = |frame: &Frame, name: &str| drawing::count(frame, name);
     let seen = prepared.frame(&stage.view().unwrap(), &FrameOptions::default()).unwrap();
-    let all = structures(&prepared, &stage);
+    let prepared = Prepare::new(&whole, &|_| {}).unwrap();
+    let all = prepared.frame(&whole.view().unwrap(), &FrameOptions::default()).unwrap();
     let sum = parts.iter().map(|name| count(&all, name)).sum::<u64>();
     assert_eq!(sum, prepared.structure_bytes() as u64);
     assert!(count(&seen, "cells") < 400 && count(&all, "cells") == 400, "something lies outside everywhere");

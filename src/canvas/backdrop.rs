@@ -38,6 +38,12 @@ impl<'a> Backdrop<'a> {
         LastGround { triangle: SKY, paint: self.sky }
     }
 
+    /// Whether all points of a triangle have one paint.
+    #[inline(always)]
+    pub fn is_constant_on_triangles(&self) -> bool {
+        self.ground.is_constant_on_triangles()
+    }
+
     /// The paint of a triangle at a plan point, which is asked for only where the paint depends on it; the sky's for [`SKY`].
     #[inline(always)]
     pub fn paint_at(&self, last: &mut LastGround, triangle: u32, plan: impl FnOnce() -> Plan) -> Paint {

@@ -3,7 +3,7 @@
 use super::GBuffer;
 use crate::raster::Lattice;
 use crate::scene::Device;
-use crate::space::{Plan, ViewFrame};
+use crate::space::{Plan, PlanBox, ViewFrame};
 use crate::terrain::Mesh;
 use crate::tiling::TilePlace;
 
@@ -84,6 +84,14 @@ impl<'a> BlockSamples<'a> {
     pub fn sample(&self, [x, y]: [usize; 2], k: usize) -> (u32, Plan) {
         let (seen, column, row) = self.place([x, y], k);
         (seen.triangle(column, row), seen.plan(column, row))
+    }
+
+    /// The box around the plan points of all samples; empty where all see the sky.
+    pub fn plan_bounds(&self) -> PlanBox {
+        let mut bounds = PlanBox::EMPTY;
+        let points = self.seen.iter().flat_map(|seen| seen.plan_points());
+        points.filter(|at| at.is_finite()).for_each(|at| bounds.include(*at));
+        bounds
     }
 
     /// The G-buffer that has sample `k` of a pixel of the block, and the sample's column and row in it.

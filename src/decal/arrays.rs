@@ -5,13 +5,15 @@
 
 use super::build::Source;
 use super::bvh::Bvh;
-use super::cell::{Cell, LineLeaf};
+use super::cell::{Cell, LineLeaf, Turns};
+use super::contents::RingsAs;
 use super::decals::Decals;
-use super::quadtree::{Kind, LeafEdges};
+use super::quadtree::{Kind, LeafEdges, Start};
 use super::settings::{Joins, Outlines};
 use super::stroke::{REACH_OF_40, StrokeRules, around};
 use crate::draw_list::{DrawList, ItemStyle, Role, Side};
 use crate::error::{Error, Result};
+use crate::parallel;
 use crate::scene::{Cap, Join, Rule};
 use crate::space::{Plan, PlanBox};
 
@@ -62,12 +64,18 @@ pub struct Arrays {
 }
 
 impl Decals<'_> {
-    /// Builds what has not been built, and tells all of it as arrays; `progress` is told the share that is built.
+    /// Builds all cells as the thesis has them, each ring by its quadtree, and tells them as arrays; `progress` is told the share that is built.
+    /// (The cells that points are looked up in have something quicker instead of most quadtrees.)
     ///
     /// # Errors
     /// When an array has more rows than can be numbered.
     pub fn arrays(&self, progress: &(dyn Fn(f64) + Sync)) -> Result<Arrays> {
-        self.build_all(progress);
+        let side = self.grid.side();
+        let of_row = |row: usize| -> Vec<Option<Cell>> {
+            let numbers = (0..side).map(|column| column + side * row as u32);
+            numbers.map(|number| self.cell_around(&self.grid.box_of(number), RingsAs::Trees)).collect()
+        };
+        let cells = parallel::map_telling(side as usize, progress, of_row);
         let (list, bounds) = (self.list(), self.grid.bounds());
         let mut all = Arrays {
             grid: [point(bounds.min), point(bounds.max)],
@@ -80,16 +88,14 @@ impl Decals<'_> {
         }
         // Trees of rings that no cell has a part of are not told: whether they are there depends on what was looked up.
         let mut is_used = vec![false; self.source.rings().len()];
-        for number in 0..self.grid.count() as u32 {
-            if let Some(cell) = self.cell(number) {
-                cell.rings.iter().for_each(|part| is_used[part.ring as usize] = true);
-            }
+        for cell in cells.iter().flatten().flatten() {
+            trees_of(cell).for_each(|(ring, _)| is_used[ring as usize] = true);
         }
         for (ring, is_used) in (0..).zip(is_used) {
             all.add_ring(&self.source, ring, is_used);
         }
-        for number in 0..self.grid.count() as u32 {
-            match self.cell(number) {
+        for cell in cells.iter().flatten() {
+            match cell {
                 Some(cell) => all.add_cell(cell, self),
                 None => all.cells.push([0; 10]),
             }
@@ -195,7 +201,7 @@ impl Arrays {
             self.areas.push([part.owner, first_part as u32 + part.first, count]);
         }
         let entered = |ring: u32, node: u32| [ring, self.rings[ring as usize][2] + node];
-        self.ring_parts.extend(cell.rings.iter().map(|part| entered(part.ring, part.start.node())));
+        self.ring_parts.extend(trees_of(cell).map(|(ring, start)| entered(ring, start.node())));
         let ends = self.ends();
         let mut row = [0; 10];
         for k in 0..ends.len() {
@@ -233,6 +239,14 @@ impl Arrays {
         Err(Error::unsupported(what)
             .help("choose a smaller technique.static-decal.grid, or ask for no structures"))
     }
+}
+
+/// The rings of a cell whose rings are kept as trees, and where these are entered.
+fn trees_of(cell: &Cell) -> impl Iterator<Item = (u32, Start)> {
+    cell.rings.iter().filter_map(|part| match part.turns {
+        Turns::Tree { ring, start } => Some((ring, start)),
+        Turns::Throughout(_) | Turns::Own { .. } => None,
+    })
 }
 
 /// Adds a cell's tree: all nodes, level by level, those that are empty last in their level.

@@ -1,30 +1,30 @@
 //! Draw list -> the index that cells are built from, and cells.
 
-use super::cell::{AreaPart, Contents, FillLeaf, LineLeaf, NOTHING, RingPart};
+use super::cell::LineLeaf;
 use super::quadtree::{Limits, Quadtree};
-use super::settings::{LeafPolygons, Settings};
+use super::settings::{LeafPolygons, Outlines, Settings};
 use super::stroke::{Segment, SingleSegment, StrokeRules};
 use crate::draw_list::{Chain, DrawList, Role};
 use crate::index::BoxTree;
 use crate::parallel;
-use crate::space::{Plan, PlanBox, SmallBox};
+use crate::space::{Plan, PlanBox};
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Segments that are indexed together: a cell is built from the runs whose boxes meet it.
-const SEGMENTS_OF_A_RUN: u32 = 32;
+pub(super) const SEGMENTS_OF_A_RUN: u32 = 32;
 
 /// Items that one piece of parallel work looks at.
 const ITEMS_AT_A_TIME: usize = 512;
 
 /// Some consecutive segments of a stroke.
 #[derive(Debug, Clone, Copy)]
-struct Run {
-    item: u32,
+pub(super) struct Run {
+    pub(super) item: u32,
     /// Its chain's place among those of the item.
-    chain: u32,
+    pub(super) chain: u32,
     /// The first of them in the chain.
-    first: u32,
+    pub(super) first: u32,
 }
 
 /// A ring of an area.
@@ -42,17 +42,19 @@ pub(super) struct Source<'l> {
     pub(super) list: &'l DrawList,
     limits: Limits,
     closing: LeafPolygons,
+    /// Of which side of outlines samples are asked.
+    pub(super) outlines: Outlines,
     /// How strokes of each style are drawn; none of what is no stroke in metres.
     pub(super) rules: Vec<Option<StrokeRules>>,
-    runs: Vec<Run>,
-    run_boxes: BoxTree,
+    pub(super) runs: Vec<Run>,
+    pub(super) run_boxes: BoxTree,
     rings: Vec<Ring>,
-    ring_boxes: BoxTree,
+    pub(super) ring_boxes: BoxTree,
     quadtrees: Vec<OnceLock<Box<Quadtree>>>,
     /// The bytes of those that have been built.
     quadtree_bytes: AtomicUsize,
     /// What is outside of a layer's polygons: in every cell.
-    everywhere: Vec<u32>,
+    pub(super) everywhere: Vec<u32>,
     /// Around all decals.
     pub(super) bounds: PlanBox,
 }
@@ -78,6 +80,7 @@ impl<'l> Source<'l> {
             list,
             limits: Limits { capacity: settings.leaf_capacity, depth: settings.depth },
             closing: settings.leaf_polygons,
+            outlines: settings.outlines,
             rules,
             runs: all.runs,
             run_boxes: BoxTree::new(&all.run_boxes),
@@ -93,6 +96,13 @@ impl<'l> Source<'l> {
     /// Whether something is to be found outside of the box around all strokes and rings.
     pub(super) fn is_everywhere(&self) -> bool {
         !self.everywhere.is_empty()
+    }
+
+    /// Whether no stroke and no ring meets a box, as far as their boxes tell.
+    pub(super) fn is_bare(&self, plan: &PlanBox) -> bool {
+        !self.is_everywhere()
+            && self.run_boxes.query(plan, |_| false)
+            && self.ring_boxes.query(plan, |_| false)
     }
 
     /// The rings of the area that an item owns.
@@ -128,74 +138,6 @@ impl<'l> Source<'l> {
     /// All rings, owner by owner.
     pub(super) fn rings(&self) -> &[Ring] {
         &self.rings
-    }
-
-    /// What lies in a box of the plan.
-    pub(super) fn contents(&self, plan: &PlanBox) -> Contents {
-        let mut contents = Contents::default();
-        self.add_areas(plan, &mut contents);
-        self.add_lines(plan, &mut contents);
-        contents
-    }
-
-    /// Rings by owner, and the fills that they make.
-    fn add_areas(&self, plan: &PlanBox, contents: &mut Contents) {
-        let mut near = Vec::new();
-        self.ring_boxes.query(plan, |ring| {
-            near.push(ring);
-            true
-        });
-        near.sort_unstable();
-        for of_owner in near.chunk_by(|a, b| self.rings[*a as usize].owner == self.rings[*b as usize].owner) {
-            let (owner, first) = (self.rings[of_owner[0] as usize].owner, contents.rings.len());
-            let mut bounds = PlanBox::EMPTY;
-            for &ring in of_owner {
-                let quadtree = self.quadtree(ring);
-                if let Some(start) = quadtree.start_in(plan) {
-                    contents.rings.push(RingPart { ring, start });
-                    bounds.include_box(&quadtree.bounds());
-                }
-            }
-            if contents.rings.len() == first {
-                continue;
-            }
-            let area = contents.areas.len() as u32;
-            contents.areas.push(AreaPart { owner, first: first as u32 });
-            if self.list.style_of(owner).role == Role::Fill {
-                contents.fills.push((FillLeaf { item: owner, area }, SmallBox::around(&bounds)));
-            }
-        }
-        for &item in &self.everywhere {
-            let area = contents.areas.iter().position(|part| part.owner == item);
-            let area = area.map_or(NOTHING, |area| area as u32);
-            contents.fills.push((FillLeaf { item, area }, SmallBox::around(plan)));
-        }
-    }
-
-    /// Segments whose widened quadrilaterals meet the box (4.2.1, *Line Segments*).
-    fn add_lines(&self, plan: &PlanBox, contents: &mut Contents) {
-        self.run_boxes.query(plan, |run| {
-            let Run { item, chain: place, first } = self.runs[run as usize];
-            let of = &self.list.items()[item as usize];
-            let Some(rules) = &self.rules[of.style as usize] else { return true };
-            let chain = &self.list.strokes(of)[place as usize];
-            let path = self.list.path_of(chain);
-            let end = chain.segments().max(1).min(first + SEGMENTS_OF_A_RUN);
-            let reach = rules.reach();
-            for k in first..end {
-                let ends = [path[k as usize], path[(k as usize + 1).min(path.len() - 1)]];
-                if !PlanBox::around(ends).grown(reach).meets(plan) {
-                    continue;
-                }
-                let segment = Segment::new(path, chain.is_closed, k as usize, rules);
-                let bounds = segment.bounds();
-                if bounds.meets(plan) && segment.may_meet(plan) {
-                    let leaf = LineLeaf { item, chain: place, vertex: k };
-                    contents.lines.push((leaf, SmallBox::around(&bounds)));
-                }
-            }
-            true
-        });
     }
 
     /// The segment of a leaf, made ready.

@@ -3,10 +3,7 @@
 
 use super::bvh::Bvh;
 use super::quadtree::Start;
-use super::settings::Hierarchy;
-use crate::index::morton;
-use crate::space::{PlanBox, SmallBox};
-use std::cmp::Reverse;
+use crate::space::Plan;
 use std::ops::Range;
 
 /// A segment of a stroke that may hold points of the cell.
@@ -25,6 +22,8 @@ pub(super) struct LineLeaf {
 pub(super) struct FillLeaf {
     /// The item.
     pub(super) item: u32,
+    /// Its style.
+    pub(super) style: u32,
     /// Its area's place among the cell's; [`NOTHING`]: no ring of it is near.
     pub(super) area: u32,
 }
@@ -41,13 +40,35 @@ pub(super) struct AreaPart {
     pub(super) first: u32,
 }
 
-/// The part of a ring's quadtree that lies in the cell (quadtree culling).
+/// What a cell has of a ring, or of several of a member.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct RingPart {
-    /// The ring.
-    pub(super) ring: u32,
-    /// Where its quadtree is entered.
-    pub(super) start: Start,
+    /// Whether it is the first part of a member of its area.
+    pub(super) opens_member: bool,
+    pub(super) turns: Turns,
+}
+
+/// How often rings turn around the points of a cell.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Turns {
+    /// So often around each.
+    Throughout(i32),
+    /// As edges say that the cell has itself: a leaf polygon whose leaf is the cell.
+    Own {
+        /// The first of the run's vertices among the cell's.
+        first: u32,
+        /// How many there are.
+        count: u32,
+        /// What the turns around the cell's south-east corner add.
+        corner: i32,
+    },
+    /// As a quadtree says.
+    Tree {
+        /// The ring.
+        ring: u32,
+        /// Where its quadtree is entered (quadtree culling).
+        start: Start,
+    },
 }
 
 /// What a cell refers to.
@@ -59,55 +80,10 @@ pub(super) struct Cell {
     pub(super) fills: Box<[FillLeaf]>,
     pub(super) areas: Box<[AreaPart]>,
     pub(super) rings: Box<[RingPart]>,
-}
-
-/// What a cell is made of.
-#[derive(Debug, Default)]
-pub(super) struct Contents {
-    /// Segments with their boxes.
-    pub(super) lines: Vec<(LineLeaf, SmallBox)>,
-    /// Fills with the boxes of what lies of them in the cell.
-    pub(super) fills: Vec<(FillLeaf, SmallBox)>,
-    /// By owner.
-    pub(super) areas: Vec<AreaPart>,
-    pub(super) rings: Vec<RingPart>,
-}
-
-impl Contents {
-    /// The cell; none where there is nothing in it.
-    pub(super) fn into_cell(mut self, hierarchy: Hierarchy, plan: &PlanBox) -> Option<Box<Cell>> {
-        if self.lines.is_empty() && self.fills.is_empty() {
-            return None;
-        }
-        let bits = if hierarchy == Hierarchy::Wide { 3 } else { 1 };
-        // Segments of a line keep their order, so that those of one line are next to each other (4.4.1).
-        let by_draw_order = |(leaf, _): &(LineLeaf, SmallBox)| (Reverse(leaf.item), leaf.chain, leaf.vertex);
-        match hierarchy {
-            Hierarchy::Curve => {
-                self.lines.sort_by_cached_key(|entry| (curve_place(plan, &entry.1), by_draw_order(entry)))
-            }
-            Hierarchy::Binary | Hierarchy::Wide => self.lines.sort_unstable_by_key(by_draw_order),
-        }
-        self.fills.sort_unstable_by_key(|(leaf, _)| Reverse(leaf.item));
-        let (segments, line_boxes): (Vec<LineLeaf>, Vec<SmallBox>) = self.lines.into_iter().unzip();
-        let (fills, fill_boxes): (Vec<FillLeaf>, Vec<SmallBox>) = self.fills.into_iter().unzip();
-        Some(Box::new(Cell {
-            lines: Bvh::new(&line_boxes, bits),
-            segments: segments.into(),
-            polygons: Bvh::new(&fill_boxes, bits),
-            fills: fills.into(),
-            areas: self.areas.into(),
-            rings: self.rings.into(),
-        }))
-    }
-}
-
-/// The place of a box's middle on a curve through the cell (Thöny et al. 2017).
-fn curve_place(plan: &PlanBox, of: &SmallBox) -> u64 {
-    let (middle, size) = (of.middle(), plan.max - plan.min);
-    // Casts saturate: what reaches out of the cell is put on its border.
-    let place = |d: f64, size: f64| (d / size * 65536.0) as u32;
-    morton(place(middle.x - plan.min.x, size.x).min(65535), place(middle.y - plan.min.y, size.y).min(65535))
+    /// The vertices of [`Turns::Own`].
+    pub(super) vertices: Box<[Plan]>,
+    /// Its south-east corner.
+    pub(super) corner: Plan,
 }
 
 impl Cell {
@@ -116,6 +92,13 @@ impl Cell {
     pub(super) fn rings_of(&self, area: u32) -> &[RingPart] {
         let Range { start, end } = self.range_of(area);
         &self.rings[start..end]
+    }
+
+    /// The vertices of a run of edges that the cell has itself; of others none.
+    #[inline(always)]
+    pub(super) fn run_of(&self, turns: &Turns) -> &[Plan] {
+        let Turns::Own { first, count, .. } = turns else { return &[] };
+        &self.vertices[*first as usize..][..*count as usize]
     }
 
     fn range_of(&self, area: u32) -> Range<usize> {
@@ -138,6 +121,6 @@ impl Cell {
     pub(super) fn polygon_bytes(&self) -> usize {
         let leaves =
             size_of_val(&self.fills[..]) + size_of_val(&self.areas[..]) + size_of_val(&self.rings[..]);
-        self.polygons.bytes() + leaves
+        self.polygons.bytes() + leaves + size_of_val(&self.vertices[..])
     }
 }

@@ -5,7 +5,8 @@
 //! looked at, as if it were straight: corners and what is thinner than a pixel on both sides of another thing come out wrong.
 
 use super::bvh::Walk;
-use super::cell::{Cell, NOTHING};
+use super::cell::{Cell, NOTHING, Turns};
+use super::contents::RingsAs;
 use super::decals::Decals;
 use super::share::{PlanPixel, Shares};
 use crate::draw_list::{Role, Side};
@@ -17,18 +18,20 @@ use glam::DVec2;
 const MOST_CELLS: usize = 4;
 
 impl Decals<'_> {
-    /// Finds the items that cover a share of a pixel. `shares` is emptied first.
+    /// Finds the items that cover a share of a pixel; quickly where the settings say `edges = "analytic"`. `shares` is emptied first.
     pub fn cover(&self, pixel: &PlanPixel, shares: &mut Shares) {
         shares.found.clear();
         shares.edges.clear();
         let bounds = pixel.bounds();
         let wanted = SmallBox::around(&bounds);
-        if let Some(cells) = self.grid.cells_in(&bounds, MOST_CELLS) {
+        let cells = self.grid.cells_in(&bounds, MOST_CELLS);
+        // Cells that were made for points alone do not know their edges.
+        if let Some(cells) = cells.filter(|_| self.rings_as == RingsAs::Trees) {
             let home = self.cell_of(pixel.at).and_then(|cell| self.cell(cell));
             let near: Vec<&Cell> = cells.iter().filter_map(|cell| self.cell(*cell)).collect();
             self.cover_from(&near, home, (pixel, wanted), shares);
-        } else if let Some(own) = self.cell_around(&bounds) {
-            self.cover_from(&[&*own], Some(&*own), (pixel, wanted), shares);
+        } else if let Some(own) = self.cell_around(&bounds, RingsAs::Trees) {
+            self.cover_from(&[&own], Some(&own), (pixel, wanted), shares);
         }
     }
 
@@ -73,8 +76,9 @@ impl Decals<'_> {
         let vertices = self.list().vertices();
         for (area, part) in (0..).zip(&cell.areas) {
             for ring in cell.rings_of(area) {
-                let quadtree = self.source.quadtree(ring.ring);
-                quadtree.edges_near(vertices, ring.start, &wanted, &mut |from, to| {
+                let Turns::Tree { ring, start } = ring.turns else { continue };
+                let quadtree = self.source.quadtree(ring);
+                quadtree.edges_near(vertices, start, &wanted, &mut |from, to| {
                     let away = nearest(pixel.at, from, to) - pixel.at;
                     let known = shares.edges.iter_mut().find(|(owner, ..)| *owner == part.owner);
                     let along = to - from;

@@ -102,6 +102,21 @@ impl DecalGrid {
         })
     }
 
+    /// A box around all cells that points of a box lie in; `None`: they lie in none.
+    pub(super) fn box_around(&self, plan: &PlanBox) -> Option<PlanBox> {
+        let bounds = self.bounds();
+        if !plan.meets(&bounds.grown(self.slack)) {
+            return None;
+        }
+        let clamped = |at: Plan| {
+            Plan::new(at.x.clamp(bounds.min.x, bounds.max.x), at.y.clamp(bounds.min.y, bounds.max.y))
+        };
+        let cell = |at: Plan| self.cell_of(clamped(at)).map(|cell| self.box_of(cell));
+        let whole = || bounds.grown(self.slack);
+        let (low, high) = (cell(plan.min).unwrap_or_else(whole), cell(plan.max).unwrap_or_else(whole));
+        Some(PlanBox { min: low.min, max: high.max })
+    }
+
     /// A box around all points that lie in a cell.
     pub(super) fn box_of(&self, cell: u32) -> PlanBox {
         let (column, row) = (cell % self.side, cell / self.side);

@@ -1,12 +1,14 @@
 //! Which samples a leaf of a cell's trees holds: a segment, a fill.
 
-use super::cell::{Cell, FillLeaf, LineLeaf, NOTHING, RingPart};
+use super::cell::{Cell, FillLeaf, LineLeaf, NOTHING, RingPart, Turns};
 use super::decals::Decals;
+use super::hits::MOST_TOGETHER;
 use super::packet::{LookupCounts, Packet, of, single};
-use super::quadtree::Counts as QuadtreeCounts;
+use super::quadtree::{Counts as QuadtreeCounts, run_misses, south_east, turns_of_run};
 use super::settings::Outlines;
 use crate::draw_list::{Role, Side};
-use crate::space::{Plan, PlanBox, SmallBox};
+use crate::scene::Rule;
+use crate::space::{Plan, PlanBox};
 
 impl Decals<'_> {
     /// Which of the wanted samples a segment holds.
@@ -23,7 +25,10 @@ impl Decals<'_> {
         let mut held = match self.is_single {
             false => self.source.segment(leaf).map_or(0, |segment| match packet.points {
                 [only] => u64::from(segment.holds(*only)),
-                _ => segment.mask_of(packet.x, packet.y) & wanted,
+                _ => {
+                    let (x, y) = packet.axes();
+                    segment.mask_of(x, y) & wanted
+                }
             }),
             true => {
                 let segment = self.source.single_segment(leaf);
@@ -47,7 +52,8 @@ impl Decals<'_> {
                 }
                 Outlines::Polygon => {
                     let owner = self.list().area_owner(leaf.item);
-                    let inside = self.held_by_area(cell, cell.area_of(owner), (packet, held), counts);
+                    let area = (cell.area_of(owner), self.list().style_of(owner).rule);
+                    let inside = self.held_by_area(cell, area, (packet, held), counts);
                     if side == Side::Inside { inside } else { held & !inside }
                 }
             };
@@ -66,8 +72,9 @@ impl Decals<'_> {
         counts: &mut LookupCounts,
     ) -> u64 {
         counts.leaves += 1;
-        let inside = self.held_by_area(cell, leaf.area, (packet, wanted), counts);
-        if self.list().style_of(leaf.item).role == Role::Outside { wanted & !inside } else { inside }
+        let style = &self.list().styles()[leaf.style as usize];
+        let inside = self.held_by_area(cell, (leaf.area, style.rule), (packet, wanted), counts);
+        if style.role == Role::Outside { wanted & !inside } else { inside }
     }
 
     /// Which of the wanted samples lie inside of any member of an area: the rule says which of the winding numbers of a member's rings, exterior
@@ -75,78 +82,113 @@ impl Decals<'_> {
     fn held_by_area(
         &self,
         cell: &Cell,
-        area: u32,
+        (area, rule): (u32, Rule),
         (packet, wanted): (&Packet, u64),
         counts: &mut LookupCounts,
     ) -> u64 {
         if area == NOTHING {
             return 0;
         }
-        let rings = cell.rings_of(area);
-        let rule = self.list().style_of(cell.areas[area as usize].owner).rule;
-        let vertices = self.list().vertices();
         let (mut inside, mut done) = (0, QuadtreeCounts::default());
-        for member in
-            rings.chunk_by(|a, b| self.source.chain_of(a.ring).member == self.source.chain_of(b.ring).member)
-        {
-            let mut left = wanted & !inside;
-            if !self.is_single
-                && left != 0
-                && let Some(turns) = self.turns_throughout(member, packet, &mut done)
-            {
-                // As a rule no edge is near.
-                inside |= if rule.contains(turns) { left } else { 0 };
-                continue;
-            }
-            while left != 0 {
-                let k = left.trailing_zeros() as usize;
-                left &= left - 1;
-                let mut turns = 0;
-                for part in member {
-                    let quadtree = self.source.quadtree(part.ring);
-                    turns += match self.is_single {
-                        false => quadtree.winding(vertices, part.start, packet.points[k], &mut done),
-                        true => {
-                            quadtree.winding_f32(vertices, part.start, single(packet.points[k]), &mut done)
-                        }
-                    };
-                }
-                if rule.contains(turns) {
-                    inside |= 1 << k;
-                }
-            }
+        for member in cell.rings_of(area).chunk_by(|_, next| !next.opens_member) {
+            let left = wanted & !inside;
+            let is_alone = left & left.wrapping_sub(1) == 0;
+            // A machine decides at each point anew.
+            inside |= if is_alone || self.is_single {
+                of(packet.points, left, |at| {
+                    let turns = member.iter().map(|part| self.turns_around(cell, part, *at, &mut done));
+                    rule.contains(turns.sum())
+                })
+            } else {
+                self.held_by_member(cell, (member, rule), (packet, left), &mut done)
+            };
         }
         counts.quadtree_nodes += done.nodes;
         counts.edges += done.edges;
         inside
     }
 
-    /// How often a member's rings turn around all of the samples, where that is one number.
-    #[inline]
-    fn turns_throughout(
+    /// How often a part of a member's rings turns around a point.
+    #[inline(always)]
+    fn turns_around(&self, cell: &Cell, part: &RingPart, at: Plan, done: &mut QuadtreeCounts) -> i32 {
+        match part.turns {
+            Turns::Throughout(turns) => turns,
+            Turns::Own { corner, .. } => {
+                let run = cell.run_of(&part.turns);
+                done.edges += run.len() as u64 - 1;
+                corner + turns_of_run(run, cell.corner, at)
+            }
+            Turns::Tree { ring, start } => {
+                let (quadtree, vertices) = (self.source.quadtree(ring), self.list().vertices());
+                match self.is_single {
+                    false => quadtree.winding(vertices, start, at, done),
+                    true => quadtree.winding_f32(vertices, start, single(at), done),
+                }
+            }
+        }
+    }
+
+    /// Which of several samples lie inside of a member. Their box is asked as if it were a leaf of its own: how often the rings turn around its corner,
+    /// and which edges meet it; as a rule none do.
+    fn held_by_member(
         &self,
-        member: &[RingPart],
-        packet: &Packet,
+        cell: &Cell,
+        (member, rule): (&[RingPart], Rule),
+        (packet, wanted): (&Packet, u64),
         done: &mut QuadtreeCounts,
-    ) -> Option<i32> {
-        let vertices = self.list().vertices();
-        let one = |part: &RingPart| {
-            let quadtree = self.source.quadtree(part.ring);
-            quadtree.turns_throughout(vertices, part.start, (&packet.plan, packet.plan.min), done)
-        };
-        member.iter().map(one).sum()
+    ) -> u64 {
+        let (mut throughout, mut apart, mut is_apart) = (0, [0; MOST_TOGETHER], false);
+        let corner = south_east(&packet.plan);
+        for part in member {
+            match part.turns {
+                Turns::Throughout(turns) => throughout += turns,
+                Turns::Own { .. } => {
+                    throughout += self.turns_around(cell, part, corner, done);
+                    for edge in cell.run_of(&part.turns).windows(2) {
+                        if !run_misses(edge, &packet.plan) {
+                            done.edges += u64::from(wanted.count_ones());
+                            is_apart = true;
+                            add(&mut apart, (packet, wanted), |at| turns_of_run(edge, corner, at));
+                        }
+                    }
+                }
+                Turns::Tree { ring, start } => {
+                    let (quadtree, vertices) = (self.source.quadtree(ring), self.list().vertices());
+                    let at = (&packet.plan, packet.plan.min);
+                    match quadtree.turns_throughout(vertices, start, at, done) {
+                        Some(turns) => throughout += turns,
+                        None => {
+                            is_apart = true;
+                            add(&mut apart, (packet, wanted), |at| {
+                                quadtree.winding(vertices, start, at, done)
+                            });
+                        }
+                    }
+                }
+            }
+        }
+        if !is_apart {
+            return if rule.contains(throughout) { wanted } else { 0 };
+        }
+        let is_inside = |k: &usize| wanted >> k & 1 == 1 && rule.contains(throughout + apart[*k]);
+        (0..packet.points.len()).filter(is_inside).fold(0, |all, k| all | 1 << k)
     }
 
     /// Whether a point lies inside of an area of its cell.
     pub(super) fn is_inside(&self, cell: &Cell, area: u32, at: Plan) -> bool {
-        let packet = Packet {
-            points: &[at],
-            x: &[at.x],
-            y: &[at.y],
-            plan: PlanBox::around([at]),
-            bounds: SmallBox::around(&PlanBox::around([at])),
-            open: 1,
-        };
-        self.held_by_area(cell, area, (&packet, 1), &mut LookupCounts::default()) == 1
+        let Some(part) = cell.areas.get(area as usize) else { return false };
+        let (points, rule) = ([at], self.list().style_of(part.owner).rule);
+        let packet = Packet::new(&points, 1, &PlanBox::around(points));
+        self.held_by_area(cell, (area, rule), (&packet, 1), &mut LookupCounts::default()) == 1
+    }
+}
+
+/// Adds turns to those of each of the wanted samples.
+#[inline(always)]
+fn add(all: &mut [i32; MOST_TOGETHER], (packet, wanted): (&Packet, u64), mut turns: impl FnMut(Plan) -> i32) {
+    for (k, (sum, at)) in all.iter_mut().zip(packet.points).enumerate() {
+        if wanted >> k & 1 == 1 {
+            *sum += turns(*at);
+        }
     }
 }

@@ -8,7 +8,7 @@ use super::hits::{Hits, MOST_TOGETHER};
 use super::packet::{LookupCounts, Packet};
 use super::palette::Palette;
 use super::settings::{Hierarchy, Overlaps};
-use crate::space::{Plan, PlanBox, SmallBox};
+use crate::space::{Plan, PlanBox};
 
 impl Decals<'_> {
     /// Finds the items that hold any of some points, at most [`MOST_TOGETHER`]; points that are infinite lie in none. `hits` is emptied first.
@@ -19,6 +19,13 @@ impl Decals<'_> {
     pub fn find(&self, points: &[Plan], palette: &Palette, hits: &mut Hits, counts: &mut LookupCounts) {
         assert!(points.len() <= MOST_TOGETHER, "too many points are looked up together");
         hits.clear();
+        if let [at] = points {
+            // A point alone needs no box.
+            if let Some(cell) = self.cell_of(*at) {
+                self.find_in((cell, &PlanBox { min: *at, max: *at }), points, 1, palette, (hits, counts));
+            }
+            return;
+        }
         let mut bounds = PlanBox::EMPTY;
         let mut finite = 0u64;
         for (k, at) in points.iter().enumerate() {
@@ -94,22 +101,7 @@ impl Decals<'_> {
         (hits, counts): (&mut Hits, &mut LookupCounts),
     ) {
         let Some(cell) = self.cell(number) else { return };
-        let (mut x, mut y) = ([0.0; MOST_TOGETHER], [0.0; MOST_TOGETHER]);
-        // Those that are not looked up here, and may be infinite, are as one that is.
-        let any = points[samples.trailing_zeros() as usize];
-        for (k, at) in points.iter().enumerate() {
-            let at = if samples >> k & 1 == 1 { *at } else { any };
-            (x[k], y[k]) = (at.x, at.y);
-        }
-        let count = points.len();
-        let packet = Packet {
-            points,
-            x: &x[..count],
-            y: &y[..count],
-            plan: *bounds,
-            bounds: SmallBox::around(bounds),
-            open: samples,
-        };
+        let packet = Packet::new(points, samples, bounds);
         let found = match self.settings.hierarchy {
             Hierarchy::Binary | Hierarchy::Wide => self.search(cell, packet, palette, hits),
             Hierarchy::Curve => self.search_unordered(cell, packet, palette, hits),

@@ -1,6 +1,7 @@
 //! What the structures hold, in bytes.
 
 use super::cell::Cell;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Bytes of the structures by what they are for (Fig. 4.2), as far as they have been built.
@@ -31,19 +32,32 @@ impl Memory {
 #[derive(Debug, Default)]
 pub(super) struct Built {
     cells: AtomicUsize,
+    /// Several cells may share one.
+    structures: AtomicUsize,
     line_bytes: AtomicUsize,
     polygon_bytes: AtomicUsize,
 }
 
 impl Built {
-    /// Adds a cell.
-    pub(super) fn add(&self, cell: &Cell) {
-        self.cells.fetch_add(1, Ordering::Relaxed);
+    /// Adds what a cell holds.
+    pub(super) fn added(&self, cell: Cell) -> Arc<Cell> {
+        self.structures.fetch_add(1, Ordering::Relaxed);
         self.line_bytes.fetch_add(cell.line_bytes(), Ordering::Relaxed);
         self.polygon_bytes.fetch_add(cell.polygon_bytes(), Ordering::Relaxed);
+        Arc::new(cell)
     }
 
-    /// How many.
+    /// Counts a place that has a cell.
+    pub(super) fn count(&self) {
+        self.cells.fetch_add(1, Ordering::Relaxed);
+    }
+
+    /// Bytes of what the cells refer to their parts by.
+    pub(super) fn cell_bytes(&self) -> usize {
+        self.structures.load(Ordering::Relaxed) * size_of::<Cell>()
+    }
+
+    /// How many places have a cell.
     pub(super) fn cells(&self) -> usize {
         self.cells.load(Ordering::Relaxed)
     }

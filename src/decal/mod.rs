@@ -5,11 +5,12 @@
 //! Input: a [`DrawList`](crate::draw_list::DrawList), the terrain's box in the plan. Output: [`Decals`], which answer for the samples of a pixel
 //! with [`Hits`]; [`Palette`] composes them. Refuses: nothing. From the sample inwards, as Algorithm 3.5 goes:
 //! 1. the sample's cell of the decal grid (`grid`);
-//! 2. what the cell refers to (`cell`), in two trees sorted by draw order (`bvh`), walked together from the front (`lookup`);
-//! 3. a leaf is a segment of a stroke, widened (`stroke`), or a polygon: the parts of its rings' quadtrees that lie in the cell (`quadtree`);
+//! 2. what the cell refers to (`cell`), in two trees sorted by draw order (`bvh`), walked together from the front (`lookup`, `search`);
+//! 3. a leaf (`leaf`) is a segment of a stroke, widened (`stroke`), or a polygon: of each of its rings a winding number, the edges that meet the cell, or the
+//!    part of its quadtree that lies in the cell (`quadtree`);
 //! 4. what holds the samples (`hits`) is composed (`palette`).
 //!
-//! Cells and quadtrees are built (`build`) when a sample first lies in them, or all beforehand: the bits are the same. With exact mathematics every
+//! Cells (`decals`, of `contents`) and quadtrees are built from an index of boxes (`build`) when a sample first lies in them, or all beforehand: the bits are the same. With exact mathematics every
 //! decision is exact: boxes only leave out what surely misses, the tests in leaves are predicates. Widths in pixels are no static decals: such
 //! strokes are passed over.
 
@@ -17,6 +18,7 @@ mod arrays;
 mod build;
 mod bvh;
 mod cell;
+mod contents;
 mod coverage;
 mod decals;
 mod grid;

@@ -35,7 +35,13 @@ impl<'a> Palette<'a> {
     /// Whether nothing shows below an item.
     #[inline(always)]
     pub fn is_opaque(&self, item: u32) -> bool {
-        self.is_opaque[self.list.items()[item as usize].style as usize]
+        self.is_opaque_style(self.list.items()[item as usize].style)
+    }
+
+    /// Whether nothing shows below items of a style.
+    #[inline(always)]
+    pub(super) fn is_opaque_style(&self, style: u32) -> bool {
+        self.is_opaque[style as usize]
     }
 
     /// What a sample shows: the ground, and over it the items that hold the sample. (They are searched from the front; composed from the back,

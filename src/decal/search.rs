@@ -31,7 +31,7 @@ impl Decals<'_> {
                 (is_there, None) => is_there.is_some(),
                 (None, Some(_)) => false,
             };
-            let (item, held) = if is_line {
+            let (item, style, held) = if is_line {
                 let leaf = line.unwrap_or_default();
                 line = lines.next().map(|leaf| cell.segments[leaf as usize]);
                 if of_line.0 != leaf.item {
@@ -44,11 +44,11 @@ impl Decals<'_> {
                 }
                 let held = self.held_by_line(cell, leaf, &packet, wanted, &mut counts);
                 of_line.1 |= held;
-                (leaf.item, held)
+                (leaf.item, self.list().items()[leaf.item as usize].style, held)
             } else {
                 let leaf = fill.unwrap_or_default();
                 fill = polygons.next().map(|leaf| cell.fills[leaf as usize]);
-                (leaf.item, self.held_by_fill(cell, leaf, &packet, packet.open, &mut counts))
+                (leaf.item, leaf.style, self.held_by_fill(cell, leaf, &packet, packet.open, &mut counts))
             };
             if held != 0 {
                 if is_line && self.settings.overlaps == Overlaps::Double {
@@ -56,7 +56,7 @@ impl Decals<'_> {
                 } else {
                     hits.push_once(item, held);
                 }
-                if palette.is_opaque(item) {
+                if palette.is_opaque_style(style) {
                     packet.open &= !held;
                 }
             }

@@ -13,11 +13,13 @@ mod borders;
 mod build;
 mod clip;
 mod crossing;
+mod cut;
 mod node;
 mod throughout;
 mod tree;
 
 pub use build::Limits;
+pub use cut::{Cut, run_misses, south_east, turns_of_run};
 pub use node::Kind;
 pub use tree::{Counts, LeafEdges, Quadtree, Start};
 

@@ -67,9 +67,39 @@ impl Quadtree {
     }
 }
 
+impl Quadtree {
+    /// The ring's winding number around all points of any box, by a subtree that has all that the ring has in it; `None`: an edge may meet the box.
+    pub fn turns_in(&self, vertices: &[Plan], start: Start, plan: &PlanBox) -> Option<i32> {
+        let may_meet = |k: u32| !misses(vertices[k as usize], vertices[k as usize + 1], plan);
+        let is_met = match &self.nodes {
+            None => (self.first..self.first + self.count).any(may_meet),
+            Some(nodes) => {
+                // The edges of leaves that are clipped have moved.
+                let Edges::Numbers(edges) = &nodes.edges else { return None };
+                let mut stack = vec![start];
+                loop {
+                    let Some(start) = stack.pop() else { break false };
+                    if !nodes.borders.of(start.quad).meets(plan) {
+                        continue;
+                    }
+                    match nodes.nodes[start.node as usize].kind() {
+                        Kind::Internal(_) => stack.extend(nodes.children(start).into_iter().flatten()),
+                        Kind::Full(_) => {}
+                        Kind::Partial(leaf) if edges[nodes.edges_of(leaf)].iter().any(|k| may_meet(*k)) => {
+                            break true;
+                        }
+                        Kind::Partial(_) => {}
+                    }
+                }
+            }
+        };
+        (!is_met).then(|| self.winding(vertices, Start::ROOT, plan.min, &mut Counts::default()))
+    }
+}
+
 /// Whether an edge surely has no point in a box.
 #[inline(always)]
-fn misses(a: Plan, b: Plan, plan: &PlanBox) -> bool {
+pub(super) fn misses(a: Plan, b: Plan, plan: &PlanBox) -> bool {
     let is_beside = (max(a.x, b.x) < plan.min.x)
         | (min(a.x, b.x) > plan.max.x)
         | (max(a.y, b.y) < plan.min.y)
@@ -109,7 +139,11 @@ mod tests {
             let plan = PlanBox { min: at(0.0, 0.0), max: at(1.0, 1.0) };
             let counts = &mut Counts::default();
             let Some(start) = tree.start_in(&plan) else { return Ok(()) };
-            if let Some(turns) = tree.turns_throughout(&path, start, (&plan, plan.min), counts) {
+            let said = [
+                tree.turns_throughout(&path, start, (&plan, plan.min), counts),
+                tree.turns_in(&path, start, &plan),
+            ];
+            for turns in said.into_iter().flatten() {
                 for k in 0..25 {
                     let p = at(f64::from(k % 5) / 4.0, f64::from(k / 5) / 4.0);
                     prop_assert_eq!(tree.winding(&path, start, p, counts), turns, "{:?}", p);

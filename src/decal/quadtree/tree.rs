@@ -298,7 +298,7 @@ impl Nodes {
         }
     }
 
-    fn children(&self, start: Start) -> Option<[Start; 4]> {
+    pub(super) fn children(&self, start: Start) -> Option<[Start; 4]> {
         let Kind::Internal(children) = self.nodes[start.node as usize].kind() else { return None };
         let child =
             |quarter: u16| Start { node: children + u32::from(quarter), quad: start.quad.child(quarter) };

@@ -40,7 +40,7 @@ pub use step::{Step, Verdict};
 
 use super::{Contradiction, Declaration, Explanation, Frame, FrameOptions, Parameters, Prepared};
 use crate::buffer::{Look, PlaneKind};
-use crate::decal::{self, Decals, LeafPolygons};
+use crate::decal::{self, Decals, Edges, LeafPolygons};
 use crate::error::{Error, Result};
 use crate::scene::{Precision, TechniqueSettings, Width};
 use crate::space::ViewFrame;
@@ -108,8 +108,10 @@ impl<'s> Prepare<'s> {
         let has_statics = stage.draw_list.numbered().any(|(item, _)| !is_dynamic(stage, item));
         let decals = has_statics.then(|| {
             let is_single = stage.scene.device.precision == Precision::F32;
-            let (bounds, settings) = (stage.mesh.plan_bounds(), stage.scene.technique.get());
-            Decals::new(&stage.draw_list, &bounds, &settings, is_single, &|_| {})
+            let is_analytic = settings.antialiasing == Antialiasing::Analytic;
+            let edges = if is_analytic { Edges::Analytic } else { Edges::Sampled };
+            let of_decals = decal::Settings { edges, ..stage.scene.technique.get() };
+            Decals::new(&stage.draw_list, &stage.mesh.plan_bounds(), &of_decals, is_single, &|_| {})
         });
         Ok(Self { stage, prepared: frame::Prepared { lines, decals } })
     }

@@ -23,7 +23,7 @@ use crate::tiling::{TilePlace, Tiling};
 const ORDER: [&str; 7] = ["depth", "triangle", "plan", "color", "cell", "nodes", "tests"];
 
 /// The most pixels a side of a block: what its samples see stays in a processor's cache.
-const MOST_OF_A_BLOCK: usize = 64;
+const MOST_OF_A_BLOCK: usize = 128;
 
 /// No cell.
 const NO_CELL: u32 = u32::MAX;
@@ -150,6 +150,11 @@ impl<'a> Painter<'a> {
             tests: Kept::new(options.wants("tests")),
             counts: Counts::default(),
         };
+        let is_analytic = self.prepared.settings.edges == Edges::Analytic;
+        if !is_analytic && self.prepared.decals.is_bare(&samples.plan_bounds()) {
+            self.bare_block(&samples, place, &mut lists.last, &mut block);
+            return block;
+        }
         for y in 0..height {
             for x in 0..width {
                 let at = ([x, y], [place.corner[0] + x, place.corner[1] + y]);
@@ -165,6 +170,41 @@ impl<'a> Painter<'a> {
             }
         }
         block
+    }
+
+    /// The pixels of a block that sees no decals: as [`Self::pixel`] finds them.
+    fn bare_block(
+        &self,
+        samples: &BlockSamples,
+        place: &TilePlace,
+        last: &mut LastGround,
+        block: &mut Block,
+    ) {
+        let total = self.prepared.pattern.count();
+        let [width, height] = place.size;
+        for at in (0..height).flat_map(|y| (0..width).map(move |x| [x, y])) {
+            let first = samples.sample(at, 0).0;
+            let (mut is_one_triangle, mut seen) = (true, 0);
+            for k in 0..total {
+                let triangle = samples.sample(at, k).0;
+                is_one_triangle &= triangle == first;
+                seen += u64::from(triangle != SKY);
+            }
+            block.counts.samples += seen;
+            let paint = if is_one_triangle && self.backdrop.is_constant_on_triangles() {
+                // The mean of what is all the same.
+                self.backdrop.paint_at(last, first, Plan::default)
+            } else {
+                let mut mean = Mean::default();
+                for (triangle, plan) in (0..total).map(|k| samples.sample(at, k)) {
+                    mean.add(self.backdrop.paint_at(last, triangle, || plan));
+                }
+                mean.paint()
+            };
+            block.pixels.push_ground(paint);
+            block.nodes.push(|| 0);
+            block.tests.push(|| 0);
+        }
     }
 
     /// The paint of a pixel (its place in the block, and in the picture), whether that is the ground's or the sky's alone, and what was done.

@@ -7,50 +7,8 @@ use crate::stage::Stage;
 use crate::technique::Kind;
 use proptest::prelude::*;
 
-/// Fills by both rules, with holes, crossings and islands; a union; outlines on each side; strokes with each join and cap, wide and narrow, with
-/// sharp and flat turns, dots and loops; a layer as a whole; an inverted one.
-const EVERYTHING: &str = r##"
-schema = 1
-image = { width = 72, height = 48, background = "#dde8f0" }
-camera = { eye = [-420.0, -1150.0, 520.0], target = [20.0, -40.0, 90.0] }
-
-[terrain]
-generate = { kind = "fbm", seed = 11, posts = [33, 29], cell_m = 40.0, height_m = 320.0 }
-
-[[layer]]
-generate = { kind = "mosaic", seed = 4, count = 30, holes = 0.3 }
-fill = { color = "#558855", opacity = 0.8 }
-outline = { color = "#223322", width_m = 9.0, mode = "inset", opacity = 0.5, join = "miter" }
-
-[[layer]]
-features = [
-  { polygon = [[[-300, -300], [300, -250], [250, 200], [-320, 150]], [[-100, -100], [100, -90], [90, 80], [-90, 90]], [[-50, -50], [50, -40], [40, 40]]] },
-  { polygon = [[-500, 200], [-100, 420], [-480, 430], [-120, 190]] },
-]
-fill = { color = "#2266ee", opacity = 0.45, rule = "nonzero" }
-outline = { color = "#221166", width_m = 25.0, mode = "offset", join = "round" }
-opacity = 0.7
-
-[[layer]]
-features = [{ polygon = [[200, 200], [520, 180], [500, 460], [220, 440]] }]
-fill = { color = "#ee2266", opacity = 0.5, invert = true }
-
-[[layer]]
-features = [{ line = [[-520, 300], [-300, 60], [-80, 300], [-90, 310]] }, { line = [[-520, 0], [-500, 0]] }, { line = [[-400, -400], [-380, -400], [-380, -380], [-400, -400]] }]
-line = { color = "#aa2233", width_m = 70.0, join = "round", cap = "round", opacity = 0.7 }
-
-[[layer]]
-features = [{ line = [[60, 300], [280, 60], [500, 300]] }, { line = [[60, -60], [500, -60], [70, -100]] }, { line = [[0, 0], [100, 0.0001], [200, 0], [50, 0]] }]
-line = { color = "#2233aa", width_m = 50.0, join = "miter", miter_limit = 3.0, cap = "square", opacity = 0.7 }
-
-[[layer]]
-features = [{ line = [[-520, -120], [-300, -360], [-80, -120], [-80, -380], [-520, -380]] }]
-line = { color = "#22aa55", width_m = 60.0, join = "bevel", cap = "butt" }
-
-[[layer]]
-generate = { kind = "roads", seed = 21, count = 60, segment_m = 90.0 }
-line = { color = "#ffee88", width_m = 6.0 }
-"##;
+/// Everything that static decals draw.
+const EVERYTHING: &str = include_str!("every_decal.toml");
 
 fn stage(text: &str, changes: &[String]) -> Stage {
     let changes: Vec<Override> = changes.iter().map(|change| Override::parse(change).unwrap()).collect();
@@ -231,11 +189,11 @@ fn a_frame_of_a_corner_builds_no_cell_that_it_does_not_see() {
     assert!(seen < whole / 2, "{seen} {whole}");
 }
 
-fn vertices(least: usize) -> impl Strategy<Value = String> {
+fn vertices(count: std::ops::Range<usize>) -> impl Strategy<Value = String> {
     // Some on a lattice, so that edges and corners meet.
     let number = prop_oneof![-520.0..520.0f64, (-8..9i32).prop_map(|k| f64::from(k) * 60.0)];
     let pair = (number.clone(), number).prop_map(|(x, y)| format!("[{x}, {y}]"));
-    prop::collection::vec(pair, least..9).prop_map(|pairs| format!("[{}]", pairs.join(", ")))
+    prop::collection::vec(pair, count).prop_map(|pairs| format!("[{}]", pairs.join(", ")))
 }
 
 fn layer() -> impl Strategy<Value = String> {
@@ -246,11 +204,11 @@ fn layer() -> impl Strategy<Value = String> {
         prop::sample::select(vec![0.4, 1.0]),
     );
     let polygon = (
-        prop::collection::vec(vertices(3), 1..4),
+        prop::collection::vec(vertices(3..9), 1..4),
         prop::sample::select(vec!["even-odd", "nonzero"]),
         prop::sample::select(vec!["inset", "normal", "offset"]),
     );
-    (polygon, prop::collection::vec(vertices(2), 1..3), style).prop_map(|(polygon, lines, style)| {
+    (polygon, prop::collection::vec(vertices(2..9), 1..3), style).prop_map(|(polygon, lines, style)| {
         let ((rings, rule, mode), (join, cap, width, opacity)) = (polygon, style);
         let lines: Vec<String> = lines.iter().map(|line| format!("{{ line = {line} }}")).collect();
         let stroke = format!("width_m = {width}, join = \"{join}\", opacity = {opacity}");
@@ -296,8 +254,73 @@ fn an_inverted_fill_alone_paints_what_lies_far_from_its_polygons() {
     let text = format!(
         "{head}[[layer]]\nfeatures = [{{ polygon = [[0, 0], [60, 0], [0, 60]] }}]\nfill = {{ color = \"#ff0000\", opacity = 0.5, invert = true }}\n"
     );
-    for of in [&["grid=1"][..], &["grid=40", "hierarchy=curve"]] {
+    for of in [&["grid=1"][..], &["grid=40", "hierarchy=curve"], &["grid=40", "leaf_polygons=clipped"]] {
         let off = off(&text, 3, of);
         assert!(off < 1e-12, "{of:?}: {off}");
+    }
+}
+
+#[test]
+fn rings_of_many_edges_among_others_hold_what_their_footprint_holds() {
+    // Stars that cross themselves: one with 151 corners, a hole with 99, an island with 5.
+    let star = |corners: u32, step: u32, radius: f64| {
+        let corner = |k: u32| {
+            let turn = f64::from(k * step % corners) / f64::from(corners) * std::f64::consts::TAU;
+            format!("[{}, {}]", radius * crate::math::cos(turn), radius * crate::math::sin(turn))
+        };
+        format!("[{}]", (0..corners).map(corner).collect::<Vec<_>>().join(", "))
+    };
+    let rings = [star(151, 67, 450.0), star(99, 7, 250.0), star(5, 2, 90.0)].join(", ");
+    let head = EVERYTHING.split("[[layer]]").next().unwrap();
+    for rule in ["even-odd", "nonzero"] {
+        let text = format!(
+            "{head}[[layer]]\nfeatures = [{{ polygon = [{rings}] }}]\nfill = {{ color = \"#ff0000\", opacity = 0.5, rule = \"{rule}\" }}\n"
+        );
+        for of in [&["grid=1"][..], &["grid=9", "leaf_capacity=2"], &["grid=200"]] {
+            let off = off(&text, 3, of);
+            assert!(off < 1e-12, "{rule} {of:?}: {off}");
+        }
+    }
+}
+
+#[test]
+fn cells_that_lie_in_the_same_fills_share_what_they_hold() {
+    let head = EVERYTHING.split("[[layer]]").next().unwrap();
+    let cover = "{ polygon = [[-9e3, -9e3], [9e3, -9e3], [9e3, 9e3], [-9e3, 9e3]] }, ";
+    let text = format!(
+        "{head}[[layer]]\nfeatures = [{} {{ polygon = [[0, 0], [90, 0], [0, 90]] }}]\nfill = {{ color = \"#ff0000\", opacity = 0.01 }}\n",
+        cover.repeat(100)
+    );
+    let bytes = |of: &[&str]| {
+        let stage = stage(&text, &changes(of));
+        let prepared = super::Prepare::new(&stage, &|_| {}).unwrap();
+        let memory = prepared.decals().memory();
+        (memory.cells, memory.polygons)
+    };
+    let (few, many) = (bytes(&["preparation=whole", "grid=10"]), bytes(&["preparation=whole", "grid=40"]));
+    assert_eq!([few.0, many.0], [100, 1600]);
+    // Those that an edge of the triangle meets have their own; all others together two.
+    assert!(many.1 < 5 * few.1 && many.1 < 100 * 20_000, "{few:?} {many:?}");
+    assert!(off(&text, 3, &["grid=40"]) < 1e-12);
+}
+
+#[test]
+fn a_sample_on_the_rim_that_is_rounded_outwards_is_in_the_grid() {
+    let head = EVERYTHING.split("[[layer]]").next().unwrap();
+    for invert in ["", ", invert = true"] {
+        let corners = if invert.is_empty() {
+            "[-9e3, -9e3], [9e3, -9e3], [9e3, 9e3]"
+        } else {
+            "[0, 0], [9, 0], [0, 9]"
+        };
+        let text = format!(
+            "{head}[[layer]]\nfeatures = [{{ polygon = [{corners}] }}]\nfill = {{ color = \"#ff0000\"{invert} }}\n"
+        );
+        let stage = stage(&text, &[]);
+        let prepared = super::Prepare::new(&stage, &|_| {}).unwrap();
+        let (rim, decals) = (stage.mesh.plan_bounds(), prepared.decals());
+        let beside =
+            |by: f64| decals.cell_of(crate::space::Plan::new(rim.max.x + by, 0.5 * (rim.min.y + rim.max.y)));
+        assert!(beside(1e-5).is_some() && beside(1.0).is_none());
     }
 }
