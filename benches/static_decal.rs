@@ -197,7 +197,7 @@ fn sparse(c: &mut Criterion) {
         stage.scene.technique.set(Settings { samples, ..Settings::default() });
         let prepared = technique::prepare(Kind::StaticDecal, &stage).expect("widths in metres");
         group.throughput(Throughput::Elements((view.width() * view.height()) as u64 * u64::from(samples)));
-        for tile in [64, 128] {
+        for tile in [32, 64] {
             let options = FrameOptions { tile, buffers: &[], progress: &|_| {} };
             group.bench_function(
                 BenchmarkId::new(format!("frame of {samples} samples a pixel"), tile),

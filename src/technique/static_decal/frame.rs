@@ -23,7 +23,7 @@ use crate::tiling::{TilePlace, Tiling};
 const ORDER: [&str; 7] = ["depth", "triangle", "plan", "color", "cell", "nodes", "tests"];
 
 /// The most pixels a side of a block: what its samples see stays in a processor's cache.
-const MOST_OF_A_BLOCK: usize = 128;
+const MOST_OF_A_BLOCK: usize = 64;
 
 /// No cell.
 const NO_CELL: u32 = u32::MAX;
