@@ -6,8 +6,10 @@
 //! the rest. Refuses: nothing; NaN in gives an arbitrary sign.
 
 mod hit_side;
+mod near;
 
 pub use hit_side::{hit_is_above, hit_side, moved_ray_side};
+pub use near::{Displacement, distance_squared, is_near_segment};
 
 use crate::space::{Lens, Plan, Ray, ViewFrame, World};
 use glam::DVec3;

@@ -511,12 +511,12 @@ fn single_precision_draws_nearly_the_same() {
 fn a_pixel_is_explained_by_the_segments_whose_boxes_cover_it() {
     let stage = stage(&scene(FLAT, MAP, &line_layer(&[[-200.0, 3.0], [200.0, 3.0]], 4.0)), &PLAIN);
     let prepared = dynamic_line::Prepare::new(&stage).unwrap();
-    let (steps, code) = prepared.steps_of(&stage.view().unwrap(), [48, 31]);
+    let (steps, code) = prepared.steps_of(&stage.view().unwrap(), [48, 31]).unwrap();
     assert_eq!(code, [0, 0, 0, 255]);
     let is_in = |step: &Step| matches!(step, Step::Tested { item: 0, verdict: Verdict::Inside(share), .. } if *share == 1.0);
     assert!(steps.iter().any(is_in), "{steps:#?}");
     assert!(steps.contains(&Step::Composed(vec![(0, 1.0)])));
-    let (steps, code) = prepared.steps_of(&stage.view().unwrap(), [48, 3]);
+    let (steps, code) = prepared.steps_of(&stage.view().unwrap(), [48, 3]).unwrap();
     assert_eq!(code, [255; 4]);
     assert!(steps.contains(&Step::Composed(Vec::new())));
 }

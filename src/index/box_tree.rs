@@ -38,10 +38,21 @@ impl BoxTree {
 
     /// Calls `visit` with the number of each box that meets `plan` until it returns false; returns whether it never did.
     #[inline]
-    pub fn query(&self, plan: &PlanBox, mut visit: impl FnMut(u32) -> bool) -> bool {
+    pub fn query(&self, plan: &PlanBox, visit: impl FnMut(u32) -> bool) -> bool {
         let wanted = SmallBox::around(plan);
+        self.search(|small| small.meets(&wanted), visit)
+    }
+
+    /// As [`Self::query`] with each box that is wanted. `is_wanted` is asked of boxes around several first: it must want those that hold a box that
+    /// it wants.
+    #[inline]
+    pub fn search(
+        &self,
+        mut is_wanted: impl FnMut(&SmallBox) -> bool,
+        mut visit: impl FnMut(u32) -> bool,
+    ) -> bool {
         let top = self.levels.len().saturating_sub(1);
-        if self.order.is_empty() || !self.levels[top][0].meets(&wanted) {
+        if self.order.is_empty() || !is_wanted(&self.levels[top][0]) {
             return true;
         }
         let mut stack = [(0u32, 0u32); FAN * MOST_LEVELS];
@@ -59,7 +70,7 @@ impl BoxTree {
             let below = &self.levels[level as usize - 1];
             let start = node as usize * FAN;
             for k in (start..(start + FAN).min(below.len())).rev() {
-                if below[k].meets(&wanted) {
+                if is_wanted(&below[k]) {
                     stack[height] = (level - 1, k as u32);
                     height += 1;
                 }

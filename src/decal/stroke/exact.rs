@@ -4,7 +4,7 @@
 //! squared, the bevel's chord with two roots is squared twice.
 
 use super::kind::{Corner, End};
-use crate::predicate::Expansion;
+use crate::predicate::{Displacement, Expansion};
 use crate::space::Plan;
 
 /// A segment's parts as they are stored.
@@ -28,26 +28,28 @@ impl Parts {
     /// Whether a point is in one of them.
     #[cold]
     pub(super) fn hold(&self, at: Plan) -> bool {
-        let to_start = Vector::new(at, self.from);
-        let disc = |end: End, from: &Vector| end == End::Round && from.is_within(self.half);
+        let to_start = Displacement::new(at, self.from);
+        let half_squared = Expansion::exactly(self.half).scaled(self.half);
+        let disc = |end: End, from: &Displacement| end == End::Round && from.is_within(&half_squared);
         disc(self.ends[0], &to_start)
-            || disc(self.ends[1], &Vector::new(at, self.to))
+            || disc(self.ends[1], &Displacement::new(at, self.to))
             || self.rectangle_holds(at, &to_start)
             || self.wedge_holds(&to_start)
     }
 
-    fn rectangle_holds(&self, at: Plan, from_start: &Vector) -> bool {
+    fn rectangle_holds(&self, at: Plan, from_start: &Displacement) -> bool {
         let is_square = |end: End| end == End::Square;
         if self.from == self.to && !is_square(self.ends[0]) {
             return false;
         }
         // A dot's square lies along the axes.
-        let along = if self.from == self.to { Vector::east() } else { Vector::new(self.to, self.from) };
+        let along =
+            if self.from == self.to { Displacement::east() } else { Displacement::new(self.to, self.from) };
         let length = along.dot(&along);
         let is_near = |distance: &Expansion| is_at_most(distance, self.half, &length);
         let across = along.cross(from_start);
         let back = Expansion::exactly(0.0).minus(&along.dot(from_start));
-        let on = along.dot(&Vector::new(at, self.to));
+        let on = along.dot(&Displacement::new(at, self.to));
         let ends = |end: End, beyond: &Expansion| match end {
             End::Square => is_near(beyond),
             _ => beyond.sign() <= 0.0,
@@ -58,15 +60,16 @@ impl Parts {
             && ends(self.ends[1], &on)
     }
 
-    fn wedge_holds(&self, u: &Vector) -> bool {
+    fn wedge_holds(&self, u: &Displacement) -> bool {
         if !matches!(self.corner, Corner::Miter | Corner::Bevel) {
             return false;
         }
-        let (into, along) = (Vector::new(self.from, self.before), Vector::new(self.to, self.from));
+        let (into, along) =
+            (Displacement::new(self.from, self.before), Displacement::new(self.to, self.from));
         if into.dot(u).sign() < 0.0 || along.dot(u).sign() > 0.0 {
             return false;
         }
-        let outside = |d: &Vector| d.cross(u).scaled(self.outer);
+        let outside = |d: &Displacement| d.cross(u).scaled(self.outer);
         let (a, b) = (outside(&into), outside(&along));
         let (e, d) = (into.dot(&into), along.dot(&along));
         match self.corner {
@@ -79,7 +82,7 @@ impl Parts {
 /// Whether a miter reaches at most `limit` half widths: whether 2 |e| |d| <= limit^2 (|e| |d| + e . d).
 #[cold]
 pub(super) fn is_within_limit(before: Plan, at: Plan, after: Plan, limit: f64) -> bool {
-    let (into, along) = (Vector::new(at, before), Vector::new(after, at));
+    let (into, along) = (Displacement::new(at, before), Displacement::new(after, at));
     let square = Expansion::exactly(limit).scaled(limit);
     let excess = square.minus(&Expansion::exactly(2.0));
     let product = into.dot(&along).times(&square);
@@ -89,7 +92,7 @@ pub(super) fn is_within_limit(before: Plan, at: Plan, after: Plan, limit: f64) -
 /// Twice the area of three points' triangle, positive where they turn left, good to a rounding however small.
 #[cold]
 pub(super) fn area_doubled(a: Plan, b: Plan, c: Plan) -> f64 {
-    Vector::new(b, a).cross(&Vector::new(c, b)).rounded()
+    Displacement::new(b, a).cross(&Displacement::new(c, b)).rounded()
 }
 
 /// Whether a point is inside of the chord between the corners of two rectangles at h n1, h n2 from their common vertex, n1 and n2 the
@@ -129,29 +132,4 @@ fn sign_with_root(plain: &Expansion, factor: &Expansion, square: &Expansion) -> 
         return f;
     }
     p * plain.times(plain).minus(&factor.times(factor).times(square)).sign()
-}
-
-/// A difference of two points.
-struct Vector([Expansion; 2]);
-
-impl Vector {
-    fn new(of: Plan, minus: Plan) -> Self {
-        Self([Expansion::difference(of.x, minus.x), Expansion::difference(of.y, minus.y)])
-    }
-
-    fn east() -> Self {
-        Self([1.0, 0.0].map(Expansion::exactly))
-    }
-
-    fn dot(&self, other: &Self) -> Expansion {
-        self.0[0].times(&other.0[0]).plus(&self.0[1].times(&other.0[1]))
-    }
-
-    fn cross(&self, other: &Self) -> Expansion {
-        self.0[0].times(&other.0[1]).minus(&self.0[1].times(&other.0[0]))
-    }
-
-    fn is_within(&self, half: f64) -> bool {
-        self.dot(self).minus(&Expansion::exactly(half).scaled(half)).sign() <= 0.0
-    }
 }

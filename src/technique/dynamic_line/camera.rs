@@ -25,12 +25,6 @@ pub struct P3<T> {
 }
 
 impl<T: Real> P2<T> {
-    /// A plan point.
-    #[inline(always)]
-    pub fn of(p: Plan) -> Self {
-        Self { x: T::of(p.x), y: T::of(p.y) }
-    }
-
     /// From another point to this one.
     #[inline(always)]
     pub fn minus(self, other: Self) -> Self {
@@ -96,6 +90,12 @@ impl<T: Real> P3<T> {
     #[inline(always)]
     pub fn plan(self) -> P2<T> {
         P2 { x: self.x, y: self.y }
+    }
+
+    /// In doubles.
+    #[inline(always)]
+    pub fn get(self) -> World {
+        World::new(self.x.get(), self.y.get(), self.z.get())
     }
 
     /// From another point to this one.

@@ -33,6 +33,9 @@ const SEGMENTS_AT_A_TIME: usize = 1024;
 /// The most tiles that boxes may touch, all together: a number each.
 const MOST_TOUCHED: u64 = 1 << 30;
 
+/// The most segments of a view: each takes some 200 bytes on the way to a tile.
+const MOST_SEGMENTS: usize = 1 << 25;
+
 /// What was prepared for any view.
 #[derive(Debug)]
 pub struct Prepared<'s> {
@@ -57,7 +60,7 @@ struct Setup<'a, T> {
 /// Draws a frame of a view.
 ///
 /// # Errors
-/// When boxes touch more tiles than there is room for.
+/// When there are more segments than there is room for, or boxes touch more tiles.
 pub fn draw(
     (stage, view): (&Stage, &ViewFrame),
     prepared: &Prepared,
@@ -70,11 +73,14 @@ pub fn draw(
 }
 
 /// Decides one pixel of a view as a frame does: its steps and its code values.
+///
+/// # Errors
+/// When there are more segments than there is room for.
 pub fn explain(
     (stage, view): (&Stage, &ViewFrame),
     prepared: &Prepared,
     pixel: [usize; 2],
-) -> (Vec<Step>, [u8; 4]) {
+) -> Result<(Vec<Step>, [u8; 4])> {
     match stage.scene.device.precision {
         Precision::F64 => explain_with::<f64>((stage, view), prepared, pixel),
         Precision::F32 => explain_with::<f32>((stage, view), prepared, pixel),
@@ -87,7 +93,7 @@ fn draw_with<T: Real>(
     options: &FrameOptions,
 ) -> Result<Frame> {
     let mesh = &*stage.mesh_for(view);
-    let setup = Setup::<T>::new((stage, mesh, view), prepared, (options.tile, options.wants("boxes")));
+    let setup = Setup::<T>::new((stage, mesh, view), prepared, (options.tile, options.wants("boxes")))?;
     let context = &setup.context;
     (options.progress)(0.4);
     let size = [view.width(), view.height()];
@@ -120,9 +126,9 @@ fn explain_with<T: Real>(
     (stage, view): (&Stage, &ViewFrame),
     prepared: &Prepared,
     [x, y]: [usize; 2],
-) -> (Vec<Step>, [u8; 4]) {
+) -> Result<(Vec<Step>, [u8; 4])> {
     let mesh = &*stage.mesh_for(view);
-    let setup = Setup::<T>::new((stage, mesh, view), prepared, (TILE, false));
+    let setup = Setup::<T>::new((stage, mesh, view), prepared, (TILE, false))?;
     let draw = |place: TilePlace, record: &mut Vec<Step>| {
         let ([x, y], [width, height]) = (place.corner, place.size);
         let meets = |[columns, rows]: &Window| {
@@ -135,7 +141,7 @@ fn explain_with<T: Real>(
     let mut steps = Vec::new();
     let own = draw(TilePlace { corner: [x, y], size: [1, 1] }, &mut steps);
     if setup.context.settings.antialiasing != Antialiasing::Fxaa {
-        return (steps, code_values(own.colors[0]));
+        return Ok((steps, code_values(own.colors[0])));
     }
     let corner = [x.saturating_sub(REACH), y.saturating_sub(REACH)];
     let end = [(x + REACH + 1).min(view.width()), (y + REACH + 1).min(view.height())];
@@ -143,7 +149,7 @@ fn explain_with<T: Real>(
     let around = draw(TilePlace { corner, size }, &mut Vec::new());
     let color = Picture::new(size, &around.colors).smoothed([x - corner[0], y - corner[1]]);
     steps.push(Step::Smoothed(color));
-    (steps, code_values(color))
+    Ok((steps, code_values(color)))
 }
 
 /// The picture after the filter over it, if it is wanted.
@@ -164,12 +170,12 @@ impl<'a, T: Real> Setup<'a, T> {
         (stage, mesh, view): (&'a Stage, &'a Mesh, &'a ViewFrame),
         prepared: &'a Prepared<'a>,
         (tile, wants_boxes): (usize, bool),
-    ) -> Self {
+    ) -> Result<Self> {
         let settings: Settings = stage.scene.technique.get();
         let mut sight = Sight::new(view, mesh, &stage.scene.device, Lattice::centres(view, 0), tile);
         sight.see();
         let camera = Camera::new(view);
-        let found = segments((stage, mesh, view), &prepared.lines, &camera);
+        let mut found = segments((stage, mesh, view), &prepared.lines, &camera, MOST_SEGMENTS)?;
         let boxes = BoxMaker::new(camera, mesh, settings.boxes);
         let thin = Thin::of(&settings, view);
         let size = [view.width(), view.height()];
@@ -179,16 +185,18 @@ impl<'a, T: Real> Setup<'a, T> {
         };
         let is_kept = |segment: &Segment<T>| settings.culling == Culling::Boxes || segment.is_inside;
         let chunks: Vec<&[Segment<T>]> = found.all.chunks(SEGMENTS_AT_A_TIME).collect();
-        let kept = parallel::map(&chunks, |chunk| {
-            let kept = chunk.iter().filter(|segment| is_kept(segment));
-            kept.map(|segment| (*segment, window(segment))).collect::<Vec<_>>()
+        // Of those that are culled nothing is said.
+        let said = parallel::map(&chunks, |chunk| {
+            chunk.iter().map(|segment| is_kept(segment).then(|| window(segment))).collect::<Vec<_>>()
         });
-        let is_in_view = |(segment, window): &(Segment<T>, Option<Window>)| Some((*segment, window.clone()?));
-        let all = kept.iter().map(|chunk| match settings.culling {
-            Culling::Vertices => chunk.len() as u64,
-            Culling::Boxes => chunk.iter().filter(|(_, window)| window.is_some()).count() as u64,
-        });
-        let (count, (segments, windows)) = (all.sum(), kept.iter().flatten().filter_map(is_in_view).unzip());
+        let kept = said.iter().flatten().flatten();
+        let count = match settings.culling {
+            Culling::Vertices => kept.count() as u64,
+            Culling::Boxes => kept.flatten().count() as u64,
+        };
+        let mut each = said.iter().flatten();
+        found.all.retain(|_| matches!(each.next(), Some(Some(Some(_)))));
+        let windows = said.into_iter().flatten().filter_map(Option::flatten).collect();
         let backdrop = Backdrop::of(&stage.scene, mesh);
         let styles = stage.draw_list.styles().iter();
         let paints = styles.map(|style| backdrop.compositor.paint(style.paint)).collect();
@@ -196,7 +204,7 @@ impl<'a, T: Real> Setup<'a, T> {
             let is_analytic = settings.antialiasing == Antialiasing::Analytic;
             Statics::new(decals, (&stage.draw_list, &backdrop, stage.scene.compositing.mode), is_analytic)
         });
-        Self {
+        Ok(Self {
             context: FrameContext {
                 stage,
                 mesh,
@@ -207,7 +215,7 @@ impl<'a, T: Real> Setup<'a, T> {
                 camera,
                 boxes,
                 thin,
-                segments,
+                segments: found.all,
                 paints,
                 statics,
                 wants_boxes,
@@ -217,15 +225,14 @@ impl<'a, T: Real> Setup<'a, T> {
             vertices: found.vertices,
             vanished: found.vanished,
             kept: count,
-        }
+        })
     }
 
     fn counts(&self, lines: &MatchedLines, tiles: &[Drawn]) -> Vec<(&'static str, u64)> {
         let done = tiles.iter().fold(Counts::default(), |sum, tile| sum.plus(tile.counts));
-        let vertices = lines.chains.iter().map(|chain| u64::from(chain.chain.count)).sum();
         let own = [
             ("lines", lines.chains.len() as u64),
-            ("vertices", vertices),
+            ("vertices", lines.chain_vertices),
             ("parts", lines.parts),
             ("vertices_seen", self.vertices),
             ("vanished", self.vanished),
@@ -275,7 +282,7 @@ mod tests {
         let view = stage.view().unwrap();
         let prepared =
             Prepared { lines: MatchedLines::new(&stage.draw_list, &stage.mesh, None).unwrap(), decals: None };
-        let mut setup = Setup::<f64>::new((&stage, &stage.mesh, &view), &prepared, (64, true));
+        let mut setup = Setup::<f64>::new((&stage, &stage.mesh, &view), &prepared, (64, true)).unwrap();
         let near: Vec<u32> = (0..setup.windows.len() as u32).collect();
         let place = TilePlace { corner: [0, 0], size: [23, 17] };
         let whole = setup.context.draw(place, &near, &mut ());

@@ -1,10 +1,12 @@
 //! Point-in-line tests (3.6, 4.3.2, Figs. 3.10 and 3.11), analytic edges (3.5 leaves them open) and thin lines (4.5, Fig. 4.9).
 //!
 //! Input: a segment and the surface point of a pixel's centre. Output: how much of the pixel the segment's line covers: 0 or 1, with analytic edges
-//! anything between. The width at a pixel is that of its surface point (4.3.2), not of the segment's vertices. Refuses: nothing.
+//! anything between. The width at a pixel is that of its surface point (4.3.2), not of the segment's vertices. Where a line is round and the device computes in
+//! doubles, whether it holds a point is decided exactly ([`Border`]); corners by style, analytic edges and thin lines are as good as doubles are. Refuses: nothing.
 //!
 //! 4.5 corrects "top-down views" and does not say which those are: here a view whose direction is within ten degrees of straight down.
 
+use super::border::Border;
 use super::camera::{Camera, P2, P3};
 use super::segment_box::miter;
 use super::update::Segment;
@@ -52,6 +54,7 @@ pub struct ReadySegment<T> {
     end: P2<T>,
     along: P2<T>,
     length_squared: T,
+    border: Option<Border>,
     style: Option<StyledSegment<T>>,
     picture: Option<Picture>,
 }
@@ -92,17 +95,17 @@ enum End<T> {
 /// The surface point of a pixel's centre.
 #[derive(Debug, Clone, Copy)]
 pub struct Fragment<T> {
-    /// Its plan point.
-    pub plan: P2<T>,
+    /// It.
+    pub point: P3<T>,
     /// The size of a pixel there, metres.
     pub pixel: T,
 }
 
 impl<T: Real> ReadySegment<T> {
-    /// Makes a segment of a line ready; `half_px`: half the line's width in pixels.
+    /// Makes a segment of a line ready; `half_px`: half the line's width in pixels; `border`: the line's, where it is to be decided exactly.
     pub fn new(
         segment: &Segment<T>,
-        (line, half_px): (&Line, T),
+        (line, half_px, border): (&Line, T, Option<Border>),
         (camera, view): (&Camera<T>, &ViewFrame),
         (corners, thin): (Corners, Thin),
     ) -> Self {
@@ -110,7 +113,7 @@ impl<T: Real> ReadySegment<T> {
         let along = end.minus(start);
         let style = (corners == Corners::Style).then(|| StyledSegment::new(segment, line));
         let picture = if thin == Thin::Nothing { None } else { Picture::new(segment, camera, view) };
-        Self { half_px, start, end, along, length_squared: along.dot(along), style, picture }
+        Self { half_px, start, end, along, length_squared: along.dot(along), border, style, picture }
     }
 
     /// From the nearest point of the segment to a point.
@@ -137,7 +140,7 @@ impl<T: Real> ReadySegment<T> {
     /// The distance of a pixel's plan point from the segment, metres.
     #[inline(always)]
     pub fn distance(&self, at: &Fragment<T>) -> T {
-        let offset = self.offset(at.plan);
+        let offset = self.offset(at.point.plan());
         offset.dot(offset).sqrt()
     }
 
@@ -146,17 +149,25 @@ impl<T: Real> ReadySegment<T> {
     pub fn holds(&self, at: &Fragment<T>) -> bool {
         let half = self.half_width(at);
         if let Some(style) = &self.style {
-            return style.holds((self.start, self.end), at.plan, half);
+            return style.holds((self.start, self.end), at.point.plan(), half);
         }
-        let offset = self.offset(at.plan);
-        offset.dot(offset) <= half * half
+        let offset = self.offset(at.point.plan());
+        let square = offset.dot(offset);
+        let Some(border) = &self.border else { return square <= half * half };
+        let (square, half) = (square.get(), half.get());
+        let tolerance = border.tolerance(at.point.plan().minus(self.start), half);
+        let [inner, outer] = [half - tolerance, half + tolerance];
+        if square > outer * outer {
+            return false;
+        }
+        (inner > 0.0 && square < inner * inner) || half == f64::INFINITY || border.holds(at.point.get())
     }
 
     /// How much of a pixel lies in the line, 0..=1: the share of the pixel's reach, along the way to the segment, that does; `footprint`: how the plan point
     /// moves from pixel to pixel.
     pub fn share(&self, at: &Fragment<T>, footprint: Option<PixelFootprint>) -> f64 {
         let half = self.half_width(at).get();
-        let offset = self.offset(at.plan);
+        let offset = self.offset(at.point.plan());
         let distance = offset.dot(offset).sqrt().get();
         let across = if distance > 0.0 { offset } else { self.along.left() };
         let way = across.normalized().map(|way| way.get().to_vec());

@@ -4,10 +4,12 @@
 //! [`PARTS_A_PIECE`] parts, with their vertices on the terrain. Where a vertex has no terrain under it (beside it, in a hole) it is put at the
 //! middle of the terrain's heights. Refuses: parts so short that there are more than [`MOST_PARTS`].
 //!
-//! Pieces are found at once, their vertices when someone asks for them first, so that a view takes memory for what it sees alone.
+//! Pieces are found at once, their vertices when someone asks for them first, so that a view takes memory for what it sees alone; a tree of their boxes tells
+//! which those are.
 
 use crate::draw_list::{Chain, DrawList};
 use crate::error::{Error, Result};
+use crate::index::BoxTree;
 use crate::parallel;
 use crate::scene::Width;
 use crate::space::{Plan, PlanBox, World};
@@ -58,8 +60,12 @@ pub struct MatchedLines<'s> {
     pub chains: Vec<LineChain>,
     /// Their pieces.
     pub pieces: Vec<Piece>,
+    /// Of their boxes.
+    tree: BoxTree,
     /// How many parts there are in all.
     pub parts: u64,
+    /// How many vertices the chains have.
+    pub chain_vertices: u64,
 }
 
 impl<'s> MatchedLines<'s> {
@@ -94,7 +100,9 @@ impl<'s> MatchedLines<'s> {
             middle: (low + high) / 2.0,
             chains: Vec::with_capacity(chains.len()),
             pieces: Vec::new(),
+            tree: BoxTree::default(),
             parts: total as u64,
+            chain_vertices: chains.iter().map(|(_, chain)| u64::from(chain.count)).sum(),
         };
         let cut = parallel::map_indices(chains.len().div_ceil(CHAINS_AT_A_TIME), |k| {
             let first = k * CHAINS_AT_A_TIME;
@@ -106,7 +114,28 @@ impl<'s> MatchedLines<'s> {
             lines.pieces.extend(pieces);
             lines.chains.push(LineChain { item, chain, pieces: first..lines.pieces.len() as u32 });
         }
+        let boxes: Vec<PlanBox> = lines.pieces.iter().map(|piece| piece.plan).collect();
+        lines.tree = BoxTree::new(&boxes);
         Ok(lines)
+    }
+
+    /// The pieces whose boxes may be wanted, in their row; `may_be` is asked of boxes around several first, and must want those that hold one that it wants.
+    pub fn pieces_that(&self, mut may_be: impl FnMut(&PlanBox) -> bool) -> Vec<u32> {
+        let mut found = Vec::new();
+        self.tree.search(
+            |small| may_be(&small.bounds()),
+            |piece| {
+                found.push(piece);
+                true
+            },
+        );
+        found.sort_unstable();
+        found
+    }
+
+    /// The place of the chain that a piece is of.
+    pub fn chain_of(&self, piece: u32) -> usize {
+        self.chains.partition_point(|chain| chain.pieces.end <= piece)
     }
 
     /// The pieces of a chain.
@@ -144,6 +173,31 @@ impl<'s> MatchedLines<'s> {
     pub fn vertices(&self, chain: &LineChain, piece: u32) -> &[World] {
         let piece = &self.pieces[piece as usize];
         piece.vertices.get_or_init(|| self.matched(&chain.chain, piece))
+    }
+
+    /// Of each vertex of a piece, at which of the draw list's vertices the segments start that it ends, and that it starts or lies on. Where no segment is,
+    /// no matter.
+    pub fn sources(&self, chain: &LineChain, piece: u32) -> Vec<[u32; 2]> {
+        let (piece, first, path) =
+            (&self.pieces[piece as usize], chain.chain.first, self.list.path_of(&chain.chain));
+        let (mut segment, mut part) = piece.from;
+        let mut sources = Vec::with_capacity(piece.parts as usize + 1);
+        let mut add = |segment: u32, part: u32| {
+            // Before a closed line's first vertex comes its last segment.
+            let last = chain.chain.segments().saturating_sub(1);
+            let into = if part > 0 { segment } else { segment.checked_sub(1).unwrap_or(last) };
+            sources.push([first + into, first + segment]);
+        };
+        let mut left = piece.parts;
+        while left > 0 {
+            let count = parts((path[segment as usize], path[segment as usize + 1]), self.l_max) as u32;
+            let taken = left.min(count - part);
+            (part..part + taken).for_each(|part| add(segment, part));
+            left -= taken;
+            (segment, part) = if part + taken == count { (segment + 1, 0) } else { (segment, part + taken) };
+        }
+        add(segment, part);
+        sources
     }
 
     /// Matches all pieces.
@@ -194,6 +248,7 @@ impl<'s> MatchedLines<'s> {
         let vertices = |piece: &Piece| piece.vertices.get().map_or(0, |v| size_of_val(&v[..]));
         size_of_val(&self.chains[..])
             + size_of_val(&self.pieces[..])
+            + self.tree.bytes()
             + self.pieces.iter().map(vertices).sum::<usize>()
     }
 }

@@ -17,6 +17,7 @@
 //! Refuses: scenes without a width in pixels, outlines in pixels that are inset or offset (3.6: those are of static lines), terrains that are not
 //! draped vertically (boxes stand upright on the plan), parts of segments without number.
 
+mod border;
 mod camera;
 mod frame;
 mod fxaa;
@@ -117,7 +118,10 @@ impl<'s> Prepare<'s> {
     }
 
     /// The steps of a pixel (column, row) of a view's picture, and its code values; see [`super::explain`].
-    pub fn steps_of(&self, view: &ViewFrame, pixel: [usize; 2]) -> (Vec<Step>, [u8; 4]) {
+    ///
+    /// # Errors
+    /// When the view has more segments than there is room for.
+    pub fn steps_of(&self, view: &ViewFrame, pixel: [usize; 2]) -> Result<(Vec<Step>, [u8; 4])> {
         frame::explain((self.stage, view), &self.prepared, pixel)
     }
 }
@@ -162,7 +166,7 @@ impl Prepared for Prepare<'_> {
     }
 
     fn steps(&self, view: &ViewFrame, pixel: [usize; 2]) -> Result<Explanation> {
-        let (steps, code) = self.steps_of(view, pixel);
+        let (steps, code) = self.steps_of(view, pixel)?;
         Ok(Explanation::new(steps, code))
     }
 
@@ -171,3 +175,6 @@ impl Prepared for Prepare<'_> {
             + self.prepared.decals.as_ref().map_or(0, |decals| decals.memory().bytes())
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -69,7 +69,8 @@ impl<T: Real> BoxMaker<T> {
             return half_px * most(start, end);
         }
         let growth = half_px * self.camera.pixel();
-        let Some(eye) = self.camera.eye() else { return growth };
+        let slack = self.slack(segment);
+        let Some(eye) = self.camera.eye() else { return growth + slack };
         // The widest place: reach = growth * r, r <= the distance of (far + reach, away).
         let one = T::of(1.0);
         let distance = |p: P3<T>| {
@@ -80,7 +81,18 @@ impl<T: Real> BoxMaker<T> {
         let g = growth * growth;
         let root = (g * g * far * far + (one - g) * g * (far * far + self.away * self.away)).sqrt();
         let reach = (g * far + root) / (one - g);
-        if growth < one { reach * T::of(1.0 + 1e-6) } else { T::of(f64::INFINITY) }
+        if growth < one { reach * T::of(1.0 + 1e-6) + slack } else { T::of(f64::INFINITY) }
+    }
+
+    /// What rounding may do to surface points near a segment, and to their pictures: some roundings of numbers as large as the coordinates and those of view
+    /// space.
+    fn slack(&self, segment: &Segment<T>) -> T {
+        let size = |p: P3<T>| {
+            let at = p.get();
+            at.x.abs() + at.y.abs() + at.z.abs()
+        };
+        let sizes = [segment.start, segment.end].map(|p| size(p) + size(self.camera.view(p)));
+        T::of(ROUNDINGS * (sizes[0] + sizes[1] + self.away.get()))
     }
 
     /// Algorithm 3.4.
@@ -137,6 +149,9 @@ impl<T: Real> BoxMaker<T> {
     }
 }
 
+/// What rounding may do, as a share of the numbers that go into it.
+const ROUNDINGS: f64 = 128.0 * f64::EPSILON;
+
 /// Pixels: what reaches farther covers the whole picture.
 const FARTHEST: f64 = 1e100;
 
@@ -145,14 +160,17 @@ const FARTHEST: f64 = 1e100;
 pub struct Outline {
     /// Its corners in order; none: the whole screen.
     corners: Vec<Plan>,
+    /// By how much rounding may have moved its sides.
+    slack: f64,
 }
 
 impl Outline {
     /// The convex hull of some points (Andrew 1979, the monotone chain).
     fn around(mut points: Vec<Plan>) -> Self {
         if !points.iter().all(|p| p.x.abs() < FARTHEST && p.y.abs() < FARTHEST) {
-            return Self { corners: Vec::new() };
+            return Self { corners: Vec::new(), slack: 0.0 };
         }
+        let farthest = points.iter().map(|p| math::max(p.x.abs(), p.y.abs())).fold(0.0, math::max);
         points.sort_unstable_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
         let mut corners: Vec<Plan> = Vec::with_capacity(points.len() + 1);
         let mut chain = |points: &mut dyn Iterator<Item = &Plan>, floor: usize| {
@@ -174,7 +192,7 @@ impl Outline {
         if corners.is_empty() {
             corners.push(points[0]);
         }
-        Self { corners }
+        Self { corners, slack: ROUNDINGS * farthest }
     }
 
     /// The columns and rows of a picture around the centres in it; `None`: there are none.
@@ -185,13 +203,13 @@ impl Outline {
         let range = |of: fn(&Plan) -> f64, count: usize| {
             let low = self.corners.iter().map(of).fold(f64::INFINITY, math::min);
             let high = self.corners.iter().map(of).fold(f64::NEG_INFINITY, math::max);
-            centres(low, high, 0..count)
+            centres(low - self.slack, high + self.slack, 0..count)
         };
         let (columns, rows) = (range(|p| p.x, width), range(|p| p.y, height));
         (!columns.is_empty() && !rows.is_empty()).then_some([columns, rows])
     }
 
-    /// The columns of `columns` whose centres in a row lie in it.
+    /// The columns of `columns` whose centres in a row lie in it, as far as rounding tells.
     pub fn columns(&self, row: usize, columns: std::ops::Range<usize>) -> std::ops::Range<usize> {
         if self.corners.is_empty() {
             return columns;
@@ -200,17 +218,18 @@ impl Outline {
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         for (k, a) in self.corners.iter().enumerate() {
             let b = &self.corners[(k + 1) % self.corners.len()];
-            if (a.y > y && b.y > y) || (a.y < y && b.y < y) {
+            let is_beyond = |p: &Plan| [p.y > y + self.slack, p.y < y - self.slack];
+            if is_beyond(a).into_iter().zip(is_beyond(b)).any(|(a, b)| a && b) {
                 continue;
             }
             // The same point whichever way the edge runs.
             let (a, b) = if (a.y, a.x) <= (b.y, b.x) { (a, b) } else { (b, a) };
-            let ends =
-                if a.y == b.y { [a.x, b.x] } else { [a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y)); 2] };
+            let share = math::min(math::max((y - a.y) / (b.y - a.y), 0.0), 1.0);
+            let ends = if a.y == b.y { [a.x, b.x] } else { [a.x + (b.x - a.x) * share; 2] };
             low = math::min(low, math::min(ends[0], ends[1]));
             high = math::max(high, math::max(ends[0], ends[1]));
         }
-        centres(low, high, columns)
+        centres(low - self.slack, high + self.slack, columns)
     }
 }
 

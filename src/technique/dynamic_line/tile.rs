@@ -4,7 +4,8 @@
 //! pixel is decided by itself, so that neither tiles nor threads matter. Where lists outgrow [`MOST_ENTRIES`] the rectangle is drawn in parts, down to one
 //! pixel, whose list is no longer than there are segments. Refuses: nothing.
 
-use super::camera::{Camera, P2, P3};
+use super::border::Border;
+use super::camera::{Camera, P3};
 use super::in_line::{Fragment, ReadySegment, Thin};
 use super::lists::{Entry, PixelLists};
 use super::segment_box::BoxMaker;
@@ -14,10 +15,10 @@ use super::update::Segment;
 use crate::canvas::{Backdrop, Record};
 use crate::raster::device::Real;
 use crate::resolve::{Paint, Stack};
-use crate::scene::{BlendMode, Line, Width};
+use crate::scene::{BlendMode, Line, Precision, Width};
 use crate::space::{Plan, ViewFrame, World};
 use crate::stage::Stage;
-use crate::technique::dynamic_line::{Antialiasing, LineOverlaps, Settings};
+use crate::technique::dynamic_line::{Antialiasing, Corners, LineOverlaps, Settings};
 use crate::terrain::{Mesh, SKY};
 use crate::tiling::TilePlace;
 use crate::visibility::{FootprintPlane, PixelFootprint, Sight};
@@ -99,6 +100,19 @@ impl<T: Real> FrameContext<'_, T> {
         line_of(self.stage, segment.item)
     }
 
+    /// The border that decides what a segment's line holds, where it is the footprint's by definition and the device computes in doubles.
+    fn border(&self, segment: &Segment<T>, half_px: T) -> Option<Border> {
+        let is_defined =
+            self.stage.scene.device.precision == Precision::F64 && self.settings.corners == Corners::Round;
+        let vertices = self.stage.draw_list.vertices();
+        is_defined.then(|| match segment.source.map(|source| source as usize) {
+            Some(source) => Border::of_part([vertices[source], vertices[source + 1]], half_px, &self.camera),
+            None => {
+                Border::of_whole([segment.start, segment.end].map(|p| p.plan().get()), half_px, &self.camera)
+            }
+        })
+    }
+
     /// How far beyond its box a segment may cover a pixel's centre, pixels.
     pub fn margin(&self) -> f64 {
         margin(self.thin, self.settings.antialiasing)
@@ -150,7 +164,7 @@ impl<T: Real> FrameContext<'_, T> {
             let Some(outline) = self.boxes.outline(&of, self.margin()) else { continue };
             let ready = ReadySegment::new(
                 segment,
-                (line, half_px),
+                (line, half_px, self.border(segment, half_px)),
                 (&self.camera, self.view),
                 (self.settings.corners, self.thin),
             );
@@ -209,9 +223,9 @@ impl<T: Real> FrameContext<'_, T> {
 
     /// What is tested of each pixel that sees the terrain.
     fn fragments(&self, points: &[World]) -> Vec<Option<Fragment<T>>> {
-        let fragment = |point: &World| {
-            let pixel = self.camera.pixel_at(P3::of(*point));
-            point.is_finite().then(|| Fragment { plan: P2::of(point.plan()), pixel })
+        let fragment = |at: &World| {
+            let point = P3::of(*at);
+            at.is_finite().then(|| Fragment { point, pixel: self.camera.pixel_at(point) })
         };
         points.iter().map(fragment).collect()
     }
