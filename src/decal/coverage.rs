@@ -116,3 +116,73 @@ fn nearest(at: Plan, from: Plan, to: Plan) -> Plan {
     let t = if square > 0.0 { ((at - from).dot(along) / square).clamp(0.0, 1.0) } else { 0.0 };
     from + along * t
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::decal::Settings;
+    use crate::scene_file::SceneFile;
+    use crate::space::PlanBox;
+    use crate::stage::Stage;
+
+    fn stage(layer: &str) -> Stage {
+        let text = format!(
+            "schema = 1\ncamera = {{ eye = [0, -90, 90], target = [0, 0, 0] }}\n\
+             terrain = {{ generate = {{ kind = \"plane\", posts = [9, 9], cell_m = 10 }} }}\n[[layer]]\n{layer}\n"
+        );
+        let file = SceneFile::parse(&text, None, &[]).unwrap();
+        let (scene, surface) = crate::source::load::load(&file, &|_| {}).unwrap();
+        Stage::new(scene, surface).unwrap()
+    }
+
+    /// What covers pixels of 1 m.
+    fn covered<const N: usize>(layer: &str, settings: &Settings, at: [[f64; 2]; N]) -> [Vec<(u32, f64)>; N] {
+        let stage = stage(layer);
+        let terrain = PlanBox { min: Plan::new(-40.0, -40.0), max: Plan::new(40.0, 40.0) };
+        let decals = Decals::new(&stage.draw_list, &terrain, settings, false, &|_| {});
+        at.map(|[x, y]| {
+            let mut shares = Shares::default();
+            decals.cover(&PlanPixel { at: Plan::new(x, y), steps: [DVec2::X, -DVec2::Y] }, &mut shares);
+            shares.found().to_vec()
+        })
+    }
+
+    const SQUARE: &str = "features = [{ polygon = [[0, 0], [10, 0], [10, 10], [0, 10]] }]\n";
+
+    fn settings(grid: u32) -> Settings {
+        Settings { grid, leaf_capacity: 1, joins: crate::decal::Joins::Style, ..Settings::default() }
+    }
+
+    #[test]
+    fn a_fill_covers_what_its_nearest_edge_leaves_of_a_pixel() {
+        let fill = format!("{SQUARE}fill = {{ color = \"#000000\" }}");
+        // Beside an edge, inside of it, near two of them, in the middle, in another leaf than that of the first cell that it reaches; beside it all.
+        let at = [[10.25, 5.0], [9.75, 5.0], [9.75, 9.0], [5.0, 5.0], [7.6, 9.75], [10.5, 5.0], [12.0, 5.0]];
+        for grid in [1, 7] {
+            let found = covered(&fill, &settings(grid), at);
+            assert_eq!(found[..5].concat(), [0.25, 0.75, 0.75, 1.0, 0.75].map(|share| (0, share)), "{grid}");
+            assert!(found[5..].iter().all(Vec::is_empty), "{grid}");
+        }
+        // The line of an edge that ends 2 m away says nothing.
+        let angle = "features = [{ polygon = [[0, 0], [10, 0], [10, 4], [6, 4], [6, 10], [0, 10]] }]\nfill = { color = \"#000000\" }";
+        assert!(covered(angle, &settings(1), [[9.8, 6.0]])[0].is_empty());
+    }
+
+    #[test]
+    fn outside_is_the_rest_and_an_outline_that_is_cut_has_no_more_than_its_side() {
+        let inverted = format!("{SQUARE}fill = {{ color = \"#000000\", invert = true }}");
+        assert_eq!(covered(&inverted, &settings(3), [[9.75, 5.0], [30.0, 5.0]]), [[(0, 0.25)], [(0, 1.0)]]);
+        for (mode, share) in [("inset", 0.75), ("offset", 0.25), ("normal", 1.0)] {
+            let outline =
+                format!("{SQUARE}outline = {{ color = \"#000000\", width_m = 2.0, mode = \"{mode}\" }}");
+            assert_eq!(covered(&outline, &settings(3), [[9.75, 5.0]]), [[(0, share)]], "{mode}");
+        }
+    }
+
+    #[test]
+    fn of_a_lines_segments_the_one_that_covers_most_counts() {
+        let line = "features = [{ line = [[0, 0], [10, 0], [10, 10]] }]\nline = { color = \"#000000\", width_m = 2.0 }";
+        let found = covered(line, &settings(2), [[5.0, 0.75], [9.5, 0.75], [10.75, 5.0]]);
+        assert_eq!(found, [[(0, 0.75)], [(0, 1.0)], [(0, 0.75)]]);
+    }
+}

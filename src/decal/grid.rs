@@ -172,6 +172,24 @@ mod tests {
         assert_eq!([cells_in(-9.0, -1.0), cells_in(61.0, 70.0)], [Some(Vec::new()), Some(Vec::new())]);
         assert_eq!(cells_in(-1e300, 1e300), None, "more than six");
         let nothing = DecalGrid::new(&PlanBox::EMPTY, 5);
-        assert_eq!(nothing.cell_of(Plan::new(1.0, 1.0)), None);
+        assert_eq!([(0.0, 0.0), (1.0, 1.0)].map(|(x, y)| nothing.cell_of(Plan::new(x, y))), [Some(0), None]);
+    }
+
+    #[test]
+    fn a_point_that_rounding_puts_into_the_next_cell_is_in_the_box_around_its_points() {
+        let mut beyond = 0;
+        for (low, size, side) in [(0.1, 9.7, 7), (-431.7, 1000.3, 500), (5.1e6, 777.7, 93)] {
+            let bounds = PlanBox { min: Plan::new(low, low), max: Plan::new(low + size, low + size) };
+            let grid = DecalGrid::new(&bounds, side);
+            for column in 1..side {
+                let border = low + f64::from(column) * grid.cell.x;
+                for at in [border.next_down(), border, border.next_up()].map(|x| Plan::new(x, low)) {
+                    let (plan, point) = (grid.box_of(grid.cell_of(at).unwrap()), PlanBox::around([at]));
+                    assert!(plan.contains(&point), "{at:?} {plan:?}");
+                    beyond += u32::from(!plan.grown(-grid.slack).contains(&point));
+                }
+            }
+        }
+        assert!(beyond > 0, "no point tells");
     }
 }

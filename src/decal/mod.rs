@@ -43,3 +43,6 @@ pub use packet::LookupCounts;
 pub use palette::{Mean, Palette};
 pub use settings::{Edges, Hierarchy, Joins, LeafPolygons, Outlines, Overlaps, Preparation, Settings};
 pub use share::{PlanPixel, Shares};
+
+#[cfg(test)]
+mod tests;

@@ -51,3 +51,38 @@ impl Shares {
         &self.found
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_share_is_what_of_the_pixels_width_across_the_border_lies_inside() {
+        // 4 m to the right, 2 m down.
+        let pixel =
+            PlanPixel { at: Plan::new(10.0, 10.0), steps: [DVec2::new(4.0, 0.0), DVec2::new(0.0, -2.0)] };
+        let share = |depth: f64, normal: [f64; 2], thick: f64| pixel.share(depth, normal.into(), thick);
+        let far = f64::INFINITY;
+        assert_eq!(
+            [-1.0, -0.5, 0.0, 0.5, 1.0, 9.0].map(|depth| share(depth, [0.0, 1.0], far)),
+            [0.0, 0.25, 0.5, 0.75, 1.0, 1.0]
+        );
+        // Something 1 m thick, of which the other side counts, too.
+        assert_eq!([0.0, 0.5, 1.0, 1.5].map(|depth| share(depth, [0.0, 1.0], 1.0)), [0.5, 0.5, 0.5, 0.25]);
+        // Across (0.6, 0.8) it is as wide as its parallelogram: 2.4 m and 1.6 m.
+        assert!((share(1.0, [0.6, 0.8], far) - 0.75).abs() < 1e-15);
+        // Without a width its middle tells.
+        for step in [0.0, f64::INFINITY] {
+            let pixel = PlanPixel { at: Plan::new(0.0, 0.0), steps: [DVec2::new(step, 0.0); 2] };
+            assert_eq!([-0.1, 0.0, 0.1].map(|depth| pixel.share(depth, DVec2::X, far)), [0.0, 1.0, 1.0]);
+        }
+    }
+
+    #[test]
+    fn the_box_around_a_pixel_has_its_four_corners() {
+        let pixel =
+            PlanPixel { at: Plan::new(10.0, 10.0), steps: [DVec2::new(4.0, 1.0), DVec2::new(-1.0, 2.0)] };
+        let bounds = pixel.bounds();
+        assert_eq!((bounds.min, bounds.max), (Plan::new(7.5, 8.5), Plan::new(12.5, 11.5)));
+    }
+}

@@ -199,4 +199,32 @@ mod tests {
             "over all quarters of the south-western one"
         );
     }
+
+    #[test]
+    fn an_edge_that_touches_a_box_does_not_miss_it_however_it_is_rounded() {
+        let p = Plan::new;
+        let plan = PlanBox { min: p(4.0, 4.0), max: p(6.0, 6.0) };
+        for (a, b) in [
+            (p(4.0, 0.0), p(4.0, 9.0)),
+            (p(6.0, 0.0), p(6.0, 9.0)),
+            (p(0.0, 4.0), p(9.0, 4.0)),
+            (p(9.0, 6.0), p(0.0, 6.0)),
+        ] {
+            assert!(!misses(a, b, &plan), "{a:?} {b:?}");
+        }
+        // A corner on the middle of the edge, in numbers whose products have more digits than doubles.
+        for k in 0..500 {
+            let (x, y) = (f64::from(1 << 30) + f64::from(2 * k + 1), f64::from((1 << 30) - 77_777 * k - 3));
+            let (w, h) = (f64::from(1_000_003 + 2 * k), f64::from(700_001 + 4 * k));
+            let above = PlanBox { min: p(x - w, y), max: p(x, y + h) };
+            let below = PlanBox { min: p(x, y - h), max: p(x + w, y) };
+            for plan in [above, below] {
+                assert!(!misses(p(0.0, 0.0), p(2.0 * x, 2.0 * y), &plan), "{k}");
+                assert!(
+                    misses(p(0.0, 1e7), p(2.0 * x, 2.0 * y + 1e7), &below)
+                        && misses(p(1e7, 0.0), p(2.0 * x + 1e7, 2.0 * y), &above)
+                );
+            }
+        }
+    }
 }

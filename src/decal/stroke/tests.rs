@@ -628,3 +628,40 @@ fn in_single_precision_both_halves_of_the_corner_where_a_closed_line_begins_are_
     let holds = |at: [f32; 2]| (0..4).any(|k| SingleSegment::new(&path, true, k, &rules).holds(at));
     assert_eq!([holds([-0.9, -0.5]), holds([-0.5, -0.9]), holds([-1.1, -0.5])], [true, true, false]);
 }
+
+#[test]
+fn in_single_precision_miters_of_a_segment_that_is_shorter_than_they_are_lose_what_the_segment_before_it_has()
+{
+    // Half a width of 4. The miters, 4 (-3, 1) and 4 (-1, -1/2), make these quadrilaterals, two triangles each.
+    let path = [(-20.0, 0.0), (0.0, 0.0), (-4.0, 3.0), (-4.0, 20.0)].map(plan);
+    let rules = rules(8.0, Join::Miter { limit: 4.0 }, Cap::Butt, Joins::Style);
+    let triangles = [
+        [(-20.0, 4.0), (-20.0, -4.0), (-12.0, 4.0)],
+        [(-12.0, 4.0), (12.0, -4.0), (-20.0, -4.0)],
+        [(-12.0, 4.0), (12.0, -4.0), (-8.0, 1.0)],
+        [(-8.0, 1.0), (0.0, 5.0), (12.0, -4.0)],
+        [(-8.0, 1.0), (0.0, 5.0), (-8.0, 20.0)],
+        [(-8.0, 20.0), (0.0, 20.0), (0.0, 5.0)],
+    ];
+    let depth_in = |at: Plan, corners: [(f64, f64); 3]| {
+        let [a, b, c] = corners.map(plan);
+        let turn = (b - a).perp_dot(c - a).signum();
+        let depth = |from: Plan, to: Plan| turn * (to - from).perp_dot(at - from) / (to - from).length();
+        math::min(depth(a, b), math::min(depth(b, c), depth(c, a)))
+    };
+    let single = |at: Plan| {
+        (0..3).any(|k| SingleSegment::new(&path, false, k, &rules).holds([at.x as f32, at.y as f32]))
+    };
+    let exact = |at: Plan| (0..3).any(|k| Segment::new(&path, false, k, &rules).holds(at));
+    let (mut lost, mut count) = (0, 0);
+    for at in (0..40 * 30).map(|k| Plan::new(f64::from(k % 40) - 24.7, f64::from(k / 40) - 6.3)) {
+        let depths = triangles.map(|corners| depth_in(at, corners));
+        if depths.iter().all(|depth| depth.abs() > 1e-3) {
+            assert_eq!(single(at), depths.iter().any(|depth| *depth > 0.0), "{at:?}");
+            assert!(exact(at) || !single(at), "{at:?}");
+            (lost, count) = (lost + u32::from(exact(at) && !single(at)), count + u32::from(exact(at)));
+        }
+    }
+    assert!(0 < lost && 50 * lost < count, "{lost} of {count}");
+    assert_eq!([single(plan((-9.0, 3.8))), exact(plan((-9.0, 3.8)))], [false, true]);
+}

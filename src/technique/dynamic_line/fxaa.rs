@@ -203,4 +203,49 @@ mod tests {
             assert!(a == 0.0 || (r - 1.0).abs() < 1e-12, "white, more or less: {r} {a}");
         }
     }
+
+    fn value(picture: &Picture, at: [usize; 2]) -> f64 {
+        picture.smoothed(at)[0]
+    }
+
+    fn assert_near(found: f64, right: f64, what: &str) {
+        assert!((found - right).abs() < 1e-12, "{what}: {found} {right}");
+    }
+
+    #[test]
+    fn a_ramp_is_as_steep_as_the_distances_of_its_ends_say() {
+        let step = picture(&["0000000000", "0000000000", "0000099999", "9999999999", "9999999999"]);
+        // Looks end 1, 2.5, 4.5, 8.5 and 20.5 pixels on: at the step, or at the last of them, as there is none.
+        for (k, distance) in [(0, 1.0), (1, 2.5), (3, 4.5)] {
+            let share = 0.5 - distance / (distance + 20.5);
+            assert_near(value(&step, [4 - k, 2]), share, &format!("dark, {k} from the step"));
+            assert_near(value(&step, [5 + k, 2]), 1.0 - share, &format!("bright, {k} from the step"));
+        }
+        // A step half as high is one: a quarter of the difference across the edge is enough.
+        let low = picture(&["0000000000", "0000000000", "0000555555", "9999999999", "9999999999"]);
+        assert_near(value(&low, [3, 2]), 0.5 - 1.0 / 21.5, "before a low step");
+        // Beyond the step the edge turns away: (5, 1) stands out by a quarter.
+        let out: f64 = 0.25;
+        let smooth = out * out * (3.0 - 2.0 * out);
+        assert_near(value(&step, [5, 1]), 0.75 * smooth * smooth, "above the step");
+        // Beside a dot: two of twelve parts.
+        let dot = picture(&["00000", "00000", "00900", "00000", "00000"]);
+        let out: f64 = 1.0 / 6.0;
+        let smooth = out * out * (3.0 - 2.0 * out);
+        assert_near(value(&dot, [2, 1]), 0.75 * smooth * smooth, "above the dot");
+        assert_near(value(&dot, [2, 2]), 0.25, "the dot");
+    }
+
+    #[test]
+    fn what_differs_by_less_than_a_share_of_the_brightest_or_in_blue_alone_is_no_edge() {
+        let faint = picture(&["99999", "99999", "99899", "99999", "99999"]);
+        assert_eq!(smoothed(&faint)[2], "99899");
+        let dot = |color: [f64; 3]| {
+            let color = |k: usize| if k == 12 { color } else { [0.0; 3] };
+            let colors: Vec<_> = (0..25).map(color).map(|[r, g, b]| [r, g, b, 1.0]).collect();
+            Picture::new([5, 5], &colors).smoothed([2, 2])
+        };
+        assert_eq!(dot([0.0, 0.0, 0.5]), [0.0, 0.0, 0.5, 1.0]);
+        assert_eq!([dot([0.5, 0.0, 0.0])[0], dot([0.0, 0.5, 0.0])[1]], [0.125; 2]);
+    }
 }

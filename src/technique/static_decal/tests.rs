@@ -324,3 +324,22 @@ fn a_sample_on_the_rim_that_is_rounded_outwards_is_in_the_grid() {
         assert!(beside(1e-5).is_some() && beside(1.0).is_none());
     }
 }
+
+#[test]
+fn a_crowd_in_one_cell_is_composed_as_the_footprint_says() {
+    // 3,000 segments of one line, and 1,500 lines of one, over one another within a cell.
+    let at = |k: u64| [(k * 7919 % 1009) as f64 * 0.9 - 450.0, (k * 104_729 % 997) as f64 * 0.9 - 450.0];
+    let path: Vec<[f64; 2]> = (0..3001).map(at).collect();
+    let lines: String =
+        (0..1500).map(|k| format!("{{ line = {:?} }},", [at(2 * k), at(2 * k + 9)])).collect();
+    let text = format!(
+        "{}\n[[layer]]\nfeatures = [{{ line = {path:?} }}, {lines}]\n\
+         line = {{ color = \"#aa2233\", width_m = 0.4, opacity = 0.7 }}\n",
+        EVERYTHING
+            .split("[[layer]]")
+            .next()
+            .unwrap()
+            .replace("width = 72, height = 48", "width = 24, height = 16")
+    );
+    assert!(off(&text, 1, &["grid=1"]) < 1e-12);
+}
