@@ -1,5 +1,6 @@
 //! Ellipsoids of revolution: radii of curvature, geocentric coordinates, conformal latitude.
 
+use super::fourier::polynomial;
 use crate::math::{asinh, atan, atan2, atanh, cos, exp, sin, sinh, tan};
 use glam::DVec3;
 
@@ -33,6 +34,17 @@ impl Ellipsoid {
     /// The polar radius.
     pub(crate) fn b(&self) -> f64 {
         self.a * (1.0 - self.f)
+    }
+
+    /// The third flattening, n = (a - b) / (a + b).
+    pub(crate) fn third_flattening(&self) -> f64 {
+        self.f / (2.0 - self.f)
+    }
+
+    /// The radius of the circle as long as a meridian: Karney (2011), eq. 14.
+    pub(crate) fn rectifying_radius(&self) -> f64 {
+        let n = self.third_flattening();
+        self.a / (1.0 + n) * polynomial(&[1.0, 1.0 / 4.0, 1.0 / 64.0, 1.0 / 256.0], n * n)
     }
 
     /// Whether two ellipsoids agree to a millimetre in both radii.

@@ -26,17 +26,22 @@ mod degrees;
 mod ellipsoid;
 mod epsg;
 mod epsg_corrections;
+mod fourier;
 mod gauss;
+mod geodesic;
+mod geodesy;
 mod imported;
 mod plan;
 mod proj_string;
 mod projection;
+mod rhumb;
 mod sphere;
 mod stereographic;
 mod transverse_mercator;
 mod wkt;
 mod wkt_names;
 
+pub use geodesy::{CurveKind, Geodesy, GroundCurve};
 pub use plan::{Affine, PlanFrom, PlanSpace};
 
 use crate::error::{Error, Result};

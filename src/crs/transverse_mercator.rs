@@ -5,6 +5,7 @@
 //! good to 5 nm.
 
 use super::ellipsoid::Ellipsoid;
+use super::fourier::polynomial;
 use crate::math::{asinh, atan2, cos, cosh, sin, sinh};
 use glam::DVec2;
 
@@ -28,12 +29,12 @@ pub(crate) struct TransverseMercator {
 
 impl TransverseMercator {
     pub(crate) fn new(ellipsoid: Ellipsoid, lat_0: f64, k_0: f64) -> Self {
-        let n = ellipsoid.f / (2.0 - ellipsoid.f);
+        let n = ellipsoid.third_flattening();
         let mut made = Self {
             lat_0,
             k_0,
             ellipsoid,
-            radius: k_0 * rectifying_radius(ellipsoid.a, n),
+            radius: k_0 * ellipsoid.rectifying_radius(),
             origin_northing: 0.0,
             alpha: alpha(n),
             beta: beta(n),
@@ -87,15 +88,6 @@ fn sine_series(a: &[f64; 6], z: DVec2) -> DVec2 {
 
 fn complex_product(a: DVec2, b: DVec2) -> DVec2 {
     DVec2::new(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x)
-}
-
-fn polynomial(coefficients: &[f64], n: f64) -> f64 {
-    coefficients.iter().rev().fold(0.0, |sum, c| sum * n + c)
-}
-
-/// Karney (2011), eq. 14.
-fn rectifying_radius(a: f64, n: f64) -> f64 {
-    a / (1.0 + n) * polynomial(&[1.0, 1.0 / 4.0, 1.0 / 64.0, 1.0 / 256.0], n * n)
 }
 
 /// Karney (2011), eq. 35.
