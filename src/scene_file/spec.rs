@@ -218,7 +218,7 @@ pub struct LayerSpec {
     pub source: LayerSource,
     /// The CRS of the data, over what the file says.
     pub crs: Option<String>,
-    /// What its edges are where it is reprojected.
+    /// What its edges are.
     pub edges: Edges,
     /// Moves the layer in plan space.
     pub offset: DVec2,
@@ -247,7 +247,7 @@ impl LayerSpec {
 }
 
 words! {
-    /// What lies between two vertices of a file whose coordinates are not the plan's.
+    /// What lies between two vertices of a file.
     #[derive(Default)]
     pub enum Edges {
         /// What is straight in the file's coordinates.
@@ -255,6 +255,10 @@ words! {
         Projected = "projected",
         /// What is straight in the plan.
         Straight = "straight",
+        /// The shortest way on the ellipsoid, of data in degrees.
+        Geodesic = "geodesic",
+        /// The way of constant bearing on the ellipsoid, of data in degrees.
+        Rhumb = "rhumb",
     }
 }
 

@@ -7,7 +7,6 @@
 use super::ellipsoid::Ellipsoid;
 use super::fourier::polynomials;
 use crate::math::{asinh, atanh, cos, hypot, sin};
-use std::f64::consts::FRAC_PI_2;
 
 /// The rhumb line between two places, neither of them a pole.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,8 +14,8 @@ pub(super) struct Rhumb {
     ellipsoid: Ellipsoid,
     /// In metres.
     length: f64,
-    /// Latitude and rectifying latitude of the first place, radians.
-    phi1: f64,
+    /// Of the first place: latitude in degrees, and rectifying latitude.
+    from: f64,
     mu1: f64,
     /// By how much the rectifying latitude grows, the isometric latitude, and the longitude in degrees.
     mu12: f64,
@@ -33,7 +32,7 @@ impl Rhumb {
         let phi12 = (to - from).to_radians();
         let from_geographic = from_geographic(n);
         let mu12 = phi12 + difference(&from_geographic, phi1, phi12);
-        let psi12 = isometric_difference(ellipsoid, phi1, phi12);
+        let psi12 = isometric_difference(ellipsoid, from, to, phi12);
         let radius = ellipsoid.rectifying_radius();
         // How many metres a radian of longitude is long, over the way: d mu / d psi is the parallel's radius.
         let parallel = match psi12 == 0.0 {
@@ -43,7 +42,7 @@ impl Rhumb {
         Self {
             ellipsoid: *ellipsoid,
             length: hypot(parallel * east.to_radians(), radius * mu12),
-            phi1,
+            from,
             mu1: phi1 + difference(&from_geographic, 0.0, phi1),
             mu12,
             psi12,
@@ -61,22 +60,24 @@ impl Rhumb {
     pub(super) fn at(&self, share: f64) -> (f64, f64) {
         let mu = share * self.mu12;
         let phi = mu + difference(&self.from_rectifying, self.mu1, mu);
-        let psi = isometric_difference(&self.ellipsoid, self.phi1, phi);
+        let latitude = self.from + phi.to_degrees();
+        let psi = isometric_difference(&self.ellipsoid, self.from, latitude, phi);
         let there = if self.psi12 == 0.0 { share } else { psi / self.psi12 };
-        (there * self.east, (self.phi1 + phi).to_degrees())
+        (there * self.east, latitude)
     }
 }
 
-/// By how much the isometric latitude, asinh(tan(phi)) - e atanh(e sin(phi)), grows from a latitude on: both differences are brought under
-/// one function each, which leaves nothing to cancel.
-fn isometric_difference(ellipsoid: &Ellipsoid, phi: f64, by: f64) -> f64 {
+/// By how much the isometric latitude, asinh(tan(phi)) - e atanh(e sin(phi)), grows between two latitudes in degrees, `by` radians apart: both
+/// differences are brought under one function each, which leaves nothing to cancel.
+fn isometric_difference(ellipsoid: &Ellipsoid, from: f64, to: f64, by: f64) -> f64 {
     let (e, e2) = (ellipsoid.e(), ellipsoid.e2());
     // As distances from the pole, whose sines keep their digits.
-    let cosine = |phi: f64| sin(FRAC_PI_2 - phi.abs());
+    let cosine = |degrees: f64| sin((90.0 - degrees.abs()).to_radians());
     // Of the difference of the sines.
-    let half = cosine(phi + 0.5 * by) * sin(0.5 * by);
-    let sphere = asinh(2.0 * half / (cosine(phi) * cosine(phi + by)));
-    sphere - e * atanh(2.0 * e * half / (1.0 - e2 * sin(phi) * sin(phi + by)))
+    let half = cosine(0.5 * (from + to)) * sin(0.5 * by);
+    let sphere = asinh(2.0 * half / (cosine(from) * cosine(to)));
+    let sines = sin(from.to_radians()) * sin(to.to_radians());
+    sphere - e * atanh(2.0 * e * half / (1.0 - e2 * sines))
 }
 
 /// By how much the sum of `c[j] sin(2 (j + 1) x)` grows from x on.

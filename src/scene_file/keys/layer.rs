@@ -26,7 +26,7 @@ pub(super) static LAYER: TableShape = TableShape {
         key(
             "edges",
             choice::<Edges>(),
-            "What lies between two vertices of data that is reprojected: \"projected\" (the straight line of the file's coordinates: a curve, followed by further vertices) or \"straight\" (a chord). Default: \"projected\".",
+            "What lies between two vertices of a file: \"projected\" (the straight line of the file's coordinates; in another projection a curve, followed by further vertices), \"straight\" (a chord in the plan), or of data in degrees \"geodesic\" (the shortest way on the ellipsoid) or \"rhumb\" (the way of constant bearing). Default: \"projected\".",
         ),
         key(
             "offset",

@@ -11,6 +11,10 @@ pub(super) struct Changes {
     pub(super) edges: usize,
     /// Vertices along them.
     pub(super) along: usize,
+    /// Edges that are curves of the ground.
+    pub(super) edges_on_the_ground: usize,
+    /// Vertices along those.
+    pub(super) along_the_ground: usize,
     /// Features that reach farther beyond a pole than anything does.
     pub(super) beyond: usize,
     /// Features that are written unusually many turns off.
@@ -23,12 +27,14 @@ impl Changes {
         self.around += other.around;
         self.edges += other.edges;
         self.along += other.along;
+        self.edges_on_the_ground += other.edges_on_the_ground;
+        self.along_the_ground += other.along_the_ground;
         self.beyond += other.beyond;
         self.turned += other.turned;
     }
 
-    /// Says so; chords are off by at most `tolerance` metres.
-    pub(super) fn tell(&self, tolerance: f64, notes: &mut Vec<String>) {
+    /// Says so; chords are off by at most `tolerance` metres, from curves of the ground, of which the kind is named, by at most `ground`.
+    pub(super) fn tell(&self, tolerance: f64, (kind, ground): (&str, f64), notes: &mut Vec<String>) {
         let mut tell = |count: usize, text: String| {
             if count > 0 {
                 notes.push(text);
@@ -54,6 +60,13 @@ impl Changes {
             format!(
                 "features cut off where the projection can be used no farther, out of sight: {}",
                 self.cut
+            ),
+        );
+        tell(
+            self.edges_on_the_ground,
+            format!(
+                "edges that are {kind}: {}, followed by {} more vertices, to {ground} m on the ground",
+                self.edges_on_the_ground, self.along_the_ground
             ),
         );
         tell(

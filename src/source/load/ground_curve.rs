@@ -17,6 +17,7 @@ use super::window::Region;
 use crate::crs::{CurveKind, Geodesy, GroundCurve, Turn};
 use crate::math::{asin, cos, max, min, sin};
 use crate::space::Plan;
+use glam::DVec2;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// How often an edge may be halved: from half a meridian to a millimetre is 34 times.
@@ -52,6 +53,15 @@ impl GroundCurves {
         Self { geodesy, kind, turn, tolerance: max(tolerance, FINEST), near }
     }
 
+    /// What edges are, for people, and how many metres on the ground they may be off.
+    pub(super) fn words(&self) -> (&'static str, f64) {
+        let kind = match self.kind {
+            CurveKind::Geodesic => "geodesics",
+            CurveKind::RhumbLine => "rhumb lines",
+        };
+        (kind, self.tolerance)
+    }
+
     /// A ring or a line with the vertices that its edges need.
     pub(super) fn followed(&self, part: Unrolled, is_ring: bool, changes: &mut Changes) -> Unrolled {
         part.with_vertices(is_ring, |a, b| {
@@ -66,13 +76,17 @@ impl GroundCurves {
     fn between(&self, a: Plan, b: Plan) -> Vec<Plan> {
         let Turn { length, pole } = self.turn;
         let (half, width) = (0.5 * length, (b.x - a.x).abs());
-        if a.y <= -pole || b.y >= pole {
-            let meridian = if a.y <= -pole && b.y < pole { b.x } else { a.x };
-            let at = if b.y >= pole { pole } else { -pole };
-            let is_along = (a.y <= -pole) == (b.y <= -pole) && (a.y >= pole) == (b.y >= pole) || width == 0.0;
-            return if is_along && (a.y.abs() >= pole) { Vec::new() } else { vec![Plan::new(meridian, at)] };
+        let is_along_a_pole = a.y >= pole || b.y <= -pole;
+        if width == 0.0 || is_along_a_pole {
+            return Vec::new();
         }
-        if width == 0.0 || width > half || self.is_straight(a, b) {
+        if b.y >= pole {
+            return vec![Plan::new(a.x, pole)];
+        }
+        if a.y <= -pole {
+            return vec![Plan::new(b.x, -pole)];
+        }
+        if width > half || self.is_straight(a, b) {
             return Vec::new();
         }
         if self.kind == CurveKind::Geodesic && width == half {
@@ -140,7 +154,7 @@ impl GroundCurves {
     /// How far a place is from what is straight in degrees between two.
     fn distance_from_chord(&self, p: Plan, a: Plan, b: Plan) -> f64 {
         let narrow = max(0.0, cos(self.geodesy.radians(p.y)));
-        let metric = glam::DVec2::new(narrow, 1.0);
+        let metric = DVec2::new(narrow, 1.0);
         let (chord, to) = ((b - a) * metric, (p - a) * metric);
         let squared = chord.length_squared();
         let t = if squared > 0.0 { (to.dot(chord) / squared).clamp(0.0, 1.0) } else { 0.0 };

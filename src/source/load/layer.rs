@@ -5,14 +5,14 @@ use super::columns::Columns;
 use super::filter::fulfilling;
 use super::off_terrain::{leave_out, reach_of};
 use super::order::ordered;
-use super::place::Map;
+use super::place::{Map, stretch};
 use super::reproject::{Onto, reproject};
 use super::styling::{outside, styled};
 use super::terrain::Terrain;
-use crate::crs::Crs;
+use crate::crs::{Crs, CurveKind, Geodesy};
 use crate::error::{Error, Result};
 use crate::scene::{Feature, Layer, Shape};
-use crate::scene_file::{DataFile, InlineFeature, LayerSource, LayerSpec, SceneFile, VectorGenerator};
+use crate::scene_file::{DataFile, Edges, InlineFeature, LayerSource, LayerSpec, SceneFile, VectorGenerator};
 use crate::source::vector::{VectorFile, is_drawable};
 use crate::source::{generate, vector};
 use crate::space::PlanBox;
@@ -60,12 +60,16 @@ fn layer(
     let styles = styled(&mut features, spec, &columns)?;
     let outside = outside(spec);
     let count = features.len();
+    let middle = (terrain.bounds.min.to_vec() + terrain.bounds.max.to_vec()) * 0.5;
+    let middle = middle - terrain.place.shift(DVec2::ZERO);
     let onto = Onto {
         terrain: terrain.bounds,
         shift,
         reach: reach_of(&styles),
         tolerance: terrain.cell() * OFF_A_CURVE,
         edges: spec.edges,
+        on_the_ground: on_the_ground(scene, spec, &map)?,
+        stretch: terrain.place.space.as_ref().and_then(|space| stretch(space, middle)).unwrap_or(1.0),
     };
     let features = reproject(features, &map, &onto, notes).map_err(|error| columns.blame(error))?;
     let mut layer = Layer { name: spec.name.clone(), styles, features, opacity: spec.opacity, outside };
@@ -156,6 +160,24 @@ fn from_file<'a>(
     notes.extend(crs.iter().flat_map(|crs| vector::doubts(crs, &file.features)));
     let map = map(crs, terrain, named.file, notes).map_err(blame)?;
     Ok(Found { features: file.features, columns, map, shift: terrain.place.shift(spec.offset) })
+}
+
+/// Where a layer's edges are curves of the ground, which.
+fn on_the_ground(scene: &SceneFile, spec: &LayerSpec, map: &Map) -> Result<Option<(Geodesy, CurveKind)>> {
+    let kind = match spec.edges {
+        Edges::Projected | Edges::Straight => return Ok(None),
+        Edges::Geodesic => CurveKind::Geodesic,
+        Edges::Rhumb => CurveKind::RhumbLine,
+    };
+    let geodesy = match map {
+        Map::From(map) => Geodesy::of(map.file()).map_err(|error| {
+            error.help("edges on the ground are for data in degrees: leave `edges` out, or name the data's own CRS as the layer's `crs`")
+        }),
+        Map::AsIs => Err(Error::new("of the terrain no CRS is known: coordinates are taken as they are")
+            .help("say what they are in: terrain.crs = \"EPSG:...\", or leave `edges` out")),
+    };
+    let edges = |error| of_key(scene, &format!("layer.{}.edges", spec.name), error);
+    geodesy.map(|geodesy| Some((geodesy, kind))).map_err(edges)
 }
 
 /// The CRS that the scene says a layer is in.

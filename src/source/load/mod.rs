@@ -31,6 +31,7 @@ mod extent;
 mod filter;
 mod follow;
 mod ground;
+mod ground_curve;
 mod layer;
 mod off_terrain;
 mod order;

@@ -5,8 +5,8 @@
 //! Refuses: coordinates that are no place in the file's CRS; features without a place in the plan are left out, and only where that is
 //! so for all of them it is an error.
 //!
-//! 1. In degrees and on Mercator's cylinder, rings and lines are unrolled ([`unroll`]), and taken on those turns on which they come near
-//!    the terrain.
+//! 1. In degrees and on Mercator's cylinder, rings and lines are unrolled ([`unroll`]), their edges made geodesics or rhumb lines where
+//!    the layer says so ([`GroundCurves`]), and taken on those turns on which they come near the terrain.
 //! 2. Into another projection, what lies beyond its horizon ([`Region::horizon`]) is cut off: it may have no place in the plan, or a
 //!    wrong one. The cut runs farther from the terrain than any stroke reaches. Around a pole, where all meridians meet, it is a parallel.
 //! 3. An edge that is straight in the file is a curve in the plan: it is followed ([`Follow`]).
@@ -14,10 +14,11 @@
 use super::changes::Changes;
 use super::cut::{self, Side};
 use super::follow::Follow;
+use super::ground_curve::GroundCurves;
 use super::place::Map;
 use super::unroll::{self, Unrolled};
 use super::window::{Region, on_the_globe};
-use crate::crs::{PlanFrom, Turn};
+use crate::crs::{CurveKind, Geodesy, PlanFrom, Turn};
 use crate::error::{Error, Result};
 use crate::math::max;
 use crate::parallel;
@@ -49,8 +50,12 @@ pub(super) struct Onto {
     pub(super) reach: Option<f64>,
     /// Metres that a chord may be off a curve.
     pub(super) tolerance: f64,
-    /// What edges are.
+    /// What edges are, ...
     pub(super) edges: Edges,
+    /// ... and on the ground, where they are curves there.
+    pub(super) on_the_ground: Option<(Geodesy, CurveKind)>,
+    /// Metres of the plan in one on the ground, in the middle of the terrain.
+    pub(super) stretch: f64,
 }
 
 /// Takes features to local coordinates; those of which nothing is near are left out. Notes tell what was changed.
@@ -84,7 +89,8 @@ pub(super) fn reproject(
         }
         notes.push(format!("{lost} of {count} features have no place in the plan and are left out: {error}"));
     }
-    changes.tell(way.follow.as_ref().map_or(0.0, |follow| follow.tolerance), notes);
+    let tolerance = way.follow.as_ref().map_or(0.0, |follow| follow.tolerance);
+    changes.tell(tolerance, way.curves.as_ref().map_or(("", 0.0), GroundCurves::words), notes);
     Ok(all)
 }
 
@@ -116,12 +122,13 @@ struct Way<'a> {
     /// Where the map can be used; `None`: everywhere, or nobody knows.
     horizon: Option<Region>,
     follow: Option<Follow>,
+    curves: Option<GroundCurves>,
 }
 
 impl<'a> Way<'a> {
     fn new(map: &'a Map, onto: &Onto) -> Self {
         let shift = onto.shift;
-        let plain = Self { map, shift, turn: None, near: None, horizon: None, follow: None };
+        let plain = Self { map, shift, turn: None, near: None, horizon: None, follow: None, curves: None };
         let Map::From(from) = map else { return plain };
         let turn = from.file().turn();
         let terrain = PlanBox { min: onto.terrain.min + -shift, max: onto.terrain.max + -shift };
@@ -130,18 +137,24 @@ impl<'a> Way<'a> {
         let reach = onto.reach.unwrap_or(longest);
         // A hundredth, lest a feature that just touches be thrown away by rounding.
         let near = Region::of(from, &terrain.grown(reach + 0.01 * longest));
+        // Where edges are followed twice, both may be off by half.
+        let is_twice = onto.on_the_ground.is_some() && from.affine().is_none();
+        let tolerance = onto.tolerance * if is_twice { 0.5 } else { 1.0 };
+        let curves = onto.on_the_ground.clone().zip(turn);
+        let curves = curves
+            .map(|(kind, turn)| GroundCurves::new(kind, turn, tolerance / max(1.0, onto.stretch), near));
         if from.affine().is_some() {
-            return Self { turn, near: near.filter(|_| turn.is_some()), ..plain };
+            return Self { turn, near: near.filter(|_| turn.is_some()), curves, ..plain };
         }
         let horizon = Region::horizon(from, &terrain, reach + 0.1 * longest);
         let seam = || turn.map(|turn| Region::between_seams(from.central_meridian(), turn));
         let horizon = horizon.or_else(seam);
-        let follow = (onto.edges == Edges::Projected).then(|| Follow {
-            tolerance: onto.tolerance,
+        let follow = (onto.edges != Edges::Straight).then(|| Follow {
+            tolerance,
             near: terrain.grown(reach),
             long: long(from, horizon.as_ref(), turn),
         });
-        Self { turn, near: near.filter(|_| onto.reach.is_some()), horizon, follow, ..plain }
+        Self { turn, near: near.filter(|_| onto.reach.is_some()), horizon, follow, curves, ..plain }
     }
 
     fn taken(&self, feature: Feature) -> Result<Taken> {
@@ -203,6 +216,7 @@ impl<'a> Way<'a> {
             }
             Some(turn) => {
                 for ring in unroll::rings(rings, turn) {
+                    let ring = self.on_the_ground(ring, true, changes);
                     changes.around += usize::from(ring.around != 0);
                     self.near_rings(&ring, turn.length, (&mut near, changes));
                 }
@@ -217,11 +231,20 @@ impl<'a> Way<'a> {
             match self.turn {
                 None => near.extend(self.cut_line(line, changes)),
                 Some(turn) => {
-                    self.near_lines(&unroll::line(line, turn), turn.length, (&mut near, changes));
+                    let line = self.on_the_ground(unroll::line(line, turn), false, changes);
+                    self.near_lines(&line, turn.length, (&mut near, changes));
                 }
             }
         }
         near.iter().map(|line| self.placed(line, None, changes)).collect()
+    }
+
+    /// With the vertices of edges that are curves of the ground.
+    fn on_the_ground(&self, part: Unrolled, is_ring: bool, changes: &mut Changes) -> Unrolled {
+        match &self.curves {
+            Some(curves) => curves.followed(part, is_ring, changes),
+            None => part,
+        }
     }
 
     /// Points, each a line that goes nowhere.

@@ -4,6 +4,7 @@
 
 mod attributes;
 mod globe;
+mod ground_curve;
 mod terrains;
 
 use super::load;

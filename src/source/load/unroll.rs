@@ -14,6 +14,7 @@
 use crate::crs::Turn;
 use crate::math::min;
 use crate::space::{Plan, PlanBox};
+use glam::DVec2;
 
 /// So near to a pole, degrees, longitudes mean nothing.
 const AT_POLE: f64 = 1e-6;
@@ -39,12 +40,15 @@ pub(super) struct Unrolled {
     pub(super) around: i64,
     /// The pole that a ring with turns encloses: 1 the northern, -1 the southern one.
     pub(super) pole: f64,
+    /// Whether it stays as it is written, its edges too.
+    is_as_written: bool,
 }
 
 impl Unrolled {
     /// What stays as it is written.
     fn as_written(written: Vec<Plan>, turn: Turn) -> Self {
-        Self { turns: vec![0; written.len()], written, turn: turn.length, around: 0, pole: 0.0 }
+        let turns = vec![0; written.len()];
+        Self { turns, written, turn: turn.length, around: 0, pole: 0.0, is_as_written: true }
     }
 
     /// By how much longitude grows from a ring's first vertex to its first vertex.
@@ -59,6 +63,40 @@ impl Unrolled {
             turns => Plan::new(p.x + turns as f64 * self.turn, p.y),
         };
         self.written.iter().zip(&self.turns).map(place)
+    }
+
+    /// The same with further vertices along its edges. `between` gives those between two vertices, in order from the first one, which is
+    /// the southern one (the western one of two on a parallel), on the turn that this is written on: neighbours get the same.
+    pub(super) fn with_vertices(
+        self,
+        is_ring: bool,
+        mut between: impl FnMut(Plan, Plan) -> Vec<Plan>,
+    ) -> Self {
+        if self.is_as_written {
+            return self;
+        }
+        let count = self.written.len();
+        let mut all = Self { written: Vec::with_capacity(count), turns: Vec::with_capacity(count), ..self };
+        let vertices = self.written.iter().copied().zip(self.turns.iter().copied());
+        let mut following = vertices.clone().skip(1);
+        let closing = vertices.clone().next().map(|(first, at)| (first, at + self.around));
+        for (from, from_turns) in vertices {
+            all.written.push(from);
+            all.turns.push(from_turns);
+            let Some((to, to_turns)) = following.next().or(closing.filter(|_| is_ring)) else { break };
+            let is_forward = (from.y, from.x) <= (to.y, to.x);
+            let (first, second, on, off) = match is_forward {
+                true => (from, to, from_turns, to_turns - from_turns),
+                false => (to, from, to_turns, from_turns - to_turns),
+            };
+            let mut along = between(first, second + DVec2::new(off as f64 * self.turn, 0.0));
+            if !is_forward {
+                along.reverse();
+            }
+            all.turns.resize(all.turns.len() + along.len(), on);
+            all.written.append(&mut along);
+        }
+        all
     }
 
     /// The box around it.
@@ -145,7 +183,7 @@ fn follow(written: Vec<Plan>, turn: Turn, is_ring: bool) -> Unrolled {
         (Some(first), Some(last)) if is_ring => at + step(*last, *first, turn),
         _ => 0,
     };
-    Unrolled { written, turns, turn: turn.length, around, pole: 0.0 }
+    Unrolled { written, turns, turn: turn.length, around, pole: 0.0, is_as_written: false }
 }
 
 /// Over how many turns one goes from one vertex to the next.

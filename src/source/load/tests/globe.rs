@@ -7,29 +7,34 @@ use crate::space::Plan;
 use glam::DVec2;
 
 /// A flat terrain of 5 x 5 posts around a place, in some CRS, and how a place in degrees becomes local there.
-struct Globe {
-    crs: &'static str,
+pub(super) struct Globe {
+    pub(super) crs: &'static str,
     middle: (f64, f64),
-    cell: f64,
+    pub(super) cell: f64,
 }
 
 impl Globe {
-    const fn degrees(lon: f64, lat: f64) -> Self {
+    pub(super) const fn degrees(lon: f64, lat: f64) -> Self {
         Self { crs: "EPSG:4326", middle: (lon, lat), cell: 0.25 }
     }
 
-    const fn metres(crs: &'static str, x: f64, y: f64, cell: f64) -> Self {
+    pub(super) const fn metres(crs: &'static str, x: f64, y: f64, cell: f64) -> Self {
         Self { crs, middle: (x, y), cell }
     }
 
+    /// With cells of another size, in the CRS's unit.
+    pub(super) const fn with_cell(self, cell: f64) -> Self {
+        Self { cell, ..self }
+    }
+
     /// Around a place in degrees.
-    fn around(crs: &'static str, lon: f64, lat: f64, cell: f64) -> Self {
+    pub(super) fn around(crs: &'static str, lon: f64, lat: f64, cell: f64) -> Self {
         let plan = PlanSpace::projected(Crs::parse(crs).unwrap()).unwrap();
         let at = plan.plan_from_geographic(lon, lat).unwrap();
         Self { crs, middle: (at.x, at.y), cell }
     }
 
-    fn load(&self, geojson: &str, style: &str) -> Scene {
+    pub(super) fn load(&self, geojson: &str, style: &str) -> Scene {
         let (x, y) = self.middle;
         let low = (x - 2.0 * self.cell, y - 2.0 * self.cell);
         let folder =
@@ -46,7 +51,7 @@ impl Globe {
     }
 
     /// A place in degrees in the scene's coordinates.
-    fn local(&self, scene: &Scene, lon: f64, lat: f64) -> Plan {
+    pub(super) fn local(&self, scene: &Scene, lon: f64, lat: f64) -> Plan {
         let crs = Crs::parse(self.crs).unwrap();
         let plan = match crs.is_geographic() {
             true => PlanSpace::local_plane(self.middle.0, self.middle.1, crs).unwrap(),
@@ -60,13 +65,13 @@ impl Globe {
     }
 
     /// Whether the scene's polygons enclose a place in degrees an odd number of times.
-    fn covers(&self, scene: &Scene, lon: f64, lat: f64) -> bool {
+    pub(super) fn covers(&self, scene: &Scene, lon: f64, lat: f64) -> bool {
         let at = self.local(scene, lon, lat);
         rings(&scene.layers[0].features).iter().filter(|ring| encloses(ring, at)).count() % 2 == 1
     }
 }
 
-fn rings(features: &[Feature]) -> Vec<&Vec<Plan>> {
+pub(super) fn rings(features: &[Feature]) -> Vec<&Vec<Plan>> {
     assert!(features.iter().all(|feature| feature.shape.is_area()), "a line");
     features.iter().flat_map(|feature| feature.shape.parts()).collect()
 }
@@ -78,16 +83,16 @@ fn encloses(ring: &[Plan], at: Plan) -> bool {
     east.count() % 2 == 1
 }
 
-fn polygon(rings: &str) -> String {
+pub(super) fn polygon(rings: &str) -> String {
     format!(r#"{{"type":"Polygon","coordinates":[{rings}]}}"#)
 }
 
 /// A rectangle's ring.
-fn rectangle(west: f64, south: f64, east: f64, north: f64) -> String {
+pub(super) fn rectangle(west: f64, south: f64, east: f64, north: f64) -> String {
     format!("[[{west},{south}],[{east},{south}],[{east},{north}],[{west},{north}],[{west},{south}]]")
 }
 
-fn says(scene: &Scene, words: &str) -> bool {
+pub(super) fn says(scene: &Scene, words: &str) -> bool {
     scene.notes.iter().any(|note| note.contains(words))
 }
 
