@@ -4,8 +4,8 @@
 //! return either zero for `(-0, +0)`. Everything that can decide a pixel goes through here; `clippy.toml` refuses the rest.
 
 pub use libm::{
-    acos, asin, asinh, atan, atan2, atanh, cbrt, cos, cosh, erf, exp, hypot, log as ln, log2, pow, sin, sinh,
-    tan, tanh,
+    asin, asinh, atan, atan2, atanh, cbrt, cos, cosh, erf, exp, hypot, log as ln, log2, pow, sin, sinh, tan,
+    tanh,
 };
 
 /// The smaller of two numbers; `b` where they compare equal or either is NaN.

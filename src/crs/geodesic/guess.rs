@@ -1,8 +1,8 @@
 //! A first azimuth from which Newton's method finds the geodesic: Karney (2013), sections 4 and 5.
 
 use super::angle::Angle;
-use super::inverse::{ROUNDING, Triangle, epsilon};
 use super::series::a3;
+use super::triangle::{ROUNDING, Triangle, epsilon};
 use crate::math::{atan2, cbrt, cos, hypot, max, min, sin};
 use std::f64::consts::PI;
 

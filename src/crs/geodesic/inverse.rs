@@ -3,16 +3,11 @@
 use super::angle::Angle;
 use super::guess::{Guess, guess};
 use super::series::{a1, a2, a3, c1, c2, c3};
+use super::triangle::{ROUNDING, TINY, Triangle, epsilon, reduced};
 use crate::crs::ellipsoid::Ellipsoid;
 use crate::crs::fourier::sines;
 use crate::math::{atan2, hypot, max};
 use std::f64::consts::PI;
-
-/// What a number near 1 is rounded by.
-pub(super) const ROUNDING: f64 = f64::EPSILON;
-
-/// Instead of 0 where something is divided by it: its square is still a number.
-const TINY: f64 = 1.5e-154;
 
 /// Steps by Newton's method; beyond, the azimuth is bracketed by halves. Three or four are usual.
 const NEWTON_STEPS: u32 = 20;
@@ -26,18 +21,6 @@ pub(super) struct Found {
     pub(super) length: f64,
     /// At the first place.
     pub(super) azimuth: Angle,
-}
-
-/// Two places, turned so that the first one is south of the equator and no nearer to it than the second, which lies east of it (eq. 44).
-pub(super) struct Triangle<'a> {
-    pub(super) ellipsoid: &'a Ellipsoid,
-    /// Reduced latitudes.
-    pub(super) beta1: Angle,
-    pub(super) beta2: Angle,
-    /// The difference in longitude; ...
-    pub(super) lambda: Angle,
-    /// ... and by how much it is less than half a turn, radians, which rounds nothing off where places are nearly antipodal.
-    pub(super) short_of_half_a_turn: f64,
 }
 
 /// The way between two latitudes and so many degrees to the east (-180..=180).
@@ -57,19 +40,6 @@ pub(super) fn inverse(ellipsoid: &Ellipsoid, from: f64, to: f64, east: f64) -> F
     let (there, mirrored) = if is_swapped { (alpha2, -upright) } else { (alpha1, upright) };
     let azimuth = Angle { sin: there.sin * 1_f64.copysign(east), cos: there.cos * mirrored };
     Found { length, azimuth }
-}
-
-/// The reduced latitude of one in degrees (eq. 6); at a pole its cosine is tiny, but not 0.
-pub(super) fn reduced(ellipsoid: &Ellipsoid, latitude: f64) -> Angle {
-    let phi = Angle::of_degrees(latitude);
-    let beta = Angle::towards((1.0 - ellipsoid.f) * phi.sin, phi.cos);
-    Angle { sin: beta.sin, cos: max(TINY, beta.cos) }
-}
-
-/// What the series are in, of the cosine of the azimuth at the equator (eqs. 9 and 16).
-pub(super) fn epsilon(ellipsoid: &Ellipsoid, cos_alpha0: f64) -> f64 {
-    let k2 = ellipsoid.e2() / (1.0 - ellipsoid.e2()) * cos_alpha0 * cos_alpha0;
-    k2 / (2.0 * (1.0 + (1.0 + k2).sqrt()) + k2)
 }
 
 /// A way in the turned triangle: its length in metres and its azimuths at both places.

@@ -8,12 +8,13 @@
 //!
 //! - `inverse.rs`: which way leads from one place to the other (sections 4 and 5), from the first guess of `guess.rs`;
 //! - `way.rs`: where one is after a distance (section 3);
-//! - `series.rs`, `angle.rs`: what both are made of.
+//! - `triangle.rs`, `series.rs`, `angle.rs`: what both are made of.
 
 mod angle;
 mod guess;
 mod inverse;
 mod series;
+mod triangle;
 mod way;
 
 pub(super) use way::Geodesic;

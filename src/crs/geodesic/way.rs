@@ -1,8 +1,9 @@
 //! Where one is on a geodesic after a share of the way: the direct problem, Karney (2013), section 3.
 
 use super::angle::Angle;
-use super::inverse::{self, Found};
+use super::inverse::{Found, inverse};
 use super::series::{a1, a3, c1, c1_inverse, c3};
+use super::triangle::{self, reduced};
 use crate::crs::ellipsoid::Ellipsoid;
 use crate::crs::fourier::sines;
 use crate::math::{atan2, hypot};
@@ -32,8 +33,8 @@ pub(in crate::crs) struct Geodesic {
 impl Geodesic {
     /// Between two latitudes, the second one's place so many degrees to the east (-180..=180).
     pub(in crate::crs) fn between(ellipsoid: &Ellipsoid, from: f64, to: f64, east: f64) -> Self {
-        let Found { length, azimuth } = inverse::inverse(ellipsoid, from, to, east);
-        let beta1 = inverse::reduced(ellipsoid, from);
+        let Found { length, azimuth } = inverse(ellipsoid, from, to, east);
+        let beta1 = reduced(ellipsoid, from);
         let alpha0 = {
             let (sin, cos) = (azimuth.sin * beta1.cos, hypot(azimuth.cos, azimuth.sin * beta1.sin));
             Angle { sin, cos }
@@ -42,7 +43,7 @@ impl Geodesic {
         // On the equator, and along it, both are 0 (eqs. 11 and 12).
         let along = if up == 0.0 && along == 0.0 { 1.0 } else { along };
         let sigma1 = Angle::towards(up, along);
-        let epsilon = inverse::epsilon(ellipsoid, alpha0.cos);
+        let epsilon = triangle::epsilon(ellipsoid, alpha0.cos);
         let n = ellipsoid.third_flattening();
         let c3 = c3(n, epsilon);
         Self {

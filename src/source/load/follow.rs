@@ -4,6 +4,8 @@
 //! the distance: there only the side on which a curve passes the terrain matters. What is decided depends on the edge alone, not on its
 //! direction, so that neighbours keep sharing their edges.
 
+use super::window::Region;
+use crate::crs::{PlanFrom, Turn};
 use crate::error::Result;
 use crate::math::max;
 use crate::space::{Plan, PlanBox};
@@ -87,6 +89,18 @@ fn distance_from_chord(p: Plan, a: Plan, b: Plan) -> f64 {
     let squared = chord.length_squared();
     let t = if squared > 0.0 { to.dot(chord) / squared } else { 0.0 };
     (to - chord * t.clamp(0.0, 1.0)).length()
+}
+
+/// Edges of a file that are longer than this may pass the terrain on another side than their chords.
+pub(super) fn long(map: &PlanFrom, horizon: Option<&Region>, turn: Option<Turn>) -> f64 {
+    match (turn, horizon) {
+        (Some(turn), _) => turn.length / 72.0,
+        (None, Some(horizon)) => {
+            let size = horizon.bounds.max - horizon.bounds.min;
+            max(size.x, size.y) / 16.0
+        }
+        (None, None) => 1e5 / map.file().metres_per_unit().unwrap_or(1.0),
+    }
 }
 
 #[cfg(test)]

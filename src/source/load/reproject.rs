@@ -13,12 +13,12 @@
 
 use super::changes::Changes;
 use super::cut::{self, Side};
-use super::follow::Follow;
+use super::follow::{Follow, long};
 use super::ground_curve::GroundCurves;
 use super::place::Map;
 use super::unroll::{self, Unrolled};
 use super::window::{Region, on_the_globe};
-use crate::crs::{CurveKind, Geodesy, PlanFrom, Turn};
+use crate::crs::{CurveKind, Geodesy, Turn};
 use crate::error::{Error, Result};
 use crate::math::max;
 use crate::parallel;
@@ -449,16 +449,4 @@ fn towards_the_pole(horizon: &Region) -> Side {
     let above = horizon.pole > 0.0;
     let at = if above { horizon.bounds.min.y } else { horizon.bounds.max.y };
     Side { is_level: true, at, above }
-}
-
-/// Edges of a file that are longer than this may pass the terrain on another side than their chords.
-fn long(map: &PlanFrom, horizon: Option<&Region>, turn: Option<Turn>) -> f64 {
-    match (turn, horizon) {
-        (Some(turn), _) => turn.length / 72.0,
-        (None, Some(horizon)) => {
-            let size = horizon.bounds.max - horizon.bounds.min;
-            max(size.x, size.y) / 16.0
-        }
-        (None, None) => 1e5 / map.file().metres_per_unit().unwrap_or(1.0),
-    }
 }
