@@ -10,7 +10,7 @@ use super::rhumb::Rhumb;
 use crate::error::{Error, Result};
 use glam::DVec2;
 
-/// The flattest ellipsoid on which the series to the sixth order are good to some nanometres (Karney 2013, table 1).
+/// The flattest ellipsoid on which the series to the sixth order are good to a micrometre.
 const FLATTEST: f64 = 0.02;
 
 /// The ground of a CRS in degrees.
