@@ -455,12 +455,14 @@ fn on_a_cap_of_a_sphere_more_samples_come_nearer_to_the_truth_and_techniques_nea
 
 #[test]
 fn smaller_triangles_deviate_less_from_the_map_along_the_normal() {
-    let deviation = |n| globe::cap(n, 20_000.0, |_, _| 0.0).largest_deviation(globe::plan_below);
+    let deviation = |n| {
+        globe::cap(n, 20_000.0, |_, _| 0.0).largest_deviation(|at, p| (globe::plan_below(at) - p).length())
+    };
     let (coarse, fine) = (deviation(11), deviation(21));
     // Half the size, a quarter of the deviation: 4 km are off by about 4 km * 4 km / 9 / 6400 km times the tangent of the latitude.
     assert!(coarse > 0.1 && coarse < 2.0, "{coarse}");
     assert!((coarse / fine - 4.0).abs() < 0.2, "{coarse} {fine}");
     let place = Plan::new(3000.0, -7000.0);
     assert!((globe::plan_below(globe::surface(place, 500.0).world) - place).length() < 1e-6);
-    assert!(hills(LAYERS, &[]).mesh.largest_deviation(World::plan) < 1e-9);
+    assert!(hills(LAYERS, &[]).mesh.largest_deviation(|at, p| (at.plan() - p).length()) < 1e-9);
 }

@@ -193,13 +193,8 @@ const ANYONE: &[&str] = &["error", "math", "Error", "Result", "Position"];
 const CIRCLES: &[(&[&str], &str)] = &[];
 
 /// Public functions that nothing in this repository but tests calls, and for whom they are.
-const FOR_OTHERS: &[(&str, &str)] = &[
-    ("from_plane", "who judges buffers of a program of one's own makes pictures of them"),
-    (
-        "largest_deviation",
-        "who drapes a mesh of one's own asks how far it is from the map that it stands for",
-    ),
-];
+const FOR_OTHERS: &[(&str, &str)] =
+    &[("from_plane", "who judges buffers of a program of one's own makes pictures of them")];
 
 /// Crates that one room alone may use.
 const OWNED: &[(&str, &str)] = &[("rayon", "parallel"), ("spade", "terrain"), ("exr", "compare")];

@@ -1,17 +1,8 @@
-//! Ellipsoids of revolution: radii of curvature, geocentric coordinates, conformal latitude.
+//! Ellipsoids of revolution as reference systems name them, and their conformal latitude.
 
 use super::fourier::polynomial;
-use crate::math::{asinh, atan, atan2, atanh, cos, exp, sin, sinh, tan};
-use glam::DVec3;
-
-/// An ellipsoid of revolution.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Ellipsoid {
-    /// Equatorial radius in metres.
-    pub(crate) a: f64,
-    /// Flattening.
-    pub(crate) f: f64,
-}
+use crate::math::{asinh, atan, atanh, exp, sinh, tan};
+pub(crate) use crate::space::Ellipsoid;
 
 impl Ellipsoid {
     pub(crate) const WGS84: Self = Self { a: 6_378_137.0, f: 1.0 / 298.257_223_563 };
@@ -21,19 +12,9 @@ impl Ellipsoid {
         Self { a, f: if rf == 0.0 { 0.0 } else { 1.0 / rf } }
     }
 
-    /// The first eccentricity squared.
-    pub(crate) fn e2(&self) -> f64 {
-        self.f * (2.0 - self.f)
-    }
-
     /// The first eccentricity.
     pub(crate) fn e(&self) -> f64 {
         self.e2().sqrt()
-    }
-
-    /// The polar radius.
-    pub(crate) fn b(&self) -> f64 {
-        self.a * (1.0 - self.f)
     }
 
     /// The third flattening, n = (a - b) / (a + b).
@@ -50,43 +31,6 @@ impl Ellipsoid {
     /// Whether two ellipsoids agree to a millimetre in both radii.
     pub(crate) fn agrees_with(&self, other: &Self) -> bool {
         (self.a - other.a).abs() < 1e-3 && (self.b() - other.b()).abs() < 1e-3
-    }
-
-    /// The radius of curvature in the prime vertical, N.
-    pub(crate) fn prime_vertical(&self, lat: f64) -> f64 {
-        let s = sin(lat);
-        self.a / (1.0 - self.e2() * s * s).sqrt()
-    }
-
-    /// The radius of curvature in the meridian, M.
-    pub(crate) fn meridian(&self, lat: f64) -> f64 {
-        let s = sin(lat);
-        let w2 = 1.0 - self.e2() * s * s;
-        self.a * (1.0 - self.e2()) / (w2 * w2.sqrt())
-    }
-
-    /// Geographic (radians) to geocentric (metres), at height 0.
-    pub(crate) fn geocentric(&self, lon: f64, lat: f64) -> DVec3 {
-        let n = self.prime_vertical(lat);
-        let r = n * cos(lat);
-        DVec3::new(r * cos(lon), r * sin(lon), n * (1.0 - self.e2()) * sin(lat))
-    }
-
-    /// Geocentric (metres) to geographic (radians); the height is dropped.
-    ///
-    /// Bowring's formula (1976), iterated on the parametric latitude: each round gains some five digits near the
-    /// surface, so three give all of them.
-    pub(crate) fn geographic(&self, p: DVec3) -> (f64, f64) {
-        let r = (p.x * p.x + p.y * p.y).sqrt();
-        let second_e2 = self.e2() / (1.0 - self.e2());
-        let mut beta = atan2(p.z * self.a, r * self.b());
-        let mut lat = beta;
-        for _ in 0..3 {
-            let (s, c) = (sin(beta), cos(beta));
-            lat = atan2(p.z + second_e2 * self.b() * s * s * s, r - self.e2() * self.a * c * c * c);
-            beta = atan2((1.0 - self.f) * sin(lat), cos(lat));
-        }
-        (atan2(p.y, p.x), lat)
     }
 
     /// The tangent of the conformal latitude of a geographic latitude: Karney (2011), eqs. 7 to 9.
@@ -126,29 +70,6 @@ impl Ellipsoid {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn geocentric_coordinates_agree_with_proj() {
-        // reference: PROJ 9, +proj=cart +ellps=WGS84 of (7.5, 46.9, 0)
-        let p = Ellipsoid::WGS84.geocentric(7.5_f64.to_radians(), 46.9_f64.to_radians());
-        let at_500_m = DVec3::new(4_328_800.129_357_4, 569_897.348_586_543_4, 4_634_541.012_035_782);
-        let up = DVec3::new(
-            cos(46.9_f64.to_radians()) * cos(7.5_f64.to_radians()),
-            cos(46.9_f64.to_radians()) * sin(7.5_f64.to_radians()),
-            sin(46.9_f64.to_radians()),
-        );
-        assert!((p + up * 500.0 - at_500_m).length() < 1e-6);
-    }
-
-    #[test]
-    fn geocentric_and_back_is_the_same_place() {
-        for (lon, lat) in [(0.0, 0.0), (120.0, 89.0), (-179.9, -45.0), (10.0, -89.999)] {
-            let p = Ellipsoid::WGS84.geocentric(f64::to_radians(lon), f64::to_radians(lat));
-            let (back_lon, back_lat) = Ellipsoid::WGS84.geographic(p);
-            assert!((back_lon.to_degrees() - lon).abs() < 1e-12);
-            assert!((back_lat.to_degrees() - lat).abs() < 1e-12);
-        }
-    }
 
     #[test]
     fn conformal_latitude_and_back_is_the_same_latitude() {

@@ -1,7 +1,7 @@
-//! The scene's plan: a projected CRS in metres, or the local plane of data in degrees.
+//! The scene's plan: a projected CRS in metres, or the local plane or the globe of data in degrees.
 
-use super::Crs;
 use super::degrees::wrapped;
+use super::{Crs, Ellipsoid};
 use crate::error::{Error, Result};
 use crate::math::cos;
 use glam::DVec2;
@@ -11,6 +11,8 @@ use glam::DVec2;
 /// The **local plane** at (lon0, lat0) is x = (lon - lon0) N cos(lat0), y = (lat - lat0) M, angles in radians, with
 /// the ellipsoid's radii of curvature in the prime vertical, N, and in the meridian, M, at lat0: a regular grid in degrees
 /// stays a regular grid.
+///
+/// The plan of a **globe** is longitude and latitude as metres on the equator's circle: x = lon a, y = lat a.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlanSpace(Kind);
 
@@ -18,6 +20,7 @@ pub struct PlanSpace(Kind);
 enum Kind {
     Projected(Crs),
     Local(LocalPlane),
+    Globe(GlobePlan),
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -25,6 +28,14 @@ struct LocalPlane {
     crs: Crs,
     center: DVec2,
     metres_per_degree: DVec2,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+struct GlobePlan {
+    crs: Crs,
+    /// The longitude within half a turn of which places are taken, degrees.
+    middle: f64,
+    metres_per_degree: f64,
 }
 
 /// A map that keeps grids regular: p becomes (p - origin) * scale, by components.
@@ -81,6 +92,28 @@ impl PlanSpace {
         Ok(Self(Kind::Local(LocalPlane { crs, center, metres_per_degree })))
     }
 
+    /// The plan of a globe of which places are to lie within half a turn of a longitude, in the CRS's own degrees.
+    ///
+    /// # Errors
+    /// When the CRS is not geographic.
+    pub fn globe(middle: f64, crs: Crs) -> Result<Self> {
+        if !crs.is_geographic() {
+            return Err(Error::new(format!("{} is a plane, and a globe is in degrees", crs.name())).help(
+                "give a terrain in longitude and latitude (gdalwarp -t_srs EPSG:4326), or leave out plan = \"globe\"",
+            ));
+        }
+        let metres_per_degree = crs.ellipsoid.a.to_radians();
+        Ok(Self(Kind::Globe(GlobePlan { crs, middle, metres_per_degree })))
+    }
+
+    /// The ellipsoid of a globe's plan; `None` of a plane.
+    pub fn ellipsoid(&self) -> Option<Ellipsoid> {
+        match &self.0 {
+            Kind::Globe(globe) => Some(globe.crs.ellipsoid),
+            Kind::Projected(_) | Kind::Local(_) => None,
+        }
+    }
+
     /// What the plane is, for people.
     pub fn describe(&self) -> String {
         match &self.0 {
@@ -91,6 +124,9 @@ impl PlanSpace {
                 plane.center.y,
                 plane.crs.name()
             ),
+            Kind::Globe(globe) => {
+                format!("globe: longitude and latitude of {}, as metres at the equator", globe.crs.name())
+            }
         }
     }
 
@@ -99,13 +135,14 @@ impl PlanSpace {
         match &self.0 {
             Kind::Projected(crs) => crs,
             Kind::Local(plane) => &plane.crs,
+            Kind::Globe(globe) => &globe.crs,
         }
     }
 
     /// The centre of the local plane: longitude and latitude in its CRS.
     pub fn center(&self) -> Option<(f64, f64)> {
         match &self.0 {
-            Kind::Projected(_) => None,
+            Kind::Projected(_) | Kind::Globe(_) => None,
             Kind::Local(plane) => Some((plane.center.x, plane.center.y)),
         }
     }
@@ -113,7 +150,7 @@ impl PlanSpace {
     /// Plan metres in a degree of longitude and of latitude; `None` but for the local plane.
     pub fn metres_per_degree(&self) -> Option<(f64, f64)> {
         match &self.0 {
-            Kind::Projected(_) => None,
+            Kind::Projected(_) | Kind::Globe(_) => None,
             Kind::Local(plane) => Some((plane.metres_per_degree.x, plane.metres_per_degree.y)),
         }
     }
@@ -122,7 +159,7 @@ impl PlanSpace {
     /// Zero for a projected CRS, whose scale error is nobody's surprise.
     pub fn scale_error_at(&self, _x: f64, y: f64) -> (f64, f64) {
         match &self.0 {
-            Kind::Projected(_) => (0.0, 0.0),
+            Kind::Projected(_) | Kind::Globe(_) => (0.0, 0.0),
             Kind::Local(plane) => {
                 let lat = plane.center.y + y / plane.metres_per_degree.y;
                 let ground = metres_per_degree_at(&plane.crs, lat);
@@ -163,6 +200,9 @@ impl PlanSpace {
                 origin: plane.center / plane.crs.unit,
                 scale: plane.metres_per_degree * plane.crs.unit,
             },
+            Kind::Globe(globe) => {
+                Affine { origin: DVec2::ZERO, scale: DVec2::splat(globe.metres_per_degree * globe.crs.unit) }
+            }
         }
     }
 
@@ -170,12 +210,19 @@ impl PlanSpace {
     fn plan_from_native(&self, p: DVec2) -> Result<DVec2> {
         let affine = self.affine();
         let mut off = p - affine.origin;
-        if let Kind::Local(plane) = &self.0 {
-            let latitude = p.y * plane.crs.unit;
-            if !(latitude.abs() <= 90.0 && (p.x * plane.crs.unit).abs() <= 540.0) {
-                return Err(not_on_the_globe(p, &plane.crs));
+        let unit = self.crs().unit;
+        if !matches!(self.0, Kind::Projected(_))
+            && !((p.y * unit).abs() <= 90.0 && (p.x * unit).abs() <= 540.0)
+        {
+            return Err(not_on_the_globe(p, self.crs()));
+        }
+        match &self.0 {
+            Kind::Projected(_) => {}
+            Kind::Local(_) => off.x = wrapped(off.x * unit) / unit,
+            Kind::Globe(globe) => {
+                let off_middle = p.x * unit - globe.middle;
+                off.x += (wrapped(off_middle) - off_middle) / unit;
             }
-            off.x = wrapped(off.x * plane.crs.unit) / plane.crs.unit;
         }
         Some(off * affine.scale).filter(|q| q.is_finite()).ok_or_else(|| not_on_the_globe(p, self.crs()))
     }
@@ -186,7 +233,7 @@ impl PlanSpace {
         let q = p / affine.scale + affine.origin;
         let on_the_globe = match &self.0 {
             Kind::Projected(_) => q.is_finite(),
-            Kind::Local(plane) => (q.y * plane.crs.unit).abs() <= 90.0 && q.x.is_finite(),
+            Kind::Local(_) | Kind::Globe(_) => (q.y * self.crs().unit).abs() <= 90.0 && q.x.is_finite(),
         };
         on_the_globe.then_some(q).ok_or_else(|| {
             Error::new(format!("the plan point ({}, {}) is not on the globe", p.x, p.y))
@@ -288,7 +335,11 @@ impl PlanFrom {
     /// seam.
     pub fn central_meridian(&self) -> f64 {
         let to = self.plan.crs();
-        let central = self.plan.center().map_or(to.projection.central_meridian(), |(lon, _)| lon);
+        let central = match &self.plan.0 {
+            Kind::Projected(crs) => crs.projection.central_meridian(),
+            Kind::Local(plane) => plane.center.x,
+            Kind::Globe(globe) => globe.middle,
+        };
         let (zero, meridian) = self.file.middle();
         let per_degree = self.file.turn().map_or(1.0, |turn| turn.length / 360.0);
         zero + (central + to.prime_meridian - meridian) * per_degree

@@ -6,6 +6,7 @@
 mod attribute;
 mod camera;
 mod detail;
+mod globe;
 mod ground;
 mod layer;
 mod settings;
@@ -13,6 +14,7 @@ mod settings;
 pub use attribute::{Attribute, Column};
 pub use camera::{Camera, Projection};
 pub use detail::{Detail, LevelOfDetail};
+pub use globe::GlobePosts;
 pub use ground::{Ground, GroundColors, Imagery, Light};
 pub use layer::{
     Cap, Feature, Fill, Group, Join, Layer, Line, Outline, OutlineMode, Rule, Shape, Style, Width,
@@ -23,7 +25,7 @@ pub use settings::{
 };
 
 use crate::parameter::words;
-use crate::space::{Plan, World};
+use crate::space::{Globe, Plan, World};
 use glam::{DVec2, DVec3};
 
 /// Everything a picture depends on but the terrain's heights (a [`Surface`], which becomes the mesh), in memory, in
@@ -36,6 +38,8 @@ pub struct Scene {
     pub origin: DVec3,
     /// What the plan space is, in words (`EPSG:32733`, or the local plane and its centre).
     pub plan_space: String,
+    /// The globe that the terrain is a surface over; `None`: the plan is a plane, and the world stands straight over it.
+    pub globe: Option<Globe>,
     /// Size and background.
     pub image: ImageSettings,
     /// From where it is seen.
@@ -65,6 +69,7 @@ impl Scene {
             name: "scene".into(),
             origin: DVec3::ZERO,
             plan_space: "metres".into(),
+            globe: None,
             image: ImageSettings {
                 width: 1200,
                 height: 800,
@@ -90,6 +95,8 @@ pub enum Surface {
     Grid(Posts),
     /// Scattered points, to be triangulated (Delaunay).
     Points(Vec<World>),
+    /// Heights above an ellipsoid, at posts along its meridians and parallels.
+    Globe(GlobePosts),
 }
 
 /// Heights at the posts of a regular, possibly sheared or rotated grid.

@@ -50,8 +50,8 @@ pub use overrides::Override;
 pub use schema::schema;
 pub use spec::{
     CameraSpec, DataFile, Edges, GroundColorsSpec, GroundSpec, HeightEncoding, InlineFeature, LayerSource,
-    LayerSpec, SceneFile, Spot, TerrainGenerator, TerrainKind, TerrainSource, TerrainSpec, VectorGenerator,
-    VectorKind, ViewSpec,
+    LayerSpec, PlanKind, SceneFile, Spot, TerrainGenerator, TerrainKind, TerrainSource, TerrainSpec,
+    VectorGenerator, VectorKind, ViewSpec,
 };
 pub(crate) use suggest::{nearest, nearest_or_all};
 pub use text::SceneText;

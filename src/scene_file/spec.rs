@@ -20,6 +20,8 @@ pub struct SceneFile {
     pub name: String,
     /// The plan space asked for.
     pub crs: Option<String>,
+    /// What the plan is.
+    pub plan: PlanKind,
     /// Size and background.
     pub image: ImageSettings,
     /// From where it is seen.
@@ -40,6 +42,18 @@ pub struct SceneFile {
     pub hash: String,
 }
 
+words! {
+    /// What the plan of a scene is, and the world over it.
+    #[derive(Default)]
+    pub enum PlanKind {
+        /// A plane in metres, and heights straight over it.
+        #[default]
+        Plane = "plane",
+        /// Longitude and latitude on an ellipsoid, and heights along its normals.
+        Globe = "globe",
+    }
+}
+
 /// A data file that the scene names.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DataFile {
@@ -56,8 +70,8 @@ pub struct DataFile {
 pub struct CameraSpec {
     /// Where it stands and looks; without it, a view from the south that frames the layers is to be chosen.
     pub view: Option<ViewSpec>,
-    /// The direction that is up in the picture.
-    pub up: DVec3,
+    /// The direction that is up in the picture; `None`: z, on a globe the ellipsoid's normal at the target.
+    pub up: Option<DVec3>,
     /// Perspective or orthographic.
     pub projection: Projection,
     /// Nothing nearer than this (view depth in metres) is seen.
@@ -169,6 +183,8 @@ pub struct TerrainGenerator {
     pub posts: (usize, usize),
     /// The distance of neighbouring posts.
     pub cell_m: f64,
+    /// Whether that was said in degrees of a globe: they are taken as metres on WGS 84's equator.
+    pub is_in_degrees: bool,
     /// The formula's height (see [`TerrainKind`]).
     pub height_m: f64,
 }

@@ -28,11 +28,15 @@
 
 mod clip;
 mod disc;
+mod ellipsoid;
+mod globe;
 mod small_box;
 mod view;
 
 pub use clip::Clip;
 pub use disc::{DISC_CORNERS, disc_corners};
+pub use ellipsoid::Ellipsoid;
+pub use globe::Globe;
 pub use small_box::SmallBox;
 pub use view::{Lens, Ray, ViewFrame, Viewpoint};
 

@@ -57,11 +57,7 @@ impl Grid {
     /// Which way cell (i, j) is split: true from south-west to north-east.
     #[inline(always)]
     pub fn splits_sw_ne(&self, i: usize, j: usize) -> bool {
-        match self.diagonal {
-            Diagonal::SwNe => true,
-            Diagonal::NwSe => false,
-            Diagonal::Alternating => (i + j).is_multiple_of(2),
-        }
+        splits_sw_ne(self.diagonal, i, j)
     }
 
     /// How cells are split.
@@ -193,6 +189,16 @@ impl Grid {
                 visit(Node { level, x, y });
             }
         }
+    }
+}
+
+/// Which way cell (i, j) is split: true from south-west to north-east.
+#[inline(always)]
+pub(super) fn splits_sw_ne(diagonal: Diagonal, i: usize, j: usize) -> bool {
+    match diagonal {
+        Diagonal::SwNe => true,
+        Diagonal::NwSe => false,
+        Diagonal::Alternating => (i + j).is_multiple_of(2),
     }
 }
 

@@ -11,6 +11,7 @@
 //! [`Leaf`]. A new kind is a file, a variant, and an arm in each method here, which the compiler asks for.
 
 mod drape;
+mod globe;
 mod grid;
 pub mod lod;
 mod tin;
@@ -106,6 +107,10 @@ impl Mesh {
         match surface {
             Surface::Grid(posts) => Ok(Self::Grid(Arc::new(Grid::new(posts, diagonal)?))),
             Surface::Points(points) => Ok(Self::Tin(Tin::new(points)?)),
+            Surface::Globe(posts) => {
+                let (vertices, triangles) = globe::surface(&posts, diagonal)?;
+                Self::of_surface(vertices, triangles)
+            }
         }
     }
 
@@ -294,15 +299,14 @@ impl Mesh {
     }
 
     /// How far plan points lie from where a map takes the same points of the world, at the middles of the triangles (there the combination of
-    /// the corners is off most): the largest distance in the plan. A globe's map, along the normal of the ellipsoid, is curved; the smaller its
-    /// triangles, the smaller is this.
-    pub fn largest_deviation(&self, plan_from_world: impl Fn(World) -> Plan) -> f64 {
+    /// the corners is off most): the largest distance, which `distance` tells between the place of a point of the world and a plan point. A
+    /// globe's map, along the normal of the ellipsoid, is curved; the smaller its triangles, the smaller is this.
+    pub fn largest_deviation(&self, distance: impl Fn(World, Plan) -> f64) -> f64 {
         let middle = |[a, b, c]: [DVec3; 3]| (a + b + c) / 3.0;
         let triangles = (0..self.triangle_ids()).filter_map(|id| self.surface_triangle(id));
         let deviations = triangles.map(|triangle| {
             let at = middle(triangle.plan().map(|p| p.to_vec().extend(0.0))).truncate();
-            (plan_from_world(World::from(middle(triangle.world.map(World::to_vec)))) - Plan::from(at))
-                .length()
+            distance(World::from(middle(triangle.world.map(World::to_vec))), Plan::from(at))
         });
         deviations.fold(0.0, |most, deviation| math::max(deviation, most))
     }

@@ -14,7 +14,7 @@ pub(super) fn camera(section: &mut Section<'_>) -> Result<CameraSpec> {
     let projection = projection(section)?;
     let (near_m, far_m) = range(section)?;
     let view = view(section, eye, target, up.as_ref())?;
-    let up = up.map_or(DVec3::Z, |taken| DVec3::from_array(taken.value));
+    let up = up.map(|taken| DVec3::from_array(taken.value));
     Ok(CameraSpec { view, up, projection, near_m, far_m })
 }
 

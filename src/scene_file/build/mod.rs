@@ -30,6 +30,7 @@ pub(super) fn scene(origin: &Origin<'_>, root: Node) -> Result<SceneFile> {
             path: origin.path.map(Path::to_path_buf),
             name: root.text("name")?.unwrap_or_else(|| stem(origin.path, "scene")),
             crs: root.text("crs")?,
+            plan: root.name("plan")?.unwrap_or_default(),
             image: Section::read(origin, child(root, "image"), image)?,
             camera: Section::read(origin, child(root, "camera"), camera::camera)?,
             terrain: Section::read(origin, child(root, "terrain"), terrain::terrain)?,

@@ -14,6 +14,9 @@ use glam::DVec3;
 /// The most posts that a generated terrain may have.
 const MOST_POSTS: usize = 1 << 28;
 
+/// A degree of longitude on the equator of WGS 84.
+const METRES_PER_DEGREE: f64 = 6_378_137.0 * std::f64::consts::PI / 180.0;
+
 pub(super) fn terrain(section: &mut Section<'_>) -> Result<TerrainSpec> {
     let diagonal = section.name("diagonal")?.unwrap_or_default();
     Ok(TerrainSpec {
@@ -96,12 +99,22 @@ fn light(section: &mut Section<'_>) -> Result<Light> {
 fn generator(section: &mut Section<'_>) -> Result<TerrainGenerator> {
     let name = section.name("kind")?.unwrap_or(TerrainName::Plane);
     let posts = posts(section)?;
-    let cell_m = section.number("cell_m")?.unwrap_or(30.0);
+    let cell_deg = section.number("cell_deg")?;
+    let cell_m = match cell_deg {
+        Some(degrees) => degrees * METRES_PER_DEGREE,
+        None => section.number("cell_m")?.unwrap_or(30.0),
+    };
     let level = matches!(name, TerrainName::Plane | TerrainName::Ramp);
     let height_m = section.number("height_m")?.unwrap_or(if level { 0.0 } else { 500.0 });
     refuse_foreign(section, name)?;
     let sides = (extent(posts.0, cell_m), extent(posts.1, cell_m));
-    Ok(TerrainGenerator { kind: kind(section, name, sides)?, posts, cell_m, height_m })
+    Ok(TerrainGenerator {
+        kind: kind(section, name, sides)?,
+        posts,
+        cell_m,
+        is_in_degrees: cell_deg.is_some(),
+        height_m,
+    })
 }
 
 fn extent(posts: usize, cell_m: f64) -> f64 {

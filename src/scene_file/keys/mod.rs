@@ -6,6 +6,7 @@ mod technique;
 mod terrain;
 
 use super::names::ProjectionName;
+use super::spec::PlanKind;
 use crate::parameter::{Range, Rule as Keys, Settings, Shape, TableShape, choice, key};
 use crate::scene::{Compositing, Device};
 use layer::LAYER;
@@ -31,6 +32,11 @@ pub(super) static ROOT: TableShape = TableShape {
             "crs",
             Shape::Text,
             "The plan space, such as \"EPSG:32733\". Default: the terrain's own if it is projected, else the local plane at its centre.",
+        ),
+        key(
+            "plan",
+            choice::<PlanKind>(),
+            "What the plan is. \"globe\": longitude and latitude on the ellipsoid of the terrain's CRS, heights along its normals. Default: \"plane\".",
         ),
         key("image", Shape::Table(&IMAGE), "Size and background of the picture."),
         key(
@@ -66,7 +72,11 @@ static CAMERA: TableShape = TableShape {
         key("eye_geo", Shape::Numbers(3), "Longitude, latitude (degrees), height (metres) of the eye."),
         key("target", Shape::Numbers(3), "A point in the middle of the picture: plan x, plan y, height."),
         key("target_geo", Shape::Numbers(3), "The same as longitude, latitude, height."),
-        key("up", Shape::Numbers(3), "The direction that is up in the picture. Default: [0, 0, 1]."),
+        key(
+            "up",
+            Shape::Numbers(3),
+            "The direction that is up in the picture. Default: [0, 0, 1]; on a globe the normal at the target, or north of there when looking along it.",
+        ),
         key("projection", choice::<ProjectionName>(), "Default: \"perspective\"."),
         key(
             "fov_y_deg",

@@ -112,6 +112,11 @@ static GENERATE_TERRAIN: TableShape = TableShape {
         ),
         key("cell_m", POSITIVE, "The distance of neighbouring posts. Default: 30."),
         key(
+            "cell_deg",
+            POSITIVE,
+            "The same in degrees, with plan = \"globe\": the middle is at longitude and latitude 0.",
+        ),
+        key(
             "height_m",
             Shape::Number(Range::Finite),
             "The height of the highest forms; of the plane; of the southern edge of a ramp. Default: 500, plane and ramp 0.",
@@ -138,5 +143,5 @@ static GENERATE_TERRAIN: TableShape = TableShape {
             "fbm: how many times the noise is added at half the size. Default: 9.",
         ),
     ],
-    rules: &[],
+    rules: &[Keys::AtMostOne(&["cell_m", "cell_deg"])],
 };

@@ -47,7 +47,14 @@ mod tests {
     use super::*;
 
     fn posts(kind: TerrainKind) -> Posts {
-        terrain(&TerrainGenerator { kind, posts: (65, 33), cell_m: 30.0, height_m: 1000.0 }).unwrap()
+        terrain(&TerrainGenerator {
+            kind,
+            posts: (65, 33),
+            cell_m: 30.0,
+            is_in_degrees: false,
+            height_m: 1000.0,
+        })
+        .unwrap()
     }
 
     /// Height at column i, row j.
@@ -82,7 +89,13 @@ mod tests {
     #[test]
     fn mountains_fill_their_heights_and_do_not_leave_them() {
         let kind = TerrainKind::Fbm { seed: 7, wavelength_m: 1500.0, octaves: 9 };
-        let large = TerrainGenerator { kind, posts: (257, 257), cell_m: 30.0, height_m: 1000.0 };
+        let large = TerrainGenerator {
+            kind,
+            posts: (257, 257),
+            cell_m: 30.0,
+            is_in_degrees: false,
+            height_m: 1000.0,
+        };
         let posts = terrain(&large).unwrap();
         let low = posts.heights().iter().copied().fold(f64::INFINITY, crate::math::min);
         let high = posts.heights().iter().copied().fold(f64::NEG_INFINITY, crate::math::max);
@@ -108,6 +121,15 @@ mod tests {
     #[test]
     fn numbers_that_overflow_are_refused() {
         let kind = TerrainKind::Ramp { slope_deg: 80.0 };
-        assert!(terrain(&TerrainGenerator { kind, posts: (9, 9), cell_m: 1e308, height_m: 0.0 }).is_err());
+        assert!(
+            terrain(&TerrainGenerator {
+                kind,
+                posts: (9, 9),
+                cell_m: 1e308,
+                is_in_degrees: false,
+                height_m: 0.0
+            })
+            .is_err()
+        );
     }
 }

@@ -2,8 +2,8 @@
 
 use super::blame::of_key;
 use super::extent::{REACH, height_range, in_reach};
-use super::layer;
 use super::terrain::Terrain;
+use super::{globe, layer};
 use crate::error::{Error, Result};
 use crate::math::max;
 use crate::scene::{Camera, Layer, Projection};
@@ -22,7 +22,7 @@ pub(super) fn camera(scene: &SceneFile, terrain: &Terrain, layers: &[Layer]) -> 
             let spot = |spot, key| place(spot, terrain).map_err(|error| of_key(scene, key, error));
             (spot(view.eye, "camera.eye_geo")?, spot(view.target, "camera.target_geo")?)
         }
-        None => framing(scene, terrain, layers),
+        None => framing(scene, terrain, layers)?,
     };
     for (at, key) in [(eye, "camera.eye"), (target, "camera.target")] {
         if !at.to_vec().to_array().into_iter().all(in_reach) {
@@ -31,19 +31,24 @@ pub(super) fn camera(scene: &SceneFile, terrain: &Terrain, layers: &[Layer]) -> 
             return Err(of_key(scene, key, error));
         }
     }
-    check_view(eye.to_vec(), target.to_vec(), spec.up).map_err(|error| of_key(scene, "camera", error))?;
-    Ok(Camera {
-        eye,
-        target,
-        up: spec.up,
-        projection: spec.projection,
-        near_m: spec.near_m,
-        far_m: spec.far_m,
-    })
+    let up = spec
+        .up
+        .unwrap_or_else(|| terrain.globe().map_or(DVec3::Z, |posts| globe::up(&posts.globe, eye, target)));
+    check_view(eye.to_vec(), target.to_vec(), up).map_err(|error| of_key(scene, "camera", error))?;
+    Ok(Camera { eye, target, up, projection: spec.projection, near_m: spec.near_m, far_m: spec.far_m })
 }
 
 /// A spot in local coordinates.
 fn place(spot: Spot, terrain: &Terrain) -> Result<World> {
+    if let (Some(posts), Some(space)) = (terrain.globe(), &terrain.place.space) {
+        let Spot::Geo(at) = spot else {
+            return Err(Error::new("plan coordinates are no place of a globe's world")
+                .help("write eye_geo and target_geo: [longitude, latitude, height above the ellipsoid]"));
+        };
+        let own = space.crs().native_from_geographic(at.truncate())?
+            * space.crs().degrees_per_unit().unwrap_or(1.0);
+        return Ok(globe::place(&posts.globe, own.extend(at.z)));
+    }
     let at: DVec3 = match spot {
         Spot::Plan(at) => at,
         Spot::Geo(at) => {
@@ -58,14 +63,18 @@ fn place(spot: Spot, terrain: &Terrain) -> Result<World> {
 }
 
 /// Eye and target of a view that shows the layers, or the terrain where there are none on it.
-fn framing(scene: &SceneFile, terrain: &Terrain, layers: &[Layer]) -> (World, World) {
+fn framing(scene: &SceneFile, terrain: &Terrain, layers: &[Layer]) -> Result<(World, World)> {
     let bounds = subject(terrain, layers);
+    let aspect = scene.image.width as f64 / scene.image.height as f64;
+    let heights = height_range(&terrain.surface, &bounds);
+    if let Some(posts) = terrain.globe() {
+        return globe::framing(posts, &bounds, heights, scene.camera.projection, aspect);
+    }
     let fov_y_deg = match scene.camera.projection {
         Projection::Perspective { fov_y_deg } => fov_y_deg,
         Projection::Orthographic { .. } => 45.0,
     };
-    let aspect = scene.image.width as f64 / scene.image.height as f64;
-    ViewFrame::framing(&bounds, height_range(&terrain.surface, &bounds), fov_y_deg, aspect)
+    Ok(ViewFrame::framing(&bounds, heights, fov_y_deg, aspect))
 }
 
 /// What is worth seeing: the layers' box as far as there is terrain.

@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Result};
 use crate::math::{max, min};
-use crate::scene::{Posts, Surface};
+use crate::scene::{GlobePosts, Posts, Surface};
 use crate::space::{Plan, PlanBox, World};
 use glam::{DVec2, DVec3};
 
@@ -37,6 +37,7 @@ pub(super) fn bounds(surface: &Surface) -> PlanBox {
     match surface {
         Surface::Grid(posts) => grid_bounds(posts),
         Surface::Points(points) => PlanBox::around(points.iter().map(|p| p.plan())),
+        Surface::Globe(posts) => posts.plan_bounds(),
     }
 }
 
@@ -62,7 +63,7 @@ pub(super) fn height_range(surface: &Surface, within: &PlanBox) -> (f64, f64) {
         all = joined(all, p.z);
     };
     match surface {
-        Surface::Grid(posts) => {
+        Surface::Grid(posts) | Surface::Globe(GlobePosts { posts, .. }) => {
             for j in 0..posts.rows() {
                 (0..posts.columns()).for_each(|i| take(posts.world(i, j)));
             }

@@ -103,7 +103,12 @@ fn inline<'a>(
     let features =
         numbered.map(|(index, written)| Feature { index, style: 0, shape: written.shape.clone() }).collect();
     let columns = Columns::of_inline(written, scene);
-    Ok(Found { features, columns, map: Map::AsIs, shift: terrain.place.shift(spec.offset) })
+    // On a globe they are in its degrees.
+    let map = match (terrain.globe(), &terrain.place.space) {
+        (Some(_), Some(space)) => Map::From(Box::new(space.plan_from(space.crs())?)),
+        _ => Map::AsIs,
+    };
+    Ok(Found { features, columns, map, shift: terrain.place.shift(spec.offset) })
 }
 
 /// Generated features, made in local coordinates: the same bits wherever the scene lies.

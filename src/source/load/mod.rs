@@ -30,6 +30,7 @@ mod cut;
 mod extent;
 mod filter;
 mod follow;
+mod globe;
 mod ground;
 mod ground_curve;
 mod layer;
@@ -79,6 +80,7 @@ pub fn load(file: &SceneFile, progress: &dyn Fn(&str)) -> Result<(Scene, Surface
         name: file.name.clone(),
         origin: terrain.place.origin(),
         plan_space: terrain.place.words(),
+        globe: terrain.globe().map(|posts| posts.globe),
         image: file.image,
         camera,
         diagonal: file.terrain.diagonal,

@@ -3,12 +3,12 @@
 use super::blame::{Named, of_key};
 use super::extent::{bounds, grid_bounds, middle, within_reach};
 use super::place::{Map, PlanFrame, crs_of, default_plan_space, scale_error};
-use super::{place, resample};
+use super::{globe, place, resample};
 use crate::crs::{Affine, Crs, PlanSpace};
 use crate::error::{Error, Result};
 use crate::math::{max, min};
-use crate::scene::{Posts, Surface};
-use crate::scene_file::{DataFile, HeightEncoding, SceneFile, TerrainSource};
+use crate::scene::{GlobePosts, Posts, Surface};
+use crate::scene_file::{DataFile, HeightEncoding, PlanKind, SceneFile, TerrainSource};
 use crate::source::dem::{self, Dem, DemOptions, PngEncoding, VerticalUnit};
 use crate::source::generate;
 use crate::source::vector::is_vector;
@@ -25,10 +25,20 @@ pub(super) struct Terrain {
 }
 
 impl Terrain {
+    /// The posts of a globe's terrain.
+    pub(super) fn globe(&self) -> Option<&GlobePosts> {
+        match &self.surface {
+            Surface::Globe(posts) => Some(posts),
+            Surface::Grid(_) | Surface::Points(_) => None,
+        }
+    }
+
     /// The size of its detail: the shorter side of a grid's cells, the mean distance of points.
     pub(super) fn cell(&self) -> f64 {
         match &self.surface {
-            Surface::Grid(posts) => min(posts.east().length(), posts.north().length()),
+            Surface::Grid(posts) | Surface::Globe(GlobePosts { posts, .. }) => {
+                min(posts.east().length(), posts.north().length())
+            }
             Surface::Points(points) => {
                 let size = self.bounds.max - self.bounds.min;
                 (size.x * size.y / points.len() as f64).sqrt()
@@ -43,13 +53,28 @@ pub(super) fn terrain(
     progress: &dyn Fn(&str),
     notes: &mut Vec<String>,
 ) -> Result<Terrain> {
+    if scene.plan == PlanKind::Globe {
+        globe::check(scene)?;
+    }
     let (mut surface, space, anchor) = match &scene.terrain.source {
         TerrainSource::Generate(generator) => {
             progress("making the terrain");
-            let surface = Surface::Grid(
-                generate::terrain(generator).map_err(|error| of_key(scene, "terrain.generate", error))?,
-            );
-            (surface, asked_plan(scene, notes)?, DVec2::ZERO)
+            let blame = |error| of_key(scene, "terrain.generate", error);
+            let posts = generate::terrain(generator).map_err(blame)?;
+            match scene.plan {
+                PlanKind::Plane if generator.is_in_degrees => {
+                    return Err(blame(
+                        Error::new("`cell_deg` is of a globe").help("write plan = \"globe\", or `cell_m`"),
+                    ));
+                }
+                PlanKind::Plane => (Surface::Grid(posts), asked_plan(scene, notes)?, DVec2::ZERO),
+                PlanKind::Globe => {
+                    let note = &mut |text: String| notes.push(format!("terrain: {text}"));
+                    let placed =
+                        globe::generated(posts).and_then(|(surface, crs)| on_a_globe(surface, crs, note));
+                    placed.map_err(blame)?
+                }
+            }
         }
         TerrainSource::Files(files) => from_files(scene, files, progress, notes)?,
     };
@@ -130,6 +155,10 @@ fn from_files(
         None if dem.states_unit => {}
         None => own.as_ref().and_then(unit_of_heights).into_iter().for_each(&mut *note),
     }
+    if scene.plan == PlanKind::Globe {
+        let own = own.ok_or_else(|| named.blame(globe::without_crs()))?;
+        return on_a_globe(dem.surface, own, note).map_err(|error| named.blame(error));
+    }
     let extent = bounds(&dem.surface);
     let (space, map) = plan_and_map(asked, own, extent, note).map_err(|error| named.blame(error))?;
     let resampled =
@@ -140,6 +169,12 @@ fn from_files(
     let (surface, anchor) =
         to_plan(dem.surface, &map, space.as_ref(), note).map_err(|error| named.blame(error))?;
     Ok((surface, space, anchor))
+}
+
+/// The surface over a globe, its plan and anchor.
+fn on_a_globe(surface: Surface, crs: Crs, note: &mut dyn FnMut(String)) -> Result<Placed> {
+    let (posts, space, anchor) = globe::terrain(surface, crs, note)?;
+    Ok((Surface::Globe(posts), Some(space), anchor))
 }
 
 fn options(scene: &SceneFile) -> DemOptions {
@@ -277,6 +312,7 @@ fn to_plan(
         if on_local_plane { DVec2::ZERO } else { middle(bounds) }
     };
     match (surface, map) {
+        (Surface::Globe(_), _) => Err(Error::internal("a file that is a globe")),
         (Surface::Points(points), map) => {
             let points = map_points(points, map)?;
             let anchor = anchor(PlanBox::around(points.iter().map(|p| p.plan())));
@@ -339,6 +375,9 @@ fn stretch(surface: &mut Surface, by: f64) -> Result<()> {
     match surface {
         Surface::Grid(posts) => posts.heights_mut().iter_mut().for_each(scale),
         Surface::Points(points) => points.iter_mut().for_each(|p| scale(&mut p.z)),
+        Surface::Globe(GlobePosts { posts, poles, .. }) => {
+            posts.heights_mut().iter_mut().chain(poles.iter_mut().flatten()).for_each(scale);
+        }
     }
     if infinite {
         return Err(Error::new(format!("`terrain.vertical_scale` = {by} makes heights infinite")));

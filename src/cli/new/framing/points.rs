@@ -2,7 +2,7 @@
 
 use super::heights::{FEW, heights};
 use drapery::math::max;
-use drapery::scene::{Posts, Surface};
+use drapery::scene::{GlobePosts, Posts, Surface};
 use drapery::space::{PlanBox, World};
 use std::ops::Range;
 
@@ -19,7 +19,7 @@ pub(super) fn samples(surface: &Surface, within: Option<&PlanBox>) -> Vec<World>
     };
     match surface {
         Surface::Points(points) => points.iter().copied().filter(is_inside).collect(),
-        Surface::Grid(posts) => {
+        Surface::Grid(posts) | Surface::Globe(GlobePosts { posts, .. }) => {
             let (columns, rows) = (posts.columns(), posts.rows());
             let (i, j) = within.map_or((0..columns, 0..rows), |within| posts_within(posts, within));
             let every = |range: &Range<usize>| range.len().div_ceil(SAMPLES).max(1);
