@@ -37,13 +37,19 @@ struct ByView {
 type Last = Option<(ViewFrame, Arc<Mesh>)>;
 
 impl Stage {
-    /// Decides what is painted and triangulates the terrain.
+    /// Decides what is painted and triangulates the terrain. On a globe a note tells how far its triangles stray from the ellipsoid's normals.
     ///
     /// # Errors
     /// When the surface has no triangle, or too many, or the layers have more than can be numbered; when the scene wants a level of detail
     /// that the terrain does not have.
-    pub fn new(scene: Scene, surface: Surface) -> Result<Self> {
+    pub fn new(mut scene: Scene, surface: Surface) -> Result<Self> {
         let mesh = Mesh::new(surface, scene.diagonal)?;
+        if let Some(globe) = &scene.globe {
+            let deviation = mesh.largest_deviation(|at, plan| globe.distance_on_the_ground(at, plan));
+            scene.notes.push(format!(
+                "globe: inside of its triangles the terrain strays by up to {deviation:.3} m on the ground from where the ellipsoid's normals have it"
+            ));
+        }
         Self::of_mesh(scene, mesh)
     }
 

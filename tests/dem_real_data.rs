@@ -112,7 +112,7 @@ fn options(name: &str) -> DemOptions {
 fn posts(dem: Dem) -> Posts {
     match dem.surface {
         Surface::Grid(posts) => posts,
-        Surface::Points(_) => panic!("a grid was expected"),
+        Surface::Points(_) | Surface::Globe(_) => panic!("a grid was expected"),
     }
 }
 

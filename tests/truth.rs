@@ -39,6 +39,7 @@ fn scene(size: (usize, usize), camera: Camera, layers: Vec<Layer>) -> Scene {
         name: "test".into(),
         origin: DVec3::ZERO,
         plan_space: "metres".into(),
+        globe: None,
         image: ImageSettings { width: size.0, height: size.1, background: WHITE },
         camera,
         diagonal: Diagonal::SwNe,

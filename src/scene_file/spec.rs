@@ -70,7 +70,7 @@ pub struct DataFile {
 pub struct CameraSpec {
     /// Where it stands and looks; without it, a view from the south that frames the layers is to be chosen.
     pub view: Option<ViewSpec>,
-    /// The direction that is up in the picture; `None`: z, on a globe the ellipsoid's normal at the target.
+    /// The direction that is up in the picture; `None`: z, on a globe the ellipsoid's normal at the eye.
     pub up: Option<DVec3>,
     /// Perspective or orthographic.
     pub projection: Projection,

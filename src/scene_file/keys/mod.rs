@@ -75,7 +75,7 @@ static CAMERA: TableShape = TableShape {
         key(
             "up",
             Shape::Numbers(3),
-            "The direction that is up in the picture. Default: [0, 0, 1]; on a globe the normal at the target, or north of there when looking along it.",
+            "The direction that is up in the picture. Default: [0, 0, 1]; on a globe the normal at the eye, or north of there when looking down.",
         ),
         key("projection", choice::<ProjectionName>(), "Default: \"perspective\"."),
         key(

@@ -3,13 +3,14 @@
 use super::blame::{Named, of_key};
 use super::columns::Columns;
 use super::filter::fulfilling;
+use super::globe;
 use super::off_terrain::{leave_out, reach_of};
 use super::order::ordered;
 use super::place::{Map, stretch};
 use super::reproject::{Onto, reproject};
 use super::styling::{outside, styled};
 use super::terrain::Terrain;
-use crate::crs::{Crs, CurveKind, Geodesy};
+use crate::crs::{Crs, CurveKind, Geodesy, PlanFrom};
 use crate::error::{Error, Result};
 use crate::scene::{Feature, Layer, Shape};
 use crate::scene_file::{DataFile, Edges, InlineFeature, LayerSource, LayerSpec, SceneFile, VectorGenerator};
@@ -57,8 +58,20 @@ fn layer(
     };
     columns.require(spec)?;
     let mut features = fulfilling(features, spec, &columns, notes)?;
-    let styles = styled(&mut features, spec, &columns)?;
+    let mut styles = styled(&mut features, spec, &columns)?;
     let outside = outside(spec);
+    let mut map = map;
+    if let Some(ground) = terrain.globe() {
+        globe::check_styles(scene, spec, &styles)?;
+        let own = degrees_of(terrain)?;
+        let tolerance = terrain.cell() * OFF_A_CURVE;
+        let place = (terrain.bounds, shift);
+        features = globe::in_degrees(features, (&map, &own), place, tolerance, spec.edges)
+            .map_err(|error| columns.blame(error))?;
+        let turn = own.file().turn().ok_or_else(|| Error::internal("a globe without turns"))?;
+        (features, styles) = globe::stroked(features, styles, ground.globe.ellipsoid, turn);
+        map = Map::From(Box::new(own));
+    }
     let count = features.len();
     let middle = (terrain.bounds.min.to_vec() + terrain.bounds.max.to_vec()) * 0.5;
     let middle = middle - terrain.place.shift(DVec2::ZERO);
@@ -104,11 +117,17 @@ fn inline<'a>(
         numbered.map(|(index, written)| Feature { index, style: 0, shape: written.shape.clone() }).collect();
     let columns = Columns::of_inline(written, scene);
     // On a globe they are in its degrees.
-    let map = match (terrain.globe(), &terrain.place.space) {
-        (Some(_), Some(space)) => Map::From(Box::new(space.plan_from(space.crs())?)),
-        _ => Map::AsIs,
+    let map = match terrain.globe() {
+        Some(_) => Map::From(Box::new(degrees_of(terrain)?)),
+        None => Map::AsIs,
     };
     Ok(Found { features, columns, map, shift: terrain.place.shift(spec.offset) })
+}
+
+/// The way from a globe's own degrees to its plan.
+fn degrees_of(terrain: &Terrain) -> Result<PlanFrom> {
+    let space = terrain.place.space.as_ref().ok_or_else(|| Error::internal("a globe without a plan"))?;
+    space.plan_from(space.crs())
 }
 
 /// Generated features, made in local coordinates: the same bits wherever the scene lies.

@@ -69,7 +69,7 @@ fn hills(x: f64, y: f64) -> f64 {
 fn posts(surface: Surface) -> Posts {
     match surface {
         Surface::Grid(posts) => posts,
-        Surface::Points(_) => panic!("points, not a grid"),
+        Surface::Points(_) | Surface::Globe(_) => panic!("points, not a grid"),
     }
 }
 

@@ -34,7 +34,7 @@ fn read_bytes(name: &str, bytes: &[u8], options: &DemOptions) -> crate::Result<D
 fn posts(dem: Dem) -> Posts {
     match dem.surface {
         Surface::Grid(posts) => posts,
-        Surface::Points(_) => panic!("a grid was expected"),
+        Surface::Points(_) | Surface::Globe(_) => panic!("a grid was expected"),
     }
 }
 

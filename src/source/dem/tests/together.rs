@@ -58,7 +58,7 @@ fn a_window_across_the_seams_reads_that_part() {
     let dem = together(&four(), &options).unwrap();
     let first = match &dem.surface {
         crate::scene::Surface::Grid(posts) => posts.first,
-        crate::scene::Surface::Points(_) => panic!("a grid was expected"),
+        crate::scene::Surface::Points(_) | crate::scene::Surface::Globe(_) => panic!("a grid was expected"),
     };
     assert_eq!(first, Plan::new(20.0, 40.0));
     assert_is_the_surface(dem, (5, 5));

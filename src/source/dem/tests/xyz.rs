@@ -10,7 +10,7 @@ const POINTS: &str = "x,y,z\n# a comment\n0 0 1\n\n10;0;2 # corner\n10\t10\t3\r\
 fn points(dem: Dem) -> Vec<World> {
     match dem.surface {
         Surface::Points(points) => points,
-        Surface::Grid(_) => panic!("points were expected"),
+        Surface::Grid(_) | Surface::Globe(_) => panic!("points were expected"),
     }
 }
 

@@ -21,9 +21,9 @@ pub(in crate::source::load) fn place(globe: &Globe, at: DVec3) -> World {
     globe.world(globe.plan(at.x.to_radians(), at.y.to_radians()), at.z)
 }
 
-/// What is up in a picture where the scene does not say it: the ellipsoid's normal at the target, or north of there for who looks down.
+/// What is up in a picture where the scene does not say it: the ellipsoid's normal at the eye, or north of there for who looks down.
 pub(in crate::source::load) fn up(globe: &Globe, eye: World, target: World) -> DVec3 {
-    let (lon, lat) = globe.ellipsoid.geographic(target.to_vec() + globe.world_origin);
+    let (lon, lat) = globe.ellipsoid.geographic(eye.to_vec() + globe.world_origin);
     let [_, north, normal] = Ellipsoid::directions(lon, lat);
     let view = (target - eye).normalize_or_zero();
     if view.cross(normal).length() < DOWN { north } else { normal }

@@ -5,10 +5,16 @@
 //! pixels, all with the reason.
 
 mod camera;
+mod features;
+mod foot;
+mod stroke;
 mod terrain;
+mod unlike_planes;
 
 pub(super) use camera::{framing, place, up};
+pub(super) use features::{check_styles, in_degrees, stroked};
 pub(super) use terrain::{generated, terrain};
 pub(super) use unlike_planes::{check, without_crs};
 
-mod unlike_planes;
+#[cfg(test)]
+mod tests;
