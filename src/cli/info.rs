@@ -8,7 +8,7 @@ use clap::ValueEnum;
 use drapery::crs::PlanSpace;
 use drapery::measure::Watch;
 use drapery::scene_file::{
-    CameraSpec, GroundColorsSpec, LayerSource, SceneFile, Spot, TerrainSource, ViewSpec,
+    CameraSpec, GroundColorsSpec, LayerSource, PlanKind, SceneFile, Spot, TerrainSource, ViewSpec,
 };
 use drapery::source::dem::{self, DemOptions, DemSummary, PngEncoding};
 use drapery::source::load;
@@ -254,7 +254,11 @@ fn of_scene(scene: &SceneFile) -> Table {
     let mut table = Table::new(format!("{}: scene", scene.name));
     table.row("image", format!("{} x {}", scene.image.width, scene.image.height));
     table.row("camera", camera(&scene.camera));
-    table.row("plan", scene.crs.clone().unwrap_or_else(|| "the terrain's".into()));
+    let plan = match scene.plan {
+        PlanKind::Plane => scene.crs.clone().unwrap_or_else(|| "the terrain's".into()),
+        PlanKind::Globe => "the globe of the terrain's longitudes and latitudes".into(),
+    };
+    table.row("plan", plan);
     table.row(
         "terrain",
         match &scene.terrain.source {

@@ -23,6 +23,9 @@ pub struct Parameters {
     pub origin: [f64; 2],
     /// Its absolute height.
     pub origin_height: f64,
+    /// The globe that the world is geocentric on; absent where the world stands straight over the plan.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub globe: Option<GlobeParameters>,
     /// The picture.
     pub image: Canvas,
     /// From where it is seen.
@@ -37,6 +40,17 @@ pub struct Parameters {
     pub compositing_mode: &'static str,
     /// The machine that is imitated.
     pub device: ByName,
+}
+
+/// The ellipsoid of a scene on a globe, and where the world's zero is.
+#[derive(Debug, serde::Serialize)]
+pub struct GlobeParameters {
+    /// The equatorial radius, metres.
+    pub equatorial_radius: f64,
+    /// The flattening.
+    pub flattening: f64,
+    /// The geocentric point that vertices and the camera are relative to.
+    pub world_origin: [f64; 3],
 }
 
 /// The picture.
@@ -123,6 +137,11 @@ impl Parameters {
             plan_space: scene.plan_space.clone(),
             origin: scene.origin.truncate().to_array(),
             origin_height: scene.origin.z,
+            globe: scene.globe.map(|globe| GlobeParameters {
+                equatorial_radius: globe.ellipsoid.a,
+                flattening: globe.ellipsoid.f,
+                world_origin: globe.world_origin.to_array(),
+            }),
             image: Canvas {
                 width: view.width(),
                 height: view.height(),

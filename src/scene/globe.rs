@@ -2,7 +2,6 @@
 
 use super::Posts;
 use crate::space::{Globe, Plan, PlanBox};
-use glam::DVec2;
 
 /// Heights above an ellipsoid at posts along its meridians and parallels.
 ///
@@ -42,11 +41,5 @@ impl GlobePosts {
     pub fn column(&self, i: usize) -> f64 {
         let turns = if i < self.posts.columns() { 0.0 } else { self.globe.turn() };
         self.posts.plan(i % self.posts.columns(), 0).x + turns
-    }
-
-    /// The plan point of the middle of the surface.
-    pub fn middle(&self) -> Plan {
-        let PlanBox { min, max } = self.plan_bounds();
-        Plan::from(DVec2::midpoint(min.to_vec(), max.to_vec()))
     }
 }

@@ -70,6 +70,14 @@ fn extent(place: &ImagePlace, terrain: &Terrain, note: &mut dyn FnMut(String)) -
         Some(space) => in_plan(stated, space, place.crs.as_ref(), note)?,
         None => stated,
     };
+    if terrain.globe().is_some() && low.x >= high.x {
+        return Err(Error::unsupported(
+            "the image lies on both sides of the seam of the globe's plan, where its longitudes begin anew",
+        )
+        .help(
+            "cut it along the terrain's western edge, or give a terrain that begins where the image does",
+        ));
+    }
     // The image lies on the terrain wherever that is moved.
     let local = |p: DVec2| Plan::from(p - terrain.place.anchor);
     Ok(PlanBox { min: local(low), max: local(high) })

@@ -24,10 +24,10 @@ pub(in crate::source::load) fn terrain(
 ) -> Result<(GlobePosts, PlanSpace, DVec2)> {
     let unit = crs.degrees_per_unit().unwrap_or(1.0);
     let posts = degrees(surface, unit)?;
-    let middle = posts.first.x + 0.5 * (posts.columns() - 1) as f64 * posts.east().x;
-    let space = PlanSpace::globe(middle, crs)?;
-    let ellipsoid = space.ellipsoid().ok_or_else(|| Error::internal("a globe without an ellipsoid"))?;
     let (posts, is_closed) = around(posts, note)?;
+    let span = if is_closed { 360.0 } else { (posts.columns() - 1) as f64 * posts.east().x };
+    let space = PlanSpace::globe(posts.first.x + 0.5 * span, crs)?;
+    let ellipsoid = space.ellipsoid().ok_or_else(|| Error::internal("a globe without an ellipsoid"))?;
     let (posts, poles) = to_the_poles(posts, is_closed, note)?;
     let scale = ellipsoid.a.to_radians();
     let first = posts.first.to_vec() * scale;
