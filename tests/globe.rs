@@ -121,9 +121,9 @@ fn a_lune_is_filled_to_the_pole() {
     let own = stage(&at(15.0), &lune(0.0), &["layer.0.outline.width_m=50000"]);
     let turned = stage(&at(105.0), &lune(90.0), &["layer.0.outline.width_m=50000"]);
     let share = share(&assert_twins(&own, &turned));
-    // The pole is 10 degrees below the middle of the picture: the lune is there, and ends.
+    // The pole is some 20 pixels below the middle of the picture: the lune reaches it, and ends.
     let column: Vec<f64> = (0..60).map(|row| share[row * 60 + 30]).collect();
-    assert!(column[..30].iter().all(|share| *share > 0.4), "{column:?}");
+    assert!(column[..45].iter().all(|share| *share > 0.4), "{column:?}");
     assert!(column.iter().any(|share| *share < 0.1), "{column:?}");
 }
 
