@@ -10,7 +10,7 @@ use glam::DVec3;
 use proptest::prelude::*;
 
 /// Every key of the description at least once, over several files.
-pub(super) const EVERY_KEY: [&str; 5] = [
+pub(super) const EVERY_KEY: [&str; 7] = [
     r##"
 schema = 1
 name = "all"
@@ -142,6 +142,19 @@ source = "b.shp"
 outline = { color = "#000000", width_m = { by = "lanes", stops = [[1, 3], [2, 9]] } }
 line = { color = { by = "kind", map = { a = "#000000" } }, width_px = { by = "lanes", map = { 1 = 3 }, default = 1 } }
 order = "size"
+"##,
+    r##"
+schema = 1
+terrain.generate = { kind = "fbm" }
+terrain.diagonal = "alternating"
+terrain.lod = { error_px = 1.5, borrow = 0.25 }
+"##,
+    r##"
+schema = 1
+plan = "globe"
+terrain.generate = { kind = "cone", cell_deg = 0.5 }
+terrain.diagonal = "alternating"
+terrain.lod = { level = 2 }
 "##,
 ];
 
