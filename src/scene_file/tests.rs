@@ -344,7 +344,7 @@ fn paths_start_at_the_scene_files_folder() {
     };
     assert_eq!(file.path, Path::new("dir/data/lakes.gpkg"));
     assert_eq!((file.written.as_str(), layer.as_deref()), ("data/lakes.gpkg", Some("water")));
-    assert_eq!(file.position.map(|at| (at.line, at.column)), Some((33, 10)));
+    assert_eq!(file.position.map(|at| (at.line, at.column)), Some((34, 10)));
 }
 
 #[test]

@@ -75,7 +75,7 @@ impl Errors {
             let [squares, rows] = extent.cells(n);
             let mut all = vec![[Deviation::default(); OF_A_SQUARE]; (squares * rows) as usize];
             for (k, share) in (0..).zip(&shares) {
-                let square = (k / columns >> up) * squares + (k % columns >> up);
+                let square = ((k / columns) >> up) * squares + ((k % columns) >> up);
                 let sum = all[square as usize].iter_mut().zip(&share[up as usize - 1]);
                 sum.for_each(|(sum, share)| *sum = sum.joined(*share));
             }

@@ -8,7 +8,6 @@ use super::quad::CELLS;
 use super::right_triangle::{Post, RightTriangle};
 use crate::error::{Error, Result};
 use crate::math;
-use crate::parameter::Named;
 use crate::scene::Diagonal;
 use crate::space::World;
 use crate::terrain::{Bounds, Grid};
@@ -32,8 +31,7 @@ impl Hierarchy {
     pub fn new(grid: Arc<Grid>) -> Result<Self> {
         let [columns, rows] = [grid.posts().columns(), grid.posts().rows()];
         if grid.diagonal() != Diagonal::Alternating {
-            let what =
-                format!("cells split \"{}\" do not nest in a level-of-detail mesh", grid.diagonal().word());
+            let what = "only cells whose diagonals alternate nest in a level-of-detail mesh";
             return Err(Error::new(what).help("write terrain.diagonal = \"alternating\""));
         }
         if columns.max(rows) <= CELLS as usize {

@@ -3,6 +3,7 @@
 use super::super::errors::{Errors, MIXED, NOTHING};
 use super::super::extent::Extent;
 use super::{Dice, for_each_below, posts_in};
+use crate::math;
 use crate::scene::Posts;
 use crate::space::Plan;
 use crate::terrain::lod::{Post, RightTriangle};
@@ -63,8 +64,8 @@ impl Whole {
 fn check(whole: &Whole, least: u32) -> [usize; 3] {
     let posts = whole.posts();
     let heights = whole.heights.iter().flatten().map(|whole| *whole as f64 * UNIT);
-    let largest = heights.clone().fold(0.0, |most: f64, height| most.max(height.abs()));
-    let range = (heights.clone().fold(0.0, f64::min), heights.fold(0.0, f64::max));
+    let largest = heights.clone().map(f64::abs).fold(0.0, math::max);
+    let range = (heights.clone().fold(0.0, math::min), heights.fold(0.0, math::max));
     let errors = Errors::new(&posts, range);
     let extent = Extent::new(posts.columns(), posts.rows());
     let mut exact: BTreeMap<RightTriangle, f64> = BTreeMap::new();
@@ -89,10 +90,10 @@ fn check(whole: &Whole, least: u32) -> [usize; 3] {
         let halves = triangle.halves().into_iter().flatten();
         let below = halves.filter(|half| half.layer() > 0);
         let below = below.map(|half| exact.get(&half).copied().unwrap_or_else(|| errors.of(&half).into()));
-        let below = below.fold(0.0, f64::max);
+        let below = below.fold(0.0, math::max);
         // An exact quotient by a power of two, rounded once.
         let own = most as f64 / area as f64 * UNIT;
-        let error = own.max(below);
+        let error = math::max(own, below);
         exact.insert(triangle, error);
         let scaled = f64::from(stored) / UNIT * area as f64;
         assert!(stored.is_finite() && scaled as i128 >= most, "{triangle:?}: {stored} < {own}");
