@@ -133,6 +133,11 @@ mod tests {
         let some = difference.among(&[false, true, true, false]).unwrap().metrics(0.0);
         assert_eq!((some.max, some.mean), (0.5, 0.375));
         assert!(difference.among(&[false; 4]).is_none());
+        let colors = Image::new(1, 3, 3, vec![0.0, 0.5, 0.25, 1.0, 1.0, 1.0, 0.125, 0.0, 0.5]).unwrap();
+        let black = Expected::exactly(Image::new(1, 3, 3, vec![0.0; 9]).unwrap());
+        let some = Difference::of(&black, &colors).unwrap().among(&[true, false, true]).unwrap();
+        assert_eq!(some.distances().values(), [0.0, 0.5, 0.25, 0.125, 0.0, 0.5]);
+        assert_eq!((some.distances().width(), some.distances().channels()), (2, 3));
     }
 
     #[test]

@@ -180,3 +180,80 @@ fn extent(piece: &[[f64; 2]]) -> f64 {
     }
     (east - west) + (south - north)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use dashu::rational::RBig;
+    use proptest::prelude::*;
+
+    fn number() -> impl Strategy<Value = f64> {
+        prop_oneof![1 => Just(0.0), 2 => -1.0..1.0, 1 => -1e6..1e6]
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(2000))]
+        #[test]
+        fn a_form_in_plain_doubles_is_no_farther_off_than_its_bound(
+            [c, x, y] in prop::array::uniform3(number()),
+            corner in prop::array::uniform2(0..64_u32),
+            at in prop::array::uniform2(0.0..=1.0),
+        ) {
+            let ball = BallForm { c: Ball::exact(c), x: Ball::exact(x), y: Ball::exact(y) };
+            let form = ball.plain(65.0);
+            let corner = corner.map(f64::from);
+            let found = form.seen_from(corner).at(at);
+            let rational = |v: f64| RBig::try_from(v).unwrap();
+            let place = [0, 1].map(|k| rational(corner[k]) + rational(at[k]));
+            let [px, py] = place;
+            let exact = rational(c) + rational(x) * px + rational(y) * py;
+            let bound = rational(form.error);
+            let (least, most) = (rational(found) - bound.clone(), rational(found) + bound);
+            prop_assert!(least <= exact && exact <= most, "{found} +- {}", form.error);
+        }
+
+        #[test]
+        fn a_form_on_a_square_lies_between_the_ends_of_its_range(
+            [c, x, y] in prop::array::uniform3(number()),
+            corner in prop::array::uniform2(0.0..64.0),
+            side in 0.0..8.0,
+        ) {
+            let form = Form { c, x, y, error: 0.0 };
+            let corners = [[0.0, 0.0], [side, 0.0], [0.0, side], [side, side]];
+            let values = corners.map(|[dx, dy]| form.at([corner[0] + dx, corner[1] + dy]));
+            let least = values.into_iter().fold(f64::INFINITY, crate::math::min);
+            let most = values.into_iter().fold(f64::NEG_INFINITY, crate::math::max);
+            let (low, high) = form.range(corner, side);
+            let hair = 1e-12 * (c.abs() + 64.0 * (x.abs() + y.abs()));
+            prop_assert!((low - least).abs() <= hair && (high - most).abs() <= hair);
+        }
+    }
+
+    #[test]
+    fn a_piece_along_a_line_is_doubtful_in_a_strip_as_long_as_the_piece() {
+        let lines = [(Line::upright(0.5), [0.0, 1.0]), (Line::level(0.5), [1.0, 0.0])];
+        for (line, [x, y]) in lines {
+            // From the line to far off on its one side, to and fro along it.
+            let [a, b, c] =
+                [[0.5, 0.5], [0.5 + 0.25 * x, 0.5 + 0.25 * y], [0.5 - 0.125 * x, 0.5 - 0.125 * y]];
+            for piece in [[a, b, c], [b, c, a], [c, a, b]] {
+                let mut slop = 0.0;
+                assert_ne!(line.side(&piece, &mut slop), Side::Both);
+                assert!((2.0 * line.delta * 0.375..=2.0 * line.delta * 0.5).contains(&slop), "{slop}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_piece_off_a_line_is_on_one_side_without_a_doubt_and_one_across_on_both() {
+        let across = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]];
+        for (line, way) in [(Line::upright(0.5), [1.0, 0.0]), (Line::level(0.5), [0.0, 1.0])] {
+            let moved = |by: f64| across.map(|[x, y]| [x + by * way[0], y + by * way[1]]);
+            let mut slop = 0.0;
+            assert_eq!(line.side(&moved(0.0), &mut slop), Side::Both);
+            assert_eq!(line.side(&moved(0.75), &mut slop), Side::In);
+            assert_eq!(line.side(&moved(-0.75), &mut slop), Side::Out);
+            assert_eq!(slop, 0.0);
+        }
+    }
+}

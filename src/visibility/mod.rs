@@ -9,6 +9,8 @@ mod device;
 mod footprint;
 mod hit;
 mod sight;
+#[cfg(test)]
+mod tests;
 
 pub use device::Machine;
 pub use footprint::{FootprintPlane, PixelFootprint};
