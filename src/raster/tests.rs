@@ -88,27 +88,24 @@ fn samples_lie_in_the_middles_of_equal_squares_and_where_they_are_asked_for() {
 
 #[test]
 fn a_box_that_touches_the_outermost_sample_or_a_plane_is_kept_and_one_beside_is_not() {
-    // A metre a pixel, without a rounding: samples at x and y -4 to 4 metres, depths of 8 - z.
-    let (eye, target) = (World::new(0.0, 0.0, 8.0), World::new(0.0, 0.0, 0.0));
-    let view = Viewpoint { eye, target, up: DVec3::Y, near: 2.0, far: 14.0 };
-    let frame = ViewFrame::orthographic(&view, 8.0, (8, 8)).unwrap();
-    let tile = TileView::new(&frame, &Lattice::corners(&frame), (0, 0), 16);
-    let half = 64.0;
-    let is_kept = |center: DVec3| {
-        let axes = [DVec3::X * half, DVec3::Y * half, DVec3::Z * half];
-        tile.reach_of(&Bounds { center: World::new(center.x, center.y, center.z), axes }).is_some()
-    };
-    let outermost = [
-        (DVec3::X, 4.0),
-        (-DVec3::X, 4.0),
-        (DVec3::Y, 4.0),
-        (-DVec3::Y, 4.0),
-        (DVec3::Z, 6.0),
-        (-DVec3::Z, 6.0),
-    ];
-    for (way, reach) in outermost {
-        assert!(is_kept(way * (reach + half)), "{way}");
-        assert!(!is_kept(way * (reach + half + 1e-6)), "{way}");
+    // A metre a pixel, without a rounding: samples 4 metres to each side, depths of 8 - z; near the origin and far from it.
+    for east in [0.0, f64::from(1 << 20)] {
+        let at = |p: DVec3| World::new(p.x + east, p.y, p.z);
+        let (eye, target) = (at(DVec3::Z * 8.0), at(DVec3::ZERO));
+        let view = Viewpoint { eye, target, up: DVec3::Y, near: 2.0, far: 14.0 };
+        let frame = ViewFrame::orthographic(&view, 8.0, (8, 8)).unwrap();
+        let tile = TileView::new(&frame, &Lattice::corners(&frame), (0, 0), 16);
+        let half = 64.0;
+        let is_kept = |center: DVec3| {
+            let axes = [DVec3::X * half, DVec3::Y * half, DVec3::Z * half];
+            tile.reach_of(&Bounds { center: at(center), axes }).is_some()
+        };
+        for (axis, reach) in [(DVec3::X, 4.0), (DVec3::Y, 4.0), (DVec3::Z, 6.0)] {
+            for way in [axis, -axis] {
+                assert!(is_kept(way * (reach + half)), "{way}");
+                assert!(!is_kept(way * (reach + half + 1e-5)), "{way}");
+            }
+        }
     }
 }
 

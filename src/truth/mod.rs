@@ -284,3 +284,18 @@ fn assembled(
         structure_bytes: footprints.bytes(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_an_item_covers_is_told_once_and_what_others_may_cover_widens_it() {
+        let entry = |item, low, high| ItemCoverage { item, low, high };
+        let items = vec![entry(7, 0.25, 0.5), entry(2, 0.0, 0.25), entry(7, 0.25, 0.25), entry(9, 0.75, 1.0)];
+        let joined = PixelCoverage { items, others: 0.125 }.joined();
+        assert_eq!(joined.items, [entry(2, 0.0, 0.375), entry(7, 0.375, 0.875), entry(9, 0.625, 1.0)]);
+        assert_eq!(joined.others, 0.125);
+        assert_eq!(PixelCoverage { items: Vec::new(), others: 1.5 }.joined().others, 1.0);
+    }
+}

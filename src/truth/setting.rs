@@ -195,3 +195,30 @@ impl Axis {
         low..=high
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_half_plane_beyond_a_texels_border_holds_that_texel_and_those_after_it() {
+        let east = Axis { origin: -3.0, size: 8.0, count: 4 };
+        let south = Axis { origin: 5.0, size: -2.0, count: 4 };
+        for (axis, way) in [(east, [1.0, 0.0]), (south, [0.0, -1.0])] {
+            let step = axis.size / axis.count as f64;
+            for k in 0..axis.count {
+                let HalfPlane { at, normal, offset } = border(axis.border(k), way);
+                let value = |v: f64| {
+                    let off = Plan::new(v, v) - at;
+                    normal[0].low() * off.x + normal[1].low() * off.y + offset.low()
+                };
+                let first = axis.origin + step * k as f64;
+                assert_eq!(axis.range(first + 0.5 * step, first + 0.5 * step), k..=k);
+                for beyond in [0.5, -0.5] {
+                    let found = value(first + beyond * step);
+                    assert!((found - beyond * step.abs()).abs() < 1e-9, "{way:?} {k}: {found}");
+                }
+            }
+        }
+    }
+}

@@ -1,7 +1,7 @@
 //! The bounds of the filters, where operands lie so near to a tie that a smaller bound would decide wrongly; and that ordinary
 //! operands are decided without exact arithmetic.
 
-use super::{rational, rational_det, sign, signum};
+use super::{power_of_2, rational, rational_det, sign, signum};
 use crate::predicate::*;
 use dashu::rational::RBig;
 use proptest::prelude::*;
@@ -62,7 +62,7 @@ fn hit() -> impl Strategy<Value = Hit> {
     let vectors = prop::array::uniform5(vector());
     (vectors, magnitude(), magnitude(), 0..4, weights()).prop_map(
         |([from, start, along, u, v], far, wide, how, (s, t))| {
-            let (far, wide) = (f64::exp2(f64::from(far)), f64::exp2(f64::from(wide)));
+            let (far, wide) = (power_of_2(far), power_of_2(wide));
             let in_plane = (u * s + v * t) * far;
             let (start, along) = (start * far, along * far);
             let (start, along) = match how {
@@ -93,7 +93,7 @@ fn is_clear(rows: [DVec3; 3]) -> bool {
 /// A double and its neighbours: those that the predicates take.
 fn around(v: f64) -> impl Iterator<Item = f64> {
     let all = [v, v.next_up(), v.next_down(), v.next_up().next_up(), v.next_down().next_down()];
-    all.into_iter().filter(|v| *v == 0.0 || v.abs() > f64::exp2(-160.0))
+    all.into_iter().filter(|v| *v == 0.0 || v.abs() > power_of_2(-160))
 }
 
 proptest! {
@@ -164,7 +164,7 @@ proptest! {
     ) {
         let Some(parameter) = hit.parameter() else { return Ok(()) };
         let (x, y) = (hit.coordinate(0, &parameter), hit.coordinate(1, &parameter));
-        let step = step.truncate() * f64::exp2(f64::from(magnitude));
+        let step = step.truncate() * power_of_2(magnitude);
         let place = hit.rounded(&parameter);
         for at_x in around(place.x) {
             let at = Plan::new(at_x, place.y);

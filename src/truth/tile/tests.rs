@@ -620,3 +620,25 @@ fn a_million_pieces_are_what_exact_arithmetic_says() {
     let wrong = violations_on_all_threads(1_000_000);
     assert!(wrong.is_empty(), "{} of 1,000,000:\n{}", wrong.len(), wrong[..wrong.len().min(5)].join("\n"));
 }
+
+#[test]
+fn a_box_of_the_plan_is_seen_where_the_view_meets_its_corner_and_not_beside_it() {
+    for middle in [30.0, -30.0, 1000.5] {
+        let eye = World::new(middle, middle, 8.0);
+        let target = World::new(middle, middle, 0.0);
+        let view = crate::space::Viewpoint { eye, target, up: glam::DVec3::Y, near: 0.5, far: 100.0 };
+        let frame = ViewFrame::orthographic(&view, 2.0, (8, 8)).unwrap();
+        let frustum = Frustum::new(&frame, [0.0, 0.0], [8.0, 8.0]);
+        let meets = |from: f64, to: f64, heights| {
+            frustum.meets_plan(&PlanBox { min: Plan::new(from, from), max: Plan::new(to, to) }, heights)
+        };
+        // It sees a metre to each side of the middle.
+        let level = (0.0, 1.0);
+        assert!(meets(middle - 61.0, middle + 0.5, level) && meets(middle - 0.5, middle + 61.0, level));
+        assert!(meets(middle - 61.0, middle - 0.5, level) && meets(middle + 0.5, middle + 61.0, level));
+        assert!(!meets(middle - 61.0, middle - 1.5, level) && !meets(middle + 1.5, middle + 61.0, level));
+        assert!(meets(middle - 61.0, middle + 61.0, (-90.0, -80.0)));
+        assert!(!meets(middle - 61.0, middle + 61.0, (8.0, 80.0)));
+        assert!(!meets(middle - 61.0, middle + 61.0, (-180.0, -93.0)));
+    }
+}
