@@ -119,12 +119,6 @@ impl Errors {
         *error = below.into_iter().flatten().fold(*error, math::max_f32);
         *error
     }
-
-    /// Bytes held.
-    pub fn bytes(&self) -> usize {
-        let above: usize = self.above.iter().map(|squares| size_of_val(&squares[..])).sum();
-        above + self.tiles.iter().map(|errors| size_of_val(&errors[..])).sum::<usize>()
-    }
 }
 
 /// The place of a triangle's error in its tile.

@@ -60,11 +60,6 @@ impl Hierarchy {
         &self.errors
     }
 
-    /// Bytes held beside the grid.
-    pub fn bytes(&self) -> usize {
-        self.errors.bytes()
-    }
-
     /// The box around a triangle and what of the full surface lies over it.
     pub(super) fn bounds(&self, triangle: &RightTriangle, error: f32) -> Bounds {
         let posts = self.grid.posts();
