@@ -353,10 +353,51 @@ fn zechmeisters_tables_measure_each_part_of_a_scene_and_tell_trends() {
     assert!(place.text("tables/tables.html").contains("Two slips"));
 }
 
+/// Lines over a terrain with levels of detail.
+const BORDERS: &str = r##"
+schema = 1
+name = "borders"
+image = { width = 24, height = 16 }
+camera = { eye = [0, -1800, 1500], target = [0, 0, 100] }
+terrain = { generate = { kind = "fbm", seed = 3, posts = [140, 131], cell_m = 12.0, height_m = 200.0 }, diagonal = "alternating", lod = { error_px = 1.0 } }
+[[layer]]
+features = [{ line = [[-700, -500], [20, 31], [700, 300]] }, { polygon = [[-300, -400], [300, -400], [300, 200]] }]
+line = { color = "#ff7f00", width_px = 1 }
+outline = { color = "#ff7f00", width_px = 1 }
+"##;
+
+#[test]
+fn wartells_tables_have_the_papers_table_storage_and_sweeps() {
+    let place = Place::new();
+    fs::write(place.path().join("borders.toml"), BORDERS).unwrap();
+    let told = place.reported(&["--tables=wartell", "borders.toml", "--repeat", "1", "-o", "tables"]);
+    assert!(told.contains("borders: 2 polylines, 7 points"), "{told}");
+    assert_eq!(place.names("tables"), ["tables.csv", "tables.html", "tables.json"]);
+    let tables: Value = serde_json::from_str(&place.text("tables/tables.json")).unwrap();
+    assert_eq!((&tables["schema"], &tables["paper"]), (&1.into(), &"wartell".into()));
+    let set = &tables["data_sets"][0];
+    assert_eq!((&set["posts"], &set["points"]), (&serde_json::json!([140, 131]), &7.into()));
+    assert_eq!(set["storage"]["covering_triangles"], 15);
+    let varied =
+        |name: &str| set["rows"].as_array().unwrap().iter().filter(|row| row["varied"] == name).count();
+    let counts = ["polylines", "error_px", "borrow", "offset", "tolerance_px"].map(varied);
+    assert_eq!(counts, [2, 5, 5, 7, 5]);
+    assert_eq!(place.text("tables/tables.csv").lines().count(), 1 + counts.iter().sum::<usize>());
+    assert!(place.text("tables/tables.html").contains("Storage (3.3)"));
+}
+
+#[test]
+fn wartells_tables_of_a_scene_without_levels_are_refused() {
+    let place = Place::new();
+    let told = place.refused(&["--tables=wartell", "tiny.toml", "-o", "tables"]);
+    assert!(told.contains("no level-of-detail mesh") && told.contains("terrain.lod"), "{told}");
+    assert!(!place.path().join("tables").exists());
+}
+
 #[test]
 fn a_paper_that_has_no_tables_is_refused() {
     let told = Place::new().refused(&["--tables=she", "tiny.toml"]);
-    assert!(told.contains("taibo, zechmeister"), "{told}");
+    assert!(told.contains("taibo, zechmeister, wartell"), "{told}");
 }
 
 #[test]

@@ -5,7 +5,7 @@ use super::scene_input;
 use super::stop::{Outcome, Status, Stop};
 use super::truth_arguments::TruthArguments;
 use drapery::output::Batch;
-use drapery::report::tables::{taibo, zechmeister};
+use drapery::report::tables::{taibo, wartell, zechmeister};
 use drapery::report::{self, SceneReport};
 use drapery::scene_file::{DEFAULT_SCENE, SceneText};
 use drapery::{Opened, Result, parallel};
@@ -20,7 +20,8 @@ Examples:
   drapery report scene.toml --truth-width 0.01          a coarser truth, sooner there
   drapery report --tables --repeat 1                    Taibo's tables on 1.2 to 11 million segments, minutes
   drapery report --tables=zechmeister --repeat 1        Zechmeister's on studies like the thesis's, minutes
-  drapery report --tables roads.toml -o tables          the same for your own lines
+  drapery report --tables=wartell                       Wartell's on borders like the paper's, a minute
+  drapery report --tables roads.toml -o tables          Taibo's for your own lines
 
 Measured are the truth, every technique that applies over the settings of its sweep (the scene's own among them), and plain
 supersampling with 1, 4, 16, ... samples a pixel. Each row tells what differs from the scene: `drapery render --set` draws
@@ -34,7 +35,8 @@ A whole sweep takes minutes: the truth and each setting are computed --repeat ti
 With --tables, a paper's own tables are measured instead, without a SCENE on data that is generated in the likeness of the paper's; it writes
 tables.html, tables.csv and tables.json. taibo (the default): memory, generation and rendering of the clipmap's solutions (Taibo et al.
 2014, section 5). zechmeister: memory, update and render time of static decals and dynamic lines over what chapter 5 of Zechmeister
-2020 varies, and whether its Table 5.4 holds.";
+2020 varies, and whether its Table 5.4 holds. wartell: Table 1 and the storage of section 3.3 of Wartell et al. 2003 beside the paper's figures,
+and geometry overlay over the mesh's screen error, borrowed quads, polygon offset and the tolerance of lines; a SCENE needs `terrain.lod`.";
 
 #[derive(Debug, clap::Args)]
 #[command(after_long_help = EXAMPLES)]
@@ -42,7 +44,7 @@ pub(super) struct Arguments {
     /// The scene files, `-` for stdin; without one, a built-in generated scene.
     #[arg(value_name = "SCENE")]
     scenes: Vec<PathBuf>,
-    /// Measure a paper's own tables instead of speed against error: taibo (the default), zechmeister.
+    /// Measure a paper's own tables instead of speed against error: taibo (the default), zechmeister, wartell.
     #[arg(long, value_name = "PAPER", num_args = 0..=1, require_equals = true, default_missing_value = "taibo")]
     tables: Option<Paper>,
     /// Change every scene: a dotted path and a TOML value; may be repeated. No value removes the key.
@@ -68,6 +70,8 @@ enum Paper {
     Taibo,
     /// Zechmeister 2020, chapter 5.
     Zechmeister,
+    /// Wartell et al. 2003, Table 1 and section 3.3.
+    Wartell,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Outcome {
@@ -75,6 +79,7 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
         None => run_report(arguments),
         Some(Paper::Taibo) => run_taibo(arguments),
         Some(Paper::Zechmeister) => run_zechmeister(arguments),
+        Some(Paper::Wartell) => run_wartell(arguments),
     }
 }
 
@@ -118,6 +123,21 @@ fn run_zechmeister(arguments: &Arguments) -> Outcome {
     tables.write(batch)?;
     for trend in &tables.trends {
         bar.say(&told_of_trend(trend));
+    }
+    bar.say(&format!("{}", arguments.output.join("tables.html").display()));
+    Ok(Status::Passed)
+}
+
+/// Measures Wartell's tables.
+fn run_wartell(arguments: &Arguments) -> Outcome {
+    let texts = texts(arguments, &wartell::SCENES)?;
+    let batch = Batch::into(&arguments.output)?;
+    let bar = Bar::new();
+    let measure = |scene| wartell::measure(scene, arguments.repeat, &bar);
+    let tables = wartell::Tables::of(of_each(arguments, &texts, &bar, measure)?, arguments.repeat);
+    tables.write(batch)?;
+    for set in &tables.data_sets {
+        bar.say(&told_of_lines(set));
     }
     bar.say(&format!("{}", arguments.output.join("tables.html").display()));
     Ok(Status::Passed)
@@ -179,6 +199,34 @@ fn told_of_trend(trend: &zechmeister::Trend) -> String {
         false => format!("  against the thesis: {}", trend.contradicts.join(", ")),
     };
     format!("{:<14} {:<18} {told}{against}", trend.decals, trend.factor)
+}
+
+/// A data set's Table 1 and storage in some lines, for people.
+fn told_of_lines(set: &wartell::DataSet) -> String {
+    let mut text = format!("{}: {} polylines, {} points", set.scene.name, set.polylines, set.points);
+    for row in set.of(wartell::POLYLINES) {
+        text.push_str(&format!(
+            "\n  polylines {:<3}  mesh {:>7.1} ms  walks {:>7.1} ms  frame {:>7.1} ms  {} triangles, {} primitives, {} points",
+            row.setting,
+            row.mesh_ms.median,
+            row.walk_ms.median,
+            row.frame_ms.median,
+            row.triangles,
+            row.count("primitives"),
+            row.count("points_drawn"),
+        ));
+    }
+    for form in &set.storage.all.forms {
+        text.push_str(&format!(
+            "\n  storage {:<10} {:<10} {:>9.1} MiB  {:.0} % coordinates  smaller by {:.2}",
+            form.points,
+            form.layers,
+            form.bytes() as f64 / 1_048_576.0,
+            100.0 * form.coordinate_share(),
+            form.factor,
+        ));
+    }
+    text
 }
 
 /// A data set in some lines, for people.

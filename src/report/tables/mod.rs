@@ -7,4 +7,5 @@ mod change;
 mod files;
 mod grouped;
 pub mod taibo;
+pub mod wartell;
 pub mod zechmeister;

@@ -20,6 +20,7 @@ mod mesh;
 mod settings;
 mod step;
 mod store;
+mod stored;
 mod strips;
 mod structures;
 mod sweep;
@@ -27,8 +28,10 @@ mod sweep;
 mod tests;
 mod tile;
 
+pub use dag::{Bytes, Counts, PointForm, Storage, StoredLayers};
 pub use settings::{Borrowed, Lines, Primitives, Settings, Widths};
 pub use step::Step;
+pub use stored::StoredQuad;
 
 use super::{Declaration, Explanation, Frame, FrameOptions, Parameters, Prepared};
 use crate::buffer::{Look, PlaneKind};

@@ -59,6 +59,11 @@ impl Store {
         PolylineLods::new(quad.into(), layers, &self.chains)
     }
 
+    /// What crosses a quad, with all its layers; made anew and not kept.
+    pub(super) fn with_all_layers(&self, quad: Quad) -> PolylineLods {
+        PolylineLods::new(quad.into(), Layers::All, &self.chains)
+    }
+
     /// Where lines enter a quad that is drawn by another one's data; `None`: it is not known, or was drawn by another's.
     pub(super) fn entrances(&self, quad: Quad, data: Quad) -> Option<Arc<SubPolylineLods>> {
         let all = locked(&self.entrances);
