@@ -159,14 +159,14 @@ impl Near {
     /// and r are convex functions, so each is at least its tangent and at most what its corners say.
     fn verdict(&self, ground: &PixelGround, piece: &[[f64; 2]]) -> Verdict {
         let centre = ground.hit(middle(piece));
-        if centre.error >= MOST_ERROR {
+        if !self.is_known(&centre) {
             return Verdict::Stuck;
         }
         let tangent = self.tangent(ground, &centre);
         let mut spread = Spread::default();
         for p in piece {
             let hit = ground.hit(*p);
-            if hit.error >= MOST_ERROR {
+            if !self.is_known(&hit) {
                 return Verdict::Stuck;
             }
             let error = self.error(&hit, &centre, ground);
@@ -209,6 +209,11 @@ impl Near {
         let depth = ground.size.eye.map_or(0.0, |eye| (hit.world - eye).length());
         (2.0 + 2.0 * self.growth) * (hit.error + centre.error)
             + 64.0 * f64::EPSILON * (self.size(hit) + (1.0 + self.growth) * depth)
+    }
+
+    /// Whether it is worth to go on with a plan point: bounds count its error, whatever it is.
+    fn is_known(&self, hit: &Hit) -> bool {
+        hit.error < math::max(MOST_ERROR, MOST_ERROR_SHARE * self.size(hit))
     }
 
     /// How large the coordinates are that a distance is computed from, metres.
@@ -325,6 +330,9 @@ impl Spread {
 
 /// A plan point known no better than this, in metres, decides nothing.
 const MOST_ERROR: f64 = 1e-3;
+
+/// Nor one that is known no better than this share of the coordinates' size: those of a continent are known to some millimetres.
+const MOST_ERROR_SHARE: f64 = 1.0 / (1 << 24) as f64;
 
 /// Where f rises slower than this its tangent says nothing.
 const LEAST_STEEP: f64 = 1e-6;

@@ -35,6 +35,13 @@ pub(in crate::source::load) fn check_styles(
                     "give a width in metres: width_m",
                 );
             }
+            if matches!(spec.edges, Edges::Geodesic | Edges::Rhumb) {
+                return refuse(
+                    part,
+                    "strokes on a globe follow edges that are straight in longitude and latitude, not curves of the ground",
+                    "give the layer a fill alone, or leave `edges` out",
+                );
+            }
             if spec.style.fill.as_ref().is_some_and(|fill| fill.is_inverted) {
                 return refuse(
                     part,
@@ -72,7 +79,7 @@ pub(in crate::source::load) fn in_degrees(
         for (k, &here) in part.iter().enumerate() {
             all.push(place(here)?);
             let next = part.get(k + 1).or_else(|| part.first().filter(|_| is_ring));
-            if let (Some(&next), Edges::Projected) = (next, edges) {
+            if let (Some(&next), true) = (next, edges != Edges::Straight) {
                 follow.between((here, place(here)?), (next, place(next)?), &place, &mut all)?;
             }
         }
