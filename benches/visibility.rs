@@ -21,8 +21,14 @@ const TERRAINS: [(usize, &str); 4] = [(40, "3k"), (224, "100k"), (1001, "2M"), (
 fn terrain(n: usize) -> Mesh {
     let step = 1.0 / (n - 1) as f64;
     let kind = TerrainKind::Fbm { seed: 7, wavelength_m: 0.25, octaves: 9 };
-    let rough = generate::terrain(&TerrainGenerator { kind, posts: (n, n), cell_m: step, height_m: 0.16 })
-        .expect("valid numbers");
+    let rough = generate::terrain(&TerrainGenerator {
+        kind,
+        posts: (n, n),
+        cell_m: step,
+        is_in_degrees: false,
+        height_m: 0.16,
+    })
+    .expect("valid numbers");
     let posts =
         Posts::new((n, n), Plan::default(), (DVec2::X * step, DVec2::Y * step), rough.heights().to_vec());
     Mesh::new(Surface::Grid(posts.expect("finite heights")), Diagonal::NwSe).expect("few triangles")

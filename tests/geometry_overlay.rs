@@ -34,7 +34,8 @@ fn painted(frame: &Frame) -> usize {
 
 #[test]
 fn no_level_of_detail_moves_a_line_that_is_seen_from_above() {
-    let text = scene(SINE, NADIR, LINE).replace("color = \"#ffffff\" }", "color = \"#ffffff\", diagonal = \"alternating\" }");
+    let text = scene(SINE, NADIR, LINE)
+        .replace("color = \"#ffffff\" }", "color = \"#ffffff\", diagonal = \"alternating\" }");
     let full = draw(&text, &[]);
     assert!(painted(&full) > 60, "{}", painted(&full));
     for level in 0..6 {
@@ -50,8 +51,10 @@ const LEVELS: &str = "kind = \"fbm\", seed = 7, posts = [385, 300], cell_m = 2, 
 
 #[test]
 fn borrowed_quads_show_the_same_however_their_clippings_are_found() {
-    let text = scene(LEVELS, OBLIQUE, LINE)
-        .replace("color = \"#ffffff\" }", "color = \"#ffffff\", diagonal = \"alternating\", lod = { error_px = 0.05, borrow = 0.2 } }");
+    let text = scene(LEVELS, OBLIQUE, LINE).replace(
+        "color = \"#ffffff\" }",
+        "color = \"#ffffff\", diagonal = \"alternating\", lod = { error_px = 0.05, borrow = 0.2 } }",
+    );
     let stage = stage(&text, &[]);
     let cached = technique::prepare(Kind::GeometryOverlay, &stage).unwrap();
     let view = stage.view().unwrap();
@@ -73,8 +76,12 @@ fn borrowed_quads_show_the_same_however_their_clippings_are_found() {
 #[test]
 fn a_tolerance_takes_vertices_within_triangles_and_moves_no_line_further() {
     // A finely twisted line on two large triangles: within a pixel's tolerance it is nearly straight.
-    let twist: Vec<String> = (-200..200).map(|k| format!("[{k}, {:.2}]", f64::from(k) * 0.4 + f64::from(k % 3) * 0.7)).collect();
-    let layer = format!("[[layer]]\nfeatures = [{{ line = [{}] }}]\nline = {{ color = \"#aa0022\", width_px = 1 }}\n", twist.join(", "));
+    let twist: Vec<String> =
+        (-200..200).map(|k| format!("[{k}, {:.2}]", f64::from(k) * 0.4 + f64::from(k % 3) * 0.7)).collect();
+    let layer = format!(
+        "[[layer]]\nfeatures = [{{ line = [{}] }}]\nline = {{ color = \"#aa0022\", width_px = 1 }}\n",
+        twist.join(", ")
+    );
     let text = scene("kind = \"plane\", posts = [2, 2], cell_m = 600", NADIR, &layer);
     let points = |tolerance: &str| {
         let frame = draw(&text, &[&format!("technique.geometry-overlay.tolerance_px={tolerance}")]);
@@ -90,9 +97,19 @@ fn a_tolerance_takes_vertices_within_triangles_and_moves_no_line_further() {
 
 #[test]
 fn the_structures_of_the_quads_in_use_are_tables_that_refer_to_one_another() {
-    let text = scene(LEVELS, OBLIQUE, LINE)
-        .replace("color = \"#ffffff\" }", "color = \"#ffffff\", diagonal = \"alternating\", lod = { error_px = 0.5 } }");
-    let names = ["quads", "polylines", "quad-clippings", "triangle-clippings", "line-vertices", "crossings", "directions"];
+    let text = scene(LEVELS, OBLIQUE, LINE).replace(
+        "color = \"#ffffff\" }",
+        "color = \"#ffffff\", diagonal = \"alternating\", lod = { error_px = 0.5 } }",
+    );
+    let names = [
+        "quads",
+        "polylines",
+        "quad-clippings",
+        "triangle-clippings",
+        "line-vertices",
+        "crossings",
+        "directions",
+    ];
     let frame = frame_of(Kind::GeometryOverlay, &stage(&text, &[]), &names);
     let table = |name: &str| {
         let plane = frame.planes.iter().find(|plane| plane.name == name).unwrap();
@@ -139,16 +156,24 @@ fn a_line_through_the_middle_of_a_cell_is_as_high_as_its_diagonal() {
 #[test]
 fn polygon_offset_ends_the_fighting_of_a_line_with_its_mesh() {
     // Hard case 16: 24 bits between 0.1 and a million metres.
-    let machine = ["camera.near_m=0.1", "camera.far_m=1e6", "device.precision=f32", "device.depth=unorm24", "device.subpixel_bits=8"];
+    let machine = [
+        "camera.near_m=0.1",
+        "camera.far_m=1e6",
+        "device.precision=f32",
+        "device.depth=unorm24",
+        "device.subpixel_bits=8",
+    ];
     let mut fought = 0;
     for jitter in 0..25 {
-        let [x, z] = [f64::from(jitter % 5) * 0.037, f64::from(jitter / 5) * 0.029].map(|v| format!("{v:.3}"));
+        let [x, z] =
+            [f64::from(jitter % 5) * 0.037, f64::from(jitter / 5) * 0.029].map(|v| format!("{v:.3}"));
         let camera = format!("eye = [{x}, -400, {z}], target = [0, 0, -90]").replace(", 0.", ", 120.");
         let text = scene(FLAT, &camera, LINE);
         let calm = draw(&text, &machine);
         assert!(count(&calm, "fragments") > 50);
         assert_eq!(count(&calm, "fragments_drawn"), count(&calm, "fragments"), "{camera}");
-        let none = ["technique.geometry-overlay.offset_factor=0", "technique.geometry-overlay.offset_units=0"];
+        let none =
+            ["technique.geometry-overlay.offset_factor=0", "technique.geometry-overlay.offset_units=0"];
         let bare = draw(&text, &[&machine[..], &none[..]].concat());
         fought += count(&bare, "fragments") - count(&bare, "fragments_drawn");
     }
@@ -158,7 +183,9 @@ fn polygon_offset_ends_the_fighting_of_a_line_with_its_mesh() {
 #[test]
 fn too_much_polygon_offset_lets_hidden_lines_bleed_through() {
     let text = scene(HILLS, "eye = [-60, -520, 130], target = [0, 0, 20]", LINE);
-    let drawn = |units: &str| count(&draw(&text, &[&format!("technique.geometry-overlay.offset_units={units}")]), "fragments_drawn");
+    let drawn = |units: &str| {
+        count(&draw(&text, &[&format!("technique.geometry-overlay.offset_units={units}")]), "fragments_drawn")
+    };
     let (usual, much) = (drawn("1"), drawn("1e9"));
     assert!(usual < much, "{usual} {much}");
     assert_eq!(drawn("2"), usual);
@@ -226,10 +253,14 @@ fn widths_are_those_of_the_style_or_one_pixel() {
 fn antialiased_lines_cover_as_much_as_they_are_wide() {
     // Hard case 27, from above: the sum of shares is length times width.
     for width in [1.0, 3.0, 7.0] {
-        let line = format!("[[layer]]\nfeatures = [{{ line = [[-120, -61], [130, 97]] }}]\nline = {{ color = \"#000000\", width_px = {width} }}\n");
+        let line = format!(
+            "[[layer]]\nfeatures = [{{ line = [[-120, -61], [130, 97]] }}]\nline = {{ color = \"#000000\", width_px = {width} }}\n"
+        );
         let text = scene(FLAT, NADIR, &line);
         let frame = draw(&text, &["technique.geometry-overlay.lines=antialiased"]);
-        let Some(Values::F64(colors)) = frame.planes.iter().find(|p| p.name == "color").map(|p| p.values.clone()) else {
+        let Some(Values::F64(colors)) =
+            frame.planes.iter().find(|p| p.name == "color").map(|p| p.values.clone())
+        else {
             panic!("no colours")
         };
         let covered: f64 = colors.chunks(4).map(|color| 1.0 - color[1]).sum();
@@ -240,7 +271,8 @@ fn antialiased_lines_cover_as_much_as_they_are_wide() {
 
 #[test]
 fn what_is_no_line_or_no_grid_is_refused_with_the_reason() {
-    let points = "[[layer]]\nfeatures = [{ points = [[0, 0]] }]\npoint = { color = \"#222222\", width_m = 20 }\n";
+    let points =
+        "[[layer]]\nfeatures = [{ points = [[0, 0]] }]\npoint = { color = \"#222222\", width_m = 20 }\n";
     let mut stage = stage(&scene(FLAT, NADIR, points), &[]);
     let said = technique::applies(Kind::GeometryOverlay, &stage).unwrap_err().to_string();
     assert!(said.contains("has points"), "{said}");

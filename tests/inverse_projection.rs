@@ -36,6 +36,7 @@ fn scene(size: (usize, usize), camera: Camera, layers: Vec<Layer>, settings: Set
         plan_space: "metres".into(),
         image: ImageSettings { width: size.0, height: size.1, background: Color([0.0, 0.0, 1.0, 1.0]) },
         camera,
+        globe: None,
         diagonal: Diagonal::SwNe,
         lod: None,
         ground: Ground::flat(WHITE),

@@ -56,7 +56,7 @@ fn from_straight_above_no_pixel_of_a_line_or_polygon_changes_with_the_level() {
     for layers in [LAYERS, DYNAMIC] {
         let text = scene("kind = \"sine\", height_m = 20.0, wavelength_m = 130.0", camera, layers);
         let full = changed(&text, &[]);
-        let kinds = drawing::kinds_for(&full);
+        let kinds = drawing::kinds_of_footprints_for(&full);
         let truth = drawing::truth_of(&full);
         let pictures: Vec<_> = kinds.iter().map(|kind| image_of(*kind, &full)).collect();
         assert!(pictures.iter().all(|picture| picture.iter().any(|pixel| pixel[2] < 200)));

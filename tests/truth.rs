@@ -196,11 +196,8 @@ fn round_joins_of_a_continent_are_decided_as_those_of_a_village_are() {
     let corners = [(-9.0, -6.0), (8.0, -5.0), (1.0, 8.0), (-9.0, -6.0)];
     let covered = |unit: f64| {
         let corners = corners.map(|(x, y)| (x * unit, y * unit));
-        let down = camera(
-            [0.0, 0.0, 10.0 * unit],
-            [0.0; 3],
-            Projection::Orthographic { height_m: 24.0 * unit },
-        );
+        let down =
+            camera([0.0, 0.0, 10.0 * unit], [0.0; 3], Projection::Orthographic { height_m: 24.0 * unit });
         let ring = line(&corners, Line { join: Join::Round, ..stroke(0.5 * unit) });
         let scene = scene((24, 24), down, vec![ring]);
         black(&truth(&scene, posts(29, 2.0 * unit, |_, _| 0.0), 1e-3), 0..24 * 24)

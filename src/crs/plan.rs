@@ -211,9 +211,8 @@ impl PlanSpace {
         let affine = self.affine();
         let mut off = p - affine.origin;
         let unit = self.crs().unit;
-        if !matches!(self.0, Kind::Projected(_))
-            && !((p.y * unit).abs() <= 90.0 && (p.x * unit).abs() <= 540.0)
-        {
+        let is_on_the_globe = || (p.y * unit).abs() <= 90.0 && (p.x * unit).abs() <= 540.0;
+        if !matches!(self.0, Kind::Projected(_)) && !is_on_the_globe() {
             return Err(not_on_the_globe(p, self.crs()));
         }
         match &self.0 {

@@ -212,7 +212,12 @@ mod tests {
               500000.1,
               0.0
             ],
-            "origin_height": 120.0
+            "origin_height": 120.0,
+            "surface_error": {
+              "metres": 1.5,
+              "pixels": null,
+              "left_out": 0
+            }
           },
           "notes": [
             "a \"note\""

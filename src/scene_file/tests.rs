@@ -10,7 +10,7 @@ use glam::DVec3;
 use proptest::prelude::*;
 
 /// Every key of the description at least once, over several files.
-pub(super) const EVERY_KEY: [&str; 7] = [
+pub(super) const EVERY_KEY: [&str; 6] = [
     r##"
 schema = 1
 name = "all"
@@ -145,16 +145,8 @@ order = "size"
 "##,
     r##"
 schema = 1
-terrain.generate = { kind = "fbm" }
-terrain.diagonal = "alternating"
-terrain.lod = { error_px = 1.5, borrow = 0.25 }
-"##,
-    r##"
-schema = 1
 plan = "globe"
 terrain.generate = { kind = "cone", cell_deg = 0.5 }
-terrain.diagonal = "alternating"
-terrain.lod = { level = 2 }
 "##,
 ];
 

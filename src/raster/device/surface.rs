@@ -16,12 +16,7 @@ pub struct SurfaceDepth<T> {
 
 impl<T: Real> Pipeline<T> {
     /// The depth of the plane of a triangle that is seen somewhere with this view depth. A plane that is seen edge-on has an infinite slope.
-    pub fn surface_depth(
-        &self,
-        frame: &ViewFrame,
-        corners: &[World; 3],
-        view_depth: f64,
-    ) -> SurfaceDepth<T> {
+    pub fn surface_depth(&self, frame: &ViewFrame, corners: &[World; 3], view_depth: f64) -> SurfaceDepth<T> {
         let slopes = self.projection.depth_slopes(frame, corners);
         let slope = crate::math::max(slopes[0].abs(), slopes[1].abs());
         let depth = self.projection.depth_of(view_depth, self.is_parallel);

@@ -114,8 +114,7 @@ impl LineDrawing {
             (Widths::Style, Some(Width::Pixels(width))) => width,
             (Widths::Style, Some(Width::Metres(width))) => width / pixel(),
         };
-        let stipple =
-            Stipple { pattern: self.settings.stipple as u16, factor: self.settings.stipple_factor };
+        let stipple = Stipple { pattern: self.settings.stipple as u16, factor: self.settings.stipple_factor };
         LineStyle::new(width, stipple, self.is_antialiased(), &self.device)
     }
 }

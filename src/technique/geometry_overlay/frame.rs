@@ -62,7 +62,8 @@ fn draw_with<T: Real>(prepared: &Prepare, view: &ViewFrame, options: &FrameOptio
         let window = &segment.window;
         [window.columns.clone(), window.rows.clone()]
     });
-    let touched = |[columns, rows]: [std::ops::Range<usize>; 2]| tiling.tiles_in(columns, rows).count() as u64;
+    let touched =
+        |[columns, rows]: [std::ops::Range<usize>; 2]| tiling.tiles_in(columns, rows).count() as u64;
     if windows.clone().map(touched).sum::<u64>() > MOST_TOUCHED {
         return Err(Error::unsupported(format!(
             "geometry-overlay: there is no room for {} segments that cover so much of the picture",
@@ -89,17 +90,12 @@ fn draw_with<T: Real>(prepared: &Prepare, view: &ViewFrame, options: &FrameOptio
     })
 }
 
-fn explain_with<T: Real>(
-    prepared: &Prepare,
-    view: &ViewFrame,
-    corner: [usize; 2],
-) -> (Vec<Step>, [u8; 4]) {
+fn explain_with<T: Real>(prepared: &Prepare, view: &ViewFrame, corner: [usize; 2]) -> (Vec<Step>, [u8; 4]) {
     let mesh = &*prepared.stage.mesh_for(view);
     let setup = Setup::<T>::new(prepared, (mesh, view), TILE);
     let [x, y] = corner;
-    let holds = |segment: &Segment<T>| {
-        segment.window.columns.contains(&x) && segment.window.rows.contains(&y)
-    };
+    let holds =
+        |segment: &Segment<T>| segment.window.columns.contains(&x) && segment.window.rows.contains(&y);
     let segments = (0..).zip(&setup.context.segments);
     let near: Vec<u32> = segments.filter(|(_, segment)| holds(segment)).map(|(number, _)| number).collect();
     let mut steps = Vec::new();

@@ -93,8 +93,10 @@ impl<'s> Prepare<'s> {
 }
 
 fn no_quads() -> Error {
-    Error::unsupported("geometry-overlay cuts lines at the triangles of a grid's quads, this terrain is no grid")
-        .help("leave the technique out")
+    Error::unsupported(
+        "geometry-overlay cuts lines at the triangles of a grid's quads, this terrain is no grid",
+    )
+    .help("leave the technique out")
 }
 
 /// Whether the technique can draw the scene.

@@ -16,7 +16,5 @@ const OFFSET: Axis = &[
     &["technique.geometry-overlay.offset_factor=4", "technique.geometry-overlay.offset_units=4"],
 ];
 
-const TOLERANCE: Axis = &[
-    &["technique.geometry-overlay.tolerance_px=0.5"],
-    &["technique.geometry-overlay.tolerance_px=2"],
-];
+const TOLERANCE: Axis =
+    &[&["technique.geometry-overlay.tolerance_px=0.5"], &["technique.geometry-overlay.tolerance_px=2"]];

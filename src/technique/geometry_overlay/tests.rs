@@ -58,9 +58,8 @@ fn share_within(segment: [[f64; 2]; 2], corners: [[i64; 2]; 3]) -> RBig {
     for k in 0..3 {
         let [a, b] = [corners[k], corners[(k + 1) % 3]];
         let [dx, dy] = [0, 1].map(|axis| RBig::from(b[axis] - a[axis]));
-        let side = |[x, y]: [f64; 2]| {
-            &dx * (exact(y) - RBig::from(a[1])) - &dy * (exact(x) - RBig::from(a[0]))
-        };
+        let side =
+            |[x, y]: [f64; 2]| &dx * (exact(y) - RBig::from(a[1])) - &dy * (exact(x) - RBig::from(a[0]));
         let [start, end] = segment.map(side);
         match (start >= RBig::ZERO, end >= RBig::ZERO) {
             (true, true) => {}
@@ -85,7 +84,8 @@ fn by_brute_force(prepared: &Prepare, list: &DrawList, mesh: &Mesh) -> BTreeMap<
                 for pair in list.path_of(chain).windows(2) {
                     let ends = [pair[0], pair[1]].map(|at| prepared.map.grid_from_plan(at));
                     // Moved by what is next to nothing, as all points are.
-                    let moved = ends.map(|[x, y]| [x + 1.0 / 1024.0 / 1024.0, y + 1.0 / 1024.0 / 1024.0 / 1024.0]);
+                    let moved =
+                        ends.map(|[x, y]| [x + 1.0 / 1024.0 / 1024.0, y + 1.0 / 1024.0 / 1024.0 / 1024.0]);
                     let share = share_within(moved, corners).to_f64().value();
                     let [dx, dy] = [0, 1].map(|k| ends[1][k] - ends[0][k]);
                     let length = share * (dx * dx + dy * dy).sqrt();
@@ -112,7 +112,8 @@ fn the_lines_of_every_view_are_the_lines_cut_at_the_triangles_in_use() {
             for strip in &overlay.strips {
                 for (triangle, points) in &strip.clippings {
                     let points = &strip.points[points.start as usize..points.end as usize];
-                    let steps = points.windows(2).map(|pair| (pair[1].plan() - pair[0].plan()).length() / 8.0);
+                    let steps =
+                        points.windows(2).map(|pair| (pair[1].plan() - pair[0].plan()).length() / 8.0);
                     *found.entry((strip.item, triangle.corners())).or_insert(0.0) += steps.sum::<f64>();
                 }
             }

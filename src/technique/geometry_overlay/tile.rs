@@ -164,7 +164,8 @@ impl<T: Real> FrameContext<'_, T> {
         let depth = match self.sight.stored(column, row) {
             Some(stored) => buffer.load(stored),
             None => {
-                let SurfaceDepth { depth, slope } = self.pipeline.surface_depth(self.view, &corners, hit.depth);
+                let SurfaceDepth { depth, slope } =
+                    self.pipeline.surface_depth(self.view, &corners, hit.depth);
                 depth + self.offset.at(slope, depth, buffer)
             }
         };

@@ -136,7 +136,7 @@ impl Row {
 
     /// The share of fragments that the depth test kept.
     pub fn survival(&self) -> f64 {
-        self.count("fragments_drawn") as f64 / (self.count("fragments") as f64).max(1.0)
+        self.count("fragments_drawn") as f64 / self.count("fragments").max(1) as f64
     }
 }
 
@@ -148,6 +148,6 @@ impl Form {
 
     /// The share of coordinates.
     pub fn coordinate_share(&self) -> f64 {
-        self.coordinate_bytes as f64 / (self.bytes() as f64).max(1.0)
+        self.coordinate_bytes as f64 / self.bytes().max(1) as f64
     }
 }

@@ -99,6 +99,6 @@ fn told(storage: &Storage, (points, layers): (PointForm, StoredLayers)) -> Form 
         },
         coordinate_bytes: bytes.coordinates,
         topology_bytes: bytes.topology,
-        factor: first.total() as f64 / (bytes.total() as f64).max(1.0),
+        factor: first.total() as f64 / bytes.total().max(1) as f64,
     }
 }

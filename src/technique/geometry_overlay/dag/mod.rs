@@ -35,11 +35,9 @@ mod tests;
 
 pub use arrays::Arrays;
 pub use blg::BlgTree;
-pub use borrowed::{Borrowed, SubPolylineLod, SubPolylineLods, SubQuadClipping};
+pub use borrowed::{Borrowed, SubPolylineLods};
 pub use cells::Layers;
-pub use chains::{Chain, Chains};
-pub use crossing::{Crossing, Direction};
-pub use grid::{Block, GridPoint, Square};
+pub use chains::Chains;
 pub use storage::{Bytes, Counts, PointForm, Storage, StoredLayers};
-pub use structure::{PolylineLod, PolylineLods, QuadClipping, TriangleClipping};
+pub use structure::{PolylineLods, QuadClipping, TriangleClipping};
 pub use traverse::Cost;

@@ -5,6 +5,8 @@ mod brute_force;
 mod points;
 mod tables;
 
+use super::crossing::Crossing;
+use super::grid::{Block, GridPoint, Square};
 use super::*;
 use crate::terrain::lod::{Post, Quad, RightTriangle};
 use brute_force::{Mesh, Piece, cut};
