@@ -89,8 +89,8 @@ impl Stage {
 impl ByView {
     fn new(mesh: &Mesh, wanted: LevelOfDetail) -> Result<Self> {
         let Mesh::Grid(grid) = mesh else {
-            return Err(Error::unsupported("only a grid of posts has a level-of-detail mesh").help(
-                "leave `terrain.lod` out for scattered points and surfaces that are given as triangles",
+            return Err(Error::unsupported("only a grid of posts over a plane has a level-of-detail mesh").help(
+                "leave `terrain.lod` out for scattered points, globes and surfaces that are given as triangles",
             ));
         };
         let hierarchy = Hierarchy::new(Arc::clone(grid))?;

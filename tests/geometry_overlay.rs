@@ -280,5 +280,5 @@ fn what_is_no_line_or_no_grid_is_refused_with_the_reason() {
     let surface = drapery::scene::Surface::Points(corners.to_vec());
     stage.mesh = drapery::terrain::Mesh::new(surface, stage.scene.diagonal).unwrap().into();
     let said = technique::applies(Kind::GeometryOverlay, &stage).unwrap_err().to_string();
-    assert!(said.contains("no grid"), "{said}");
+    assert!(said.contains("is no grid"), "{said}");
 }

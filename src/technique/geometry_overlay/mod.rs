@@ -94,7 +94,7 @@ impl<'s> Prepare<'s> {
 
 fn no_quads() -> Error {
     Error::unsupported(
-        "geometry-overlay cuts lines at the triangles of a grid's quads, this terrain is no grid",
+        "geometry-overlay cuts lines at the triangles of a grid's quads over a plane, this terrain is no grid there",
     )
     .help("leave the technique out")
 }
