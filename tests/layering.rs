@@ -167,6 +167,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     (
         "report",
         &[
+            "canvas",
             "open",
             "measure",
             "technique",
