@@ -146,8 +146,14 @@ fn ring(written: Vec<Plan>, turn: Turn) -> Unrolled {
     if is_frame(&written, turn) {
         return Unrolled::as_written(written, turn);
     }
-    if let Some((rest, pole)) = without_the_way_along_a_pole(&written, turn) {
-        let unrolled = follow(rest, turn, true);
+    if let Some((mut rest, pole)) = without_the_way_along_a_pole(&written, turn) {
+        // A box that reaches a pole: what is left is a parallel, a turn long, which is neither way the shorter one.
+        let is_parallel = rest.len() == 2 && is_turn_apart(rest[0], rest[1], turn);
+        if is_parallel {
+            rest.insert(1, rest[0] + (rest[1] - rest[0]) * 0.5);
+        }
+        let mut unrolled = follow(rest, turn, true);
+        unrolled.is_as_written |= is_parallel;
         if unrolled.around != 0 {
             return Unrolled { pole, ..unrolled };
         }
@@ -165,9 +171,14 @@ fn ring(written: Vec<Plan>, turn: Turn) -> Unrolled {
 /// A line. One of two vertices a whole turn apart is a parallel.
 pub(super) fn line(written: Vec<Plan>, turn: Turn) -> Unrolled {
     match written[..] {
-        [a, b] if (a.x - b.x).abs() >= turn.length * (1.0 - NOTHING) => Unrolled::as_written(written, turn),
+        [a, b] if is_turn_apart(a, b, turn) => Unrolled::as_written(written, turn),
         _ => follow(written, turn, false),
     }
+}
+
+/// Whether two vertices are a whole turn apart, or more.
+fn is_turn_apart(a: Plan, b: Plan, turn: Turn) -> bool {
+    (a.x - b.x).abs() >= turn.length * (1.0 - NOTHING)
 }
 
 fn follow(written: Vec<Plan>, turn: Turn, is_ring: bool) -> Unrolled {
@@ -333,6 +344,27 @@ mod tests {
             assert!(bounds.min.x <= -370.0 && bounds.max.x >= 370.0 && bounds.min.y == -270.0, "{bounds:?}");
             let hops = chain.windows(2).map(|pair| (pair[1].x - pair[0].x).abs());
             assert!(hops.take(chain.len() - 3).all(|hop| hop == 90.0), "{chain:?}");
+        }
+    }
+
+    #[test]
+    fn a_low_box_from_end_to_end_that_reaches_a_pole_is_a_ring_around_it() {
+        for side in [-1.0, 1.0] {
+            for turned in [false, true] {
+                let mut corners = [
+                    (-180.0, 90.0 * side),
+                    (180.0, 90.0 * side),
+                    (180.0, 60.0 * side),
+                    (-180.0, 60.0 * side),
+                ];
+                if turned {
+                    corners.reverse();
+                }
+                let ring = one(&corners);
+                assert_eq!((ring.around.abs(), ring.pole), (1, side), "{side} {turned}");
+                let bounds = PlanBox::around(ring.chain(-10.0, 10.0));
+                assert!(bounds.min.x <= -370.0 && bounds.max.x >= 370.0, "{bounds:?}");
+            }
         }
     }
 
