@@ -74,6 +74,22 @@ fn borrowed_quads_show_the_same_however_their_clippings_are_found() {
 }
 
 #[test]
+fn no_line_lies_where_the_mesh_leaves_triangles_out() {
+    // A row of posts is missing: at a forced level the triangles around it go.
+    let levels = ["terrain.diagonal=alternating", "terrain.lod.level=4"];
+    let (scene, surface) = drawing::loaded(&scene(LEVELS, NADIR, LINE), &levels);
+    let drapery::scene::Surface::Grid(mut posts) = surface else { panic!("no grid") };
+    (0..385).for_each(|column| posts.heights_mut()[150 * 385 + column] = f64::NAN);
+    let stage = drapery::stage::Stage::new(scene, drapery::scene::Surface::Grid(posts)).unwrap();
+    let frame = frame_of(Kind::GeometryOverlay, &stage, &["clipping", "triangle"]);
+    let (clippings, triangles) = (numbers(&frame, "clipping"), numbers(&frame, "triangle"));
+    assert!(triangles.iter().filter(|triangle| **triangle == u32::MAX).count() > 300);
+    let in_the_air = clippings.iter().zip(triangles).filter(|(c, t)| **c != u32::MAX && **t == u32::MAX);
+    // An end of a segment may share a pixel with the border of the hole.
+    assert!(in_the_air.count() < 4 && painted(&frame) > 20);
+}
+
+#[test]
 fn a_tolerance_takes_vertices_within_triangles_and_moves_no_line_further() {
     // A finely twisted line on two large triangles: within a pixel's tolerance it is nearly straight.
     let twist: Vec<String> =

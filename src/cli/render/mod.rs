@@ -73,7 +73,14 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
     let result = parallel::with_threads(arguments.threads, || {
         render(arguments, (&asked, &budget), &scene, batch, &bar)
     })?;
-    for run in result.map_err(|error| scene_input::blame(&scene, error))?.runs {
+    let result = result.map_err(|error| scene_input::blame(&scene, error))?;
+    if let Some(error) = result.scene.surface_error.filter(|error| error.left_out > 0) {
+        bar.note(&format!(
+            "{} triangles in view are left out of the terrain: posts in them are missing, and the level of detail does not let them be split",
+            error.left_out
+        ));
+    }
+    for run in result.runs {
         bar.say(&told(arguments, &run));
     }
     Ok(Status::Passed)

@@ -5,7 +5,7 @@
 use crate::raster::{Lattice, TileView};
 use crate::scene::Posts;
 use crate::space::{Plan, ViewFrame, World};
-use crate::terrain::lod::{CELLS, LodMesh, Post, Quad, QuadInUse};
+use crate::terrain::lod::{CELLS, LodMesh, Post, Quad, QuadInUse, RightTriangle};
 use crate::terrain::{Bounds, Grid, Mesh};
 use glam::{DVec2, DVec3};
 
@@ -62,6 +62,11 @@ impl<'m> MeshInUse<'m> {
     /// Whether a post is a vertex.
     pub(super) fn has_vertex(&self, post: Post) -> bool {
         self.lod.is_none_or(|lod| lod.has_vertex(post))
+    }
+
+    /// Whether a triangle in use is drawn.
+    pub(super) fn is_drawn(&self, triangle: &RightTriangle) -> bool {
+        self.lod.is_none_or(|lod| lod.is_drawn(triangle))
     }
 
     /// The height of a post; NaN where there is none.

@@ -189,7 +189,9 @@ impl Strips<'_> {
             self.done.push(Strip { item, clippings: Vec::new(), points: Vec::new() });
         }
         self.end = exit.map(|exit| [chain, of.first_vertex, exit]);
-        let Some(strip) = self.done.last_mut() else { return };
+        let Some(strip) = self.done.last_mut().filter(|_| self.walk.mesh.is_drawn(&clipping.triangle)) else {
+            return;
+        };
         let points = of.points(clipping, |post| self.walk.mesh.height(post));
         let first = strip.points.len();
         strip.points.extend(points.map(|point| prepared.map.world_from_grid(point)));

@@ -31,6 +31,8 @@ pub struct LodMesh {
     grid: Arc<Grid>,
     vertices: Vertices,
     quads: Vec<QuadInUse>,
+    /// Sorted.
+    left_out: Vec<RightTriangle>,
     deviation: Deviation,
 }
 
@@ -42,11 +44,20 @@ impl LodMesh {
         collected: Collected,
         deviation: Deviation,
     ) -> Self {
-        let Collected { posts, triangles } = collected;
+        let Collected { posts, triangles, mut left_out } = collected;
+        left_out.sort_unstable();
         let world = |post: &Post| grid.posts().world(post[0] as usize, post[1] as usize);
         let tin = Tin::in_order(posts.iter().map(world).collect(), triangles);
         let quads = refinement.quads();
-        Self { tin, posts, grid: Arc::clone(grid), vertices: refinement.into_vertices(), quads, deviation }
+        Self {
+            tin,
+            posts,
+            grid: Arc::clone(grid),
+            vertices: refinement.into_vertices(),
+            quads,
+            left_out,
+            deviation,
+        }
     }
 
     /// Its triangles.
@@ -89,6 +100,11 @@ impl LodMesh {
         RightTriangle { apex, left, right }
     }
 
+    /// Whether a triangle that is not split, by its [vertices](Self::has_vertex), is drawn: holes are not, nor what they lie in.
+    pub fn is_drawn(&self, triangle: &RightTriangle) -> bool {
+        self.left_out.binary_search(triangle).is_err()
+    }
+
     /// How far it is from the full surface.
     pub fn deviation(&self) -> Deviation {
         self.deviation
@@ -107,7 +123,11 @@ impl LodMesh {
 
     /// Bytes held, without the grid.
     pub(in crate::terrain) fn bytes(&self) -> usize {
-        self.tin.bytes() + size_of_val(&self.posts[..]) + self.vertices.bytes() + size_of_val(&self.quads[..])
+        self.tin.bytes()
+            + size_of_val(&self.posts[..])
+            + self.vertices.bytes()
+            + size_of_val(&self.quads[..])
+            + size_of_val(&self.left_out[..])
     }
 }
 
@@ -119,6 +139,8 @@ const NO_NUMBER: u32 = u32::MAX;
 pub(super) struct Collected {
     posts: Vec<Post>,
     triangles: Vec<[u32; 3]>,
+    /// Triangles that are neither split nor drawn.
+    left_out: Vec<RightTriangle>,
 }
 
 impl Collected {
@@ -157,7 +179,7 @@ impl Collecting<'_> {
                 let corners = triangle.corners().map(|post| self.number_of(post));
                 self.all.triangles.push(corners);
             }
-            None => {}
+            None => self.all.left_out.push(triangle),
         }
     }
 
