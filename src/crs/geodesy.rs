@@ -20,7 +20,7 @@ const FLATTEST: f64 = 0.02;
 /// use glam::DVec2;
 /// let ground = Geodesy::of(&Crs::crs84()?)?;
 /// let edge = ground.curve(CurveKind::Geodesic, DVec2::new(-120.0, 40.0), DVec2::new(-80.0, 40.0));
-/// assert!((edge.at(0.5).y - 41.763).abs() < 1e-3);
+/// assert!((edge.at(0.5).y - 41.770).abs() < 1e-3);
 /// # Ok::<(), drapery::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
