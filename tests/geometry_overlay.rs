@@ -266,6 +266,17 @@ fn widths_are_those_of_the_style_or_one_pixel() {
 }
 
 #[test]
+fn a_wide_line_beside_the_picture_reaches_into_it() {
+    // A metre a pixel, the picture begins 4 m east of the quad that the line lies in: quads are 12.8 m wide.
+    let camera = "eye = [52, 0, 400], target = [52, 0, 0], up = [0, 1, 0], projection = \"orthographic\", height_m = 64";
+    let line = "[[layer]]\nfeatures = [{ line = [[-8, -20], [-8, 20]] }]\nline = { color = \"#aa0022\", width_px = 31 }\n";
+    let text = scene("kind = \"plane\", posts = [513, 513], cell_m = 0.1", camera, line);
+    let frame = draw(&text, &["device.max_line_width_px=40"]);
+    assert!((110..=170).contains(&painted(&frame)), "{}", painted(&frame));
+    assert_eq!(painted(&draw(&text, &["device.max_line_width_px=20"])), 0);
+}
+
+#[test]
 fn antialiased_lines_cover_as_much_as_they_are_wide() {
     // Hard case 27, from above: the sum of shares is length times width.
     for width in [1.0, 3.0, 7.0] {

@@ -78,3 +78,13 @@ pub fn picture_plane(
 ) -> Plane {
     Plane { name, width, height, components, values }
 }
+
+/// A buffer that is a table of N columns, taken out of where its rows are; `values` says what its numbers are.
+pub fn table<const N: usize, T>(
+    name: &'static str,
+    rows: &mut Vec<[T; N]>,
+    values: fn(Vec<T>) -> Values,
+) -> Plane {
+    let rows = std::mem::take(rows);
+    picture_plane(name, [N, rows.len()], 1, values(rows.into_flattened()))
+}

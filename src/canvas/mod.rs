@@ -12,7 +12,7 @@ mod pixels;
 mod record;
 
 pub use backdrop::{Backdrop, LastGround};
-pub use frame::{Frame, FrameOptions, Kept, joined, picture_plane};
+pub use frame::{Frame, FrameOptions, Kept, joined, picture_plane, table};
 pub use g_buffer::{GBuffer, sight_counts, surface_plane};
 pub use pattern::{BlockSamples, MOST_SAMPLES, SamplePattern};
 pub use pixels::{Pixels, mean};

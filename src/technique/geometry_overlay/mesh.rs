@@ -2,12 +2,16 @@
 //!
 //! Input: the terrain, and what of it a view shows. Output: [`MeshInUse`]. Refuses: nothing.
 
+use crate::math;
 use crate::raster::{Lattice, TileView};
 use crate::scene::Posts;
 use crate::space::{Plan, ViewFrame, World};
 use crate::terrain::lod::{CELLS, LodMesh, Post, Quad, QuadInUse, RightTriangle};
 use crate::terrain::{Bounds, Grid, Mesh};
 use glam::{DVec2, DVec3};
+
+/// No line is drawn farther beside the picture: the guard band clips there.
+const FARTHEST: f64 = 65_536.0;
 
 /// Between the plan and columns and rows of posts (which need not be whole).
 #[derive(Debug, Clone, Copy)]
@@ -85,8 +89,9 @@ impl<'m> MeshInUse<'m> {
         self.grid.splits_sw_ne(column as usize, row as usize)
     }
 
-    /// The quads in use that the view may see, in a fixed order.
-    pub(super) fn quads(&self, view: &ViewFrame) -> Vec<QuadInUse> {
+    /// The quads in use whose lines the view may see, in a fixed order: lines reach so many pixels beside themselves, at most
+    /// [`FARTHEST`].
+    pub(super) fn quads(&self, view: &ViewFrame, reach_px: f64) -> Vec<QuadInUse> {
         let posts = self.grid.posts();
         let last = [posts.columns() - 1, posts.rows() - 1];
         let every = || {
@@ -95,14 +100,12 @@ impl<'m> MeshInUse<'m> {
             quads.map(|quad| QuadInUse { quad, data: quad }).collect()
         };
         let all = self.lod.map_or_else(every, |lod| lod.quads().to_vec());
-        let lattice = Lattice::centres(view, 0);
+        let lattice = Lattice::centres(view, math::min(reach_px, FARTHEST).ceil() as usize + 1);
         let whole = TileView::new(view, &lattice, (0, 0), lattice.columns.max(lattice.rows));
         let (map, heights) = (GridMap::new(posts), self.heights);
         let is_seen = |of: &QuadInUse| {
             let [low, high] = of.quad.corners();
-            // Lines may be wider than what they are seen over: pixels of a neighbouring quad. So a little more than the quad.
-            let margin = f64::from(of.quad.side()) / 16.0 + 1.0;
-            let half = [0, 1].map(|k| f64::from(high[k] - low[k]) / 2.0 + margin);
+            let half = [0, 1].map(|k| f64::from(high[k] - low[k]) / 2.0);
             let middle = [0, 1].map(|k| (f64::from(low[k]) + f64::from(high[k])) / 2.0);
             let bounds = Bounds {
                 center: map.world_from_grid([middle[0], middle[1], (heights.0 + heights.1) / 2.0]),

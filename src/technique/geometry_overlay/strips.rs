@@ -38,9 +38,14 @@ struct Drawn<'a> {
 }
 
 impl Prepare<'_> {
+    /// The quads in use whose lines a view may see.
+    pub(super) fn quads(&self, mesh: &MeshInUse, view: &ViewFrame) -> Vec<QuadInUse> {
+        mesh.quads(view, 0.5 * self.stage.scene.device.max_line_width_px)
+    }
+
     /// What is drawn of the quads that a view may see.
     pub(super) fn overlay(&self, mesh: &MeshInUse, view: &ViewFrame) -> Overlay {
-        let in_use = mesh.quads(view);
+        let in_use = self.quads(mesh, view);
         let mut by_data: BTreeMap<Quad, Vec<usize>> = BTreeMap::new();
         (0..).zip(&in_use).for_each(|(place, of)| by_data.entry(of.data).or_default().push(place));
         let data: Vec<Quad> = by_data.keys().copied().collect();

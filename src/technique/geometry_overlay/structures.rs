@@ -4,7 +4,7 @@ use super::dag::Arrays;
 use super::mesh::MeshInUse;
 use super::{DECLARATION, Prepare};
 use crate::buffer::{Plane, Values};
-use crate::canvas::{FrameOptions, picture_plane};
+use crate::canvas::{FrameOptions, picture_plane, table};
 use crate::error::Result;
 use crate::space::ViewFrame;
 use crate::terrain::lod::Quad;
@@ -24,7 +24,7 @@ pub(super) fn planes(
     if wanted.peek().is_none() {
         return Ok(Vec::new());
     }
-    let mut quads: Vec<Quad> = mesh.quads(view).iter().map(|of| of.data).collect();
+    let mut quads: Vec<Quad> = prepared.quads(mesh, view).iter().map(|of| of.data).collect();
     quads.sort_unstable();
     quads.dedup();
     let mut arrays = prepared.store.arrays(mesh, &quads)?;
@@ -34,26 +34,16 @@ pub(super) fn planes(
 /// A structure, taken out of the arrays.
 fn plane(name: &'static str, arrays: &mut Arrays) -> Option<Plane> {
     Some(match name {
-        "quads" => numbers(name, &mut arrays.quads),
-        "polylines" => numbers(name, &mut arrays.polylines),
-        "quad-clippings" => numbers(name, &mut arrays.quad_clippings),
-        "triangle-clippings" => numbers(name, &mut arrays.triangle_clippings),
-        "line-vertices" => places(name, &mut arrays.vertices),
-        "crossings" => places(name, &mut arrays.crossings),
+        "quads" => table(name, &mut arrays.quads, Values::U32),
+        "polylines" => table(name, &mut arrays.polylines, Values::U32),
+        "quad-clippings" => table(name, &mut arrays.quad_clippings, Values::U32),
+        "triangle-clippings" => table(name, &mut arrays.triangle_clippings, Values::U32),
+        "line-vertices" => table(name, &mut arrays.vertices, Values::F64),
+        "crossings" => table(name, &mut arrays.crossings, Values::F64),
         "directions" => {
             let directions = take(&mut arrays.directions);
             picture_plane(name, [1, directions.len()], 1, Values::U8(directions))
         }
         _ => return None,
     })
-}
-
-/// A table of whole numbers.
-fn numbers<const N: usize>(name: &'static str, rows: &mut Vec<[u32; N]>) -> Plane {
-    picture_plane(name, [N, rows.len()], 1, Values::U32(take(rows).into_flattened()))
-}
-
-/// A table of places in columns and rows of posts.
-fn places(name: &'static str, rows: &mut Vec<[f64; 2]>) -> Plane {
-    picture_plane(name, [2, rows.len()], 1, Values::F64(take(rows).into_flattened()))
 }

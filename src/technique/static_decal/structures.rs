@@ -2,7 +2,7 @@
 
 use super::DECLARATION;
 use crate::buffer::{Plane, Values};
-use crate::canvas::{FrameOptions, picture_plane};
+use crate::canvas::{FrameOptions, picture_plane, table};
 use crate::decal::{Arrays, Decals};
 use crate::error::Result;
 use std::mem::take;
@@ -28,37 +28,27 @@ pub(super) fn planes(
 /// A structure, taken out of the arrays.
 fn plane(name: &'static str, arrays: &mut Arrays) -> Option<Plane> {
     Some(match name {
-        "grid" => numbers(name, &mut arrays.grid.to_vec()),
-        "cells" => counts(name, &mut arrays.cells),
+        "grid" => table(name, &mut arrays.grid.to_vec(), Values::F64),
+        "cells" => table(name, &mut arrays.cells, Values::U32),
         "line-nodes" => column(name, &mut arrays.line_nodes),
-        "line-boxes" => numbers(name, &mut arrays.line_boxes),
-        "segments" => counts(name, &mut arrays.segments),
+        "line-boxes" => table(name, &mut arrays.line_boxes, Values::F64),
+        "segments" => table(name, &mut arrays.segments, Values::U32),
         "polygon-nodes" => column(name, &mut arrays.polygon_nodes),
-        "polygon-boxes" => numbers(name, &mut arrays.polygon_boxes),
-        "polygons" => counts(name, &mut arrays.polygons),
-        "areas" => counts(name, &mut arrays.areas),
-        "ring-parts" => counts(name, &mut arrays.ring_parts),
-        "rings" => counts(name, &mut arrays.rings),
-        "quadtree-boxes" => numbers(name, &mut arrays.quadtree_boxes),
-        "quadtree-nodes" => counts(name, &mut arrays.quadtree_nodes),
-        "quadtree-leaves" => counts(name, &mut arrays.quadtree_leaves),
-        "quadtree-edges" => counts(name, &mut arrays.quadtree_edges),
-        "decal-vertices" => numbers(name, &mut arrays.vertices),
-        "items" => counts(name, &mut arrays.items),
-        "styles" => counts(name, &mut arrays.styles),
-        "style-values" => numbers(name, &mut arrays.style_values),
+        "polygon-boxes" => table(name, &mut arrays.polygon_boxes, Values::F64),
+        "polygons" => table(name, &mut arrays.polygons, Values::U32),
+        "areas" => table(name, &mut arrays.areas, Values::U32),
+        "ring-parts" => table(name, &mut arrays.ring_parts, Values::U32),
+        "rings" => table(name, &mut arrays.rings, Values::U32),
+        "quadtree-boxes" => table(name, &mut arrays.quadtree_boxes, Values::F64),
+        "quadtree-nodes" => table(name, &mut arrays.quadtree_nodes, Values::U32),
+        "quadtree-leaves" => table(name, &mut arrays.quadtree_leaves, Values::U32),
+        "quadtree-edges" => table(name, &mut arrays.quadtree_edges, Values::U32),
+        "decal-vertices" => table(name, &mut arrays.vertices, Values::F64),
+        "items" => table(name, &mut arrays.items, Values::U32),
+        "styles" => table(name, &mut arrays.styles, Values::U32),
+        "style-values" => table(name, &mut arrays.style_values, Values::F64),
         _ => return None,
     })
-}
-
-/// A table of whole numbers.
-fn counts<const N: usize>(name: &'static str, rows: &mut Vec<[u32; N]>) -> Plane {
-    picture_plane(name, [N, rows.len()], 1, Values::U32(take(rows).into_flattened()))
-}
-
-/// A table of doubles.
-fn numbers<const N: usize>(name: &'static str, rows: &mut Vec<[f64; N]>) -> Plane {
-    picture_plane(name, [N, rows.len()], 1, Values::F64(take(rows).into_flattened()))
 }
 
 /// A table of one column.
