@@ -9,6 +9,7 @@ mod primitive;
 mod stroke;
 
 pub use primitive::{HalfPlane, MOST_SIDES, Primitive};
+pub use stroke::Strokes;
 
 use crate::draw_list::{Chain, DrawList, Item, Role, Side};
 use crate::index::BoxTree;
@@ -71,6 +72,7 @@ impl PixelSize {
 pub struct Footprints<'l> {
     list: &'l DrawList,
     pixel: PixelSize,
+    strokes: Strokes,
     areas: Vec<Area>,
     /// The number of each item's area; [`NO_AREA`]: it has none.
     area_of: Vec<u32>,
@@ -88,8 +90,13 @@ pub type IsSeen<'s> = dyn Fn(&PlanBox) -> bool + Sync + 's;
 const NO_AREA: u32 = u32::MAX;
 
 impl<'l> Footprints<'l> {
-    /// The items of a list; parts and polygons whose box `is_seen` denies are left out.
+    /// The items of a list, by definition; parts and polygons whose box `is_seen` denies are left out.
     pub fn new(list: &'l DrawList, pixel: PixelSize, is_seen: &IsSeen) -> Self {
+        Self::stroked(list, pixel, Strokes::Style, is_seen)
+    }
+
+    /// The same with strokes as a technique has them.
+    pub fn stroked(list: &'l DrawList, pixel: PixelSize, strokes: Strokes, is_seen: &IsSeen) -> Self {
         let is_outside = |item: u32| list.style_of(item).role == Role::Outside;
         // What is outside of no polygon is everywhere.
         let has_area = |(number, item): &(u32, &Item)| !item.area.is_empty() || is_outside(*number);
@@ -109,9 +116,9 @@ impl<'l> Footprints<'l> {
         };
         let seen = with_area().map(|item| (item, bounds(item))).filter(|(_, plan)| is_seen(plan));
         let (area_items, area_boxes): (Vec<u32>, Vec<PlanBox>) = seen.unzip();
-        let (parts, part_boxes) = Parts { list, pixel: &pixel, is_seen }.all();
+        let (parts, part_boxes) = Parts { list, pixel: &pixel, strokes, is_seen }.all();
         let (area_boxes, part_boxes) = (BoxTree::new(&area_boxes), BoxTree::new(&part_boxes));
-        Self { list, pixel, areas, area_of, area_items, area_boxes, parts, part_boxes }
+        Self { list, pixel, strokes, areas, area_of, area_items, area_boxes, parts, part_boxes }
     }
 
     /// The draw list.
@@ -163,7 +170,8 @@ impl<'l> Footprints<'l> {
         let (vertices, at) = (self.list.vertices(), part.vertex as usize);
         match stroke_of(self.list, part.item, part.chain) {
             Some((chain, line)) => {
-                stroke::primitives(&segment_of(vertices, chain, at), line, &self.pixel, out);
+                let segment = segment_of(vertices, chain, at);
+                stroke::primitives(&segment, line, (&self.pixel, self.strokes), out);
             }
             None => out.push(Primitive::Edge { from: vertices[at], to: vertices[at + 1] }),
         }
@@ -214,6 +222,7 @@ const CHAINS_AT_A_TIME: usize = 256;
 struct Parts<'a> {
     list: &'a DrawList,
     pixel: &'a PixelSize,
+    strokes: Strokes,
     is_seen: &'a IsSeen<'a>,
 }
 
@@ -259,7 +268,7 @@ impl Parts<'_> {
             // A dot is a part too.
             for vertex in chain.first..chain.first + chain.segments().max(1) {
                 let segment = segment_of(vertices, chain, vertex as usize);
-                add(vertex, stroke::bounds(&segment, line, self.pixel));
+                add(vertex, stroke::bounds(&segment, line, (self.pixel, self.strokes)));
             }
             return;
         }

@@ -6,7 +6,21 @@ use crate::interval::Ball;
 use crate::math;
 use crate::predicate::orient2d;
 use crate::scene::{Cap, Join, Line, Width};
-use crate::space::{Plan, PlanBox};
+use crate::space::{DISC_CORNERS, Plan, PlanBox, disc_corners};
+
+/// What strokes are made of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Strokes {
+    /// What their style says: the definition (`docs/semantics.md`).
+    #[default]
+    Style,
+    /// A rectangle a segment, square caps, and nothing else (Schneider & Klein 2007, 4.1: "each line segment separately").
+    Rectangles,
+    /// What their style says, of polygons: a disc has [`DISC_CORNERS`] corners.
+    Polygons,
+    /// Miters without a limit down to 40 degrees between segments, below that and at ends discs (Zechmeister 2020, 4.2.1).
+    RoundBelow40,
+}
 
 /// A segment of a stroke.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,11 +45,12 @@ fn half_width(line: &Line, pixel: &PixelSize) -> (f64, f64) {
 }
 
 /// A box around all that [`primitives`] gives.
-pub(super) fn bounds(segment: &Segment, line: &Line, pixel: &PixelSize) -> PlanBox {
+pub(super) fn bounds(segment: &Segment, line: &Line, (pixel, strokes): (&PixelSize, Strokes)) -> PlanBox {
     let bare = PlanBox::around([segment.from, segment.to]);
     let (half, growth) = half_width(line, pixel);
     let reach = match (line.join, line.width) {
         (_, Width::Pixels(_)) if grows_with_distance(line, pixel) => dynamic_reach(segment, growth, pixel),
+        (Join::Miter { .. }, Width::Metres(_)) if strokes == Strokes::RoundBelow40 => half * REACH_OF_40,
         (Join::Miter { limit }, Width::Metres(_)) => half * math::max(limit, std::f64::consts::SQRT_2),
         _ => half * std::f64::consts::SQRT_2,
     };
@@ -57,8 +72,19 @@ fn dynamic_reach(segment: &Segment, growth: f64, pixel: &PixelSize) -> f64 {
     }
 }
 
+/// More than a miter of 40 degrees reaches, in half widths: 1 / sin(20 degrees).
+const REACH_OF_40: f64 = 2.93;
+
+/// The cosine of 40 degrees.
+const COS_40: f64 = 0.766_044_443_118_978;
+
 /// What a segment's stroke is made of.
-pub(super) fn primitives(segment: &Segment, line: &Line, pixel: &PixelSize, out: &mut Vec<Primitive>) {
+pub(super) fn primitives(
+    segment: &Segment,
+    line: &Line,
+    (pixel, strokes): (&PixelSize, Strokes),
+    out: &mut Vec<Primitive>,
+) {
     let (half, growth) = half_width(line, pixel);
     let (from, to) = (segment.from, segment.to);
     if let Width::Pixels(_) = line.width {
@@ -66,26 +92,79 @@ pub(super) fn primitives(segment: &Segment, line: &Line, pixel: &PixelSize, out:
         out.push(Primitive::Near { from, to, reach: half, growth });
         return;
     }
-    let disc = |at: Plan| Primitive::Near { from: at, to: at, reach: half, growth: 0.0 };
+    let disc = |at: Plan, out: &mut Vec<Primitive>| match strokes {
+        Strokes::Polygons => disc_polygon(at, half, out),
+        _ => out.push(Primitive::Near { from: at, to: at, reach: half, growth: 0.0 }),
+    };
+    let cap = match (strokes, line.cap) {
+        (Strokes::RoundBelow40, _) => Cap::Round,
+        (Strokes::Rectangles, Cap::Round) => Cap::Butt,
+        (_, cap) => cap,
+    };
     if from == to {
-        out.extend(match line.cap {
-            Cap::Butt => None,
-            Cap::Square => Some(dot(from, half)),
-            Cap::Round => Some(disc(from)),
-        });
+        match cap {
+            Cap::Square if strokes != Strokes::Rectangles => out.push(dot(from, half)),
+            Cap::Round => disc(from, out),
+            _ => {}
+        }
         return;
     }
     let along = Direction::new(from, to);
-    out.push(rectangle(segment, &along, half, line.cap));
-    if line.cap == Cap::Round {
-        out.extend(segment.before.is_none().then(|| disc(from)));
-        out.extend(segment.is_last.then(|| disc(to)));
+    out.push(rectangle(segment, &along, half, cap));
+    if cap == Cap::Round {
+        if segment.before.is_none() {
+            disc(from, out);
+        }
+        if segment.is_last {
+            disc(to, out);
+        }
     }
     let Some(before) = segment.before else { return };
-    match line.join {
-        Join::Round => out.push(disc(from)),
-        Join::Miter { limit } => join(before, from, to, half, Some(limit), out),
-        Join::Bevel => join(before, from, to, half, None, out),
+    match (strokes, line.join) {
+        (Strokes::Rectangles, _) => {}
+        (_, Join::Round) => disc(from, out),
+        (Strokes::RoundBelow40, Join::Miter { .. }) => round_below_40(before, from, to, half, out),
+        (_, Join::Miter { limit }) => join(before, from, to, half, Some(limit), out),
+        (_, Join::Bevel) => join(before, from, to, half, None, out),
+    }
+}
+
+/// A join of [`Strokes::RoundBelow40`].
+fn round_below_40(before: Plan, at: Plan, after: Plan, half: f64, out: &mut Vec<Primitive>) {
+    let (into, leaving) = (at - before, after - at);
+    let lengths = into.length() * leaving.length();
+    let excess = -into.dot(leaving) - COS_40 * lengths;
+    let disc = Primitive::Near { from: at, to: at, reach: half, growth: 0.0 };
+    // Far more than the rounding of these few operations.
+    let doubt = 1e-12 * lengths;
+    if excess > doubt {
+        return out.push(disc);
+    }
+    let first = out.len();
+    join(before, at, after, half, Some(4.0), out);
+    if excess > -doubt {
+        for primitive in &mut out[first..] {
+            if let Primitive::Convex(shape) = *primitive {
+                *primitive = Primitive::Perhaps(shape);
+            }
+        }
+    }
+}
+
+/// A disc as a polygon: slabs between opposite sides.
+fn disc_polygon(at: Plan, radius: f64, out: &mut Vec<Primitive>) {
+    let corners = disc_corners(at, radius);
+    for k in 0..DISC_CORNERS / 2 - 1 {
+        let opposite = DISC_CORNERS - 1 - k;
+        let ring = [corners[k], corners[k + 1], corners[opposite - 1], corners[opposite]];
+        let side = |a: Plan, b: Plan| {
+            let (x, y) = (Ball::exact(b.x) - Ball::exact(a.x), Ball::exact(b.y) - Ball::exact(a.y));
+            HalfPlane { at: a, normal: [-y, x], offset: Ball::ZERO }
+        };
+        let turn = if orient2d(ring[0], ring[1], ring[2]) < 0.0 { [3, 2, 1, 0] } else { [0, 1, 2, 3] };
+        let [a, b, c, d] = turn.map(|k| ring[k]);
+        let sides = [side(a, b), side(b, c), side(c, d), side(d, a)];
+        out.push(Primitive::Convex(Convex::new(&sides)));
     }
 }
 

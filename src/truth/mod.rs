@@ -9,6 +9,7 @@
 //!   tile.rs     a tile's triangles, by the terrain's hierarchy; squares down to pixels
 //!   tile_rays.rs the tile's rays, with bounds of their errors
 //!   facet.rs    a triangle on the tile: sides, nearness, its map to the plan (draped.rs), with bounds of their errors (form.rs)
+//!   probe.rs    the same of small squares around samples: what each may see (outcome.rs)
 //!   visible.rs  the pixel cut into convex fragments that see one triangle (polygon.rs), and sky
 //!   refine.rs   fragments cut along footprints' borders (shape.rs) until little is unknown of which items hold them
 //!               (knowledge.rs); colours between bounds (crate::certainty)
@@ -24,7 +25,9 @@ mod draped;
 mod facet;
 mod form;
 mod knowledge;
+mod outcome;
 mod polygon;
+mod probe;
 mod refine;
 mod seen;
 mod setting;
@@ -32,6 +35,9 @@ mod shape;
 mod tile;
 mod tile_rays;
 mod visible;
+
+pub use outcome::{Outcome, Sample};
+pub use probe::{Probe, probe};
 
 use crate::buffer::{Buffer, Look, Plane, PlaneKind, Values};
 use crate::error::{Error, Result};
@@ -235,7 +241,7 @@ pub fn certify(stage: &Stage, view: &ViewFrame, budget: &Budget, progress: &(dyn
     let setting = Setting::new(scene, mesh, (&footprints, size), *budget);
     let tiling = Tiling::new(width, height, TILE);
     let tiles = parallel::map_telling(tiling.count(), progress, |k| {
-        certify_tile(&setting, mesh, view, &tiling.place(k))
+        certify_tile(&setting, mesh, view, &tiling.place(k), None)
     });
     assembled(tiles, &tiling, view, &footprints, budget)
 }

@@ -9,11 +9,14 @@ use super::polygon::{Halves, Pieces, Polygon, ROUNDING};
 use super::setting::Setting;
 use super::shape::{PixelGround, PixelPrimitive, Verdict};
 use super::visible::{Fragment, SPECK, Sight};
+use super::outcome::{Outcome, Sample};
 use super::{ItemCoverage, PixelCoverage};
 use crate::certainty::{Known, PaintMean, PaintRange};
 use crate::footprint::{BorderPart, Primitive};
+use crate::math;
 use crate::resolve::{Paint, Stack};
-use crate::space::PlanBox;
+use crate::space::{PlanBox, World};
+use crate::terrain::SKY;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
@@ -142,6 +145,36 @@ impl Refinery {
             }
         }
         all.joined()
+    }
+
+    /// What may be seen and held in a square, however small, that sees this.
+    pub(super) fn outcomes(&mut self, pixel: &Pixel, pieces: &mut Pieces, sight: &Sight) -> Sample {
+        self.refine(pixel, pieces, sight);
+        let mut sample = Sample::default();
+        if !sight.sky.is_empty() {
+            sample.add(Outcome::of_sky(PaintRange::exact(pixel.setting.sky)));
+        }
+        for piece in self.closed.iter().chain(&self.heap) {
+            let ground = pixel.ground(piece.facet);
+            let points = pieces.of(piece.shape);
+            let mut depth = (f64::INFINITY, f64::NEG_INFINITY);
+            for p in points {
+                let World { x, y, z } = ground.hit(*p).world;
+                let v = ground.rays.frame.depth(World::new(x, y, z));
+                depth = (math::min(v, depth.0), math::max(v, depth.1));
+            }
+            let states = piece.states.map(|(first, count)| &self.states[first as usize..(first + count) as usize]);
+            let items = states.map(|states| states.iter().map(|s| (s.item, s.known())).collect());
+            sample.add(Outcome {
+                triangle: ground.facet.id,
+                paint: piece.paint,
+                items,
+                plan: ground.plan_box(points),
+                depth,
+            });
+        }
+        debug_assert!(!sample.outcomes.iter().any(|o| o.triangle == SKY && o.depth.0.is_finite()));
+        sample
     }
 
     /// The pieces of the pixel refined last, each with its facet and with what is known of its items (`None`: nothing).

@@ -17,6 +17,8 @@ const MOST_TEXELS: usize = 64;
 
 pub(super) struct Setting<'a> {
     pub(super) budget: Budget,
+    /// Whether items are told below an opaque one too.
+    tells_hidden: bool,
     pub(super) footprints: &'a Footprints<'a>,
     pub(super) pixel_size: PixelSize,
     pub(super) compositor: Compositor,
@@ -58,7 +60,13 @@ impl<'a> Setting<'a> {
         let crowd = crowd.reduce(|a, b| a.hull(&b));
         let sky = compositor.paint(scene.image.background);
         let mode = scene.compositing.mode;
-        Self { budget, footprints, pixel_size, compositor, mode, paints, sky, crowd, ground, texels }
+        let tells_hidden = budget.coverage;
+        Self { budget, tells_hidden, footprints, pixel_size, compositor, mode, paints, sky, crowd, ground, texels }
+    }
+
+    /// The same without what lies below opaque items.
+    pub(super) fn of_what_shows(self) -> Self {
+        Self { tells_hidden: false, ..self }
     }
 
     /// The paint of an item.
@@ -76,7 +84,7 @@ impl<'a> Setting<'a> {
     /// Whether nothing below an item matters where it is.
     pub(super) fn hides(&self, item: u32) -> bool {
         let is_opaque = self.paint_of(item).0[3] == 1.0 && self.group_of(item).is_none();
-        is_opaque && self.mode == BlendMode::Over && !self.budget.coverage
+        is_opaque && self.mode == BlendMode::Over && !self.tells_hidden
     }
 
     /// The paint of a piece that may lie in any number of any items.

@@ -2,6 +2,7 @@
 
 use super::facet::{Facet, Hit};
 use super::knowledge::Pixel;
+use super::outcome::Sample;
 use super::polygon::{self, Pieces};
 use super::refine::Refinery;
 use super::setting::Setting;
@@ -105,8 +106,24 @@ pub(super) struct TileTruth {
     pub(super) colors: Vec<[[f64; 4]; 3]>,
     pub(super) coverage: Vec<PixelCoverage>,
     pub(super) centres: Vec<Option<Centre>>,
+    /// Where samples are probed, those of each pixel; the colours are then left out.
+    pub(super) samples: Vec<Vec<Sample>>,
     pub(super) tally: Tally,
 }
+
+/// Where samples lie in each pixel, and how far from there what they see may be taken.
+#[derive(Clone, Copy)]
+pub(super) struct Probes<'a> {
+    /// Places in the pixel, 0..=1 from its upper left corner.
+    pub(super) spots: &'a [[f64; 2]],
+    /// How far a sample may be shifted along each axis, pixels.
+    pub(super) shift: f64,
+    /// How far along its ray a visible point of a view depth may seem to lie elsewhere, metres.
+    pub(super) along: &'a (dyn Fn(f64) -> f64 + Sync),
+}
+
+/// The largest shift of a sample, pixels: more than that is no question of rounding.
+pub(super) const MOST_SHIFT: f64 = 0.25;
 
 /// A leaf of the terrain's hierarchy as a tile sees it.
 #[derive(Debug)]
@@ -136,18 +153,21 @@ struct Work<'a> {
     pieces: Pieces,
     sight: Sight,
     refinery: Refinery,
+    /// `None`: whole pixels are certified.
+    probes: Option<Probes<'a>>,
     out: TileTruth,
 }
 
-/// The truth of a tile of the picture.
+/// The truth of a tile of the picture, or what samples in its pixels may see.
 pub(super) fn certify_tile(
     setting: &Setting,
     mesh: &Mesh,
     frame: &ViewFrame,
     place: &TilePlace,
+    probes: Option<Probes>,
 ) -> TileTruth {
     let size = place.size;
-    let mut work = Work::new(setting, mesh, frame, place);
+    let mut work = Work::new(setting, mesh, frame, place, probes);
     for y in (0..size[1]).step_by(BLOCK) {
         for x in (0..size[0]).step_by(BLOCK) {
             work.block([x, y]);
@@ -201,6 +221,12 @@ const LEAF_MARGIN: f64 = 1e-2;
 
 /// View depths below this share of the coordinates are too near to trust a box's place on the screen.
 const NEAR_SHARE: f64 = 1e-6;
+
+/// From so many samples a pixel on it is first asked whether all see the same paint.
+const ALIKE_FROM: usize = 4;
+
+/// The first square around a sample is a little larger than the shift, so that a small drift needs no second one.
+const EASE: f64 = 1.0625;
 
 /// Side of a block of pixels that open the terrain's leaves together.
 const BLOCK: usize = 8;
@@ -292,33 +318,37 @@ impl<'a> Work<'a> {
         mesh: &'a Mesh,
         frame: &ViewFrame,
         &TilePlace { corner, size }: &TilePlace,
+        probes: Option<Probes<'a>>,
     ) -> Self {
         let start = corner.map(|v| v as f64);
-        let rays = TileRays::new(frame, start, TILE as f64);
-        let frustum = Frustum::new(frame, start, [start[0] + size[0] as f64, start[1] + size[1] as f64]);
+        let margin = if probes.is_some() { MOST_SHIFT } else { 0.0 };
+        let rays = TileRays::new(frame, start, TILE as f64 + margin);
+        let end = [start[0] + size[0] as f64 + margin, start[1] + size[1] as f64 + margin];
+        let frustum = Frustum::new(frame, start.map(|v| v - margin), end);
         let mut leaves = Vec::new();
         frustum.for_each_leaf(mesh, mesh.root(), &mut |node, bounds| {
             leaves.push(Leaf::new(node, bounds, (frame, start)));
         });
         leaves.sort_by(|a, b| b.nearest.total_cmp(&a.nearest));
         let count = size[0] * size[1];
-        let kept = if setting.budget.coverage { count } else { 0 };
+        let kept = if setting.budget.coverage && probes.is_none() { count } else { 0 };
         let out = TileTruth {
             colors: vec![[[0.0; 4]; 3]; count],
             coverage: vec![PixelCoverage::default(); kept],
             centres: vec![None; count],
+            samples: if probes.is_some() { vec![Vec::new(); count] } else { Vec::new() },
             tally: Tally::default(),
         };
         let (pieces, sight, refinery) = (Pieces::default(), Sight::default(), Refinery::default());
         let (facets, boxes) = (Vec::new(), Vec::new());
-        Self { setting, mesh, rays, leaves, facets, boxes, size, pieces, sight, refinery, out }
+        Self { setting, mesh, rays, leaves, facets, boxes, size, pieces, sight, refinery, probes, out }
     }
 
     /// Does the pixels of a block: opens leaves, nearest first, until each pixel is covered before the next one.
     fn block(&mut self, [x, y]: [usize; 2]) {
-        let corner = [x as f64, y as f64];
+        let (corner, side) = self.grown([x as f64, y as f64], BLOCK as f64);
         let near: Vec<usize> =
-            (0..self.leaves.len()).filter(|&k| self.leaves[k].meets(corner, BLOCK as f64)).collect();
+            (0..self.leaves.len()).filter(|&k| self.leaves[k].meets(corner, side)).collect();
         let mut open = [[true; BLOCK]; BLOCK];
         let (mut look, mut seen, mut facets) = (FIRST_LOOK, 0, Vec::new());
         loop {
@@ -341,10 +371,11 @@ impl<'a> Work<'a> {
             return facets.clone();
         }
         let first = self.facets.len() as u32;
+        let (start, span) = self.grown([0.0, 0.0], TILE as f64);
         let (mesh, rays, out) = (self.mesh, &self.rays, &mut self.facets);
         let mut offer = |id: u32| {
             let facet = mesh.surface_triangle(id).and_then(|triangle| Facet::new(rays, id, &triangle));
-            out.extend(facet.filter(|facet| may_cover(facet, [0.0, 0.0], rays.span)));
+            out.extend(facet.filter(|facet| may_cover(facet, start, span)));
         };
         let node = self.leaves[leaf].node;
         match mesh.leaf(node) {
@@ -372,7 +403,8 @@ impl<'a> Work<'a> {
         if !is_open || at[0] >= self.size[0] || at[1] >= self.size[1] {
             return;
         }
-        let near = narrowed((&self.facets, &self.boxes), from, [at[0] as f64, at[1] as f64], side as f64);
+        let (corner, span) = self.grown(at.map(|v| v as f64), side as f64);
+        let near = narrowed((&self.facets, &self.boxes), from, corner, span);
         if side == 1 {
             block.open[y][x] = !self.pixel(at, &near, block.rest);
             return;
@@ -386,12 +418,11 @@ impl<'a> Work<'a> {
     /// Does a pixel that sees some of these facets, unless more may be seen of the leaves that have not been opened: returns
     /// whether it is done.
     fn pixel(&mut self, [x, y]: [usize; 2], near: &[u32], rest: &[usize]) -> bool {
-        self.pieces.clear();
-        self.sight.clear();
         let corner = [x as f64, y as f64];
-        self.square(corner, [0.0, 0.0], 1.0, near);
-        let next = rest.iter().map(|&k| &self.leaves[k]).find(|leaf| leaf.meets(corner, 1.0));
-        if next.is_some_and(|leaf| !self.sight.hides(leaf.nearest)) {
+        if let Some(probes) = self.probes {
+            return self.probe([x, y], &probes, near, rest);
+        }
+        if !self.see(corner, ([0.0, 0.0], 1.0), near, rest) {
             return false;
         }
         let pixel = Pixel { setting: self.setting, rays: &self.rays, facets: &self.facets, corner };
@@ -404,6 +435,102 @@ impl<'a> Work<'a> {
             self.out.coverage[index] = self.refinery.coverage();
         }
         true
+    }
+
+    /// Finds what a square of a pixel sees of these facets; false where more of it may be seen of the leaves that have not been opened.
+    fn see(
+        &mut self,
+        pixel: [f64; 2],
+        (corner, side): ([f64; 2], f64),
+        near: &[u32],
+        rest: &[usize],
+    ) -> bool {
+        self.pieces.clear();
+        self.sight.clear();
+        self.square(pixel, corner, side, near);
+        let at = [pixel[0] + corner[0], pixel[1] + corner[1]];
+        let next = rest.iter().map(|&k| &self.leaves[k]).find(|leaf| leaf.meets(at, side));
+        next.is_none_or(|leaf| self.sight.hides(leaf.nearest))
+    }
+
+    /// A square with a margin around it that shifted samples may reach.
+    fn grown(&self, [x, y]: [f64; 2], side: f64) -> ([f64; 2], f64) {
+        let margin = if self.probes.is_some() { MOST_SHIFT } else { 0.0 };
+        ([x - margin, y - margin], side + 2.0 * margin)
+    }
+
+    /// What a pixel's samples may see, as [`Work::pixel`].
+    fn probe(&mut self, [x, y]: [usize; 2], probes: &Probes, near: &[u32], rest: &[usize]) -> bool {
+        let corner = [x as f64, y as f64];
+        let mut samples = Vec::with_capacity(probes.spots.len());
+        if probes.spots.len() >= ALIKE_FROM {
+            let all = self.outcomes(corner, ([-MOST_SHIFT; 2], 1.0 + 2.0 * MOST_SHIFT), near, rest);
+            if all.as_ref().is_some_and(Sample::has_one_paint) {
+                samples = vec![all.unwrap_or_default(); probes.spots.len()];
+            }
+        }
+        if samples.is_empty() {
+            for &[sx, sy] in probes.spots {
+                let mut shift = probes.shift * EASE;
+                let square = |shift: f64| ([sx - shift, sy - shift], 2.0 * shift);
+                if !self.see(corner, square(shift), near, rest) {
+                    return false;
+                }
+                let least = math::min(probes.shift + self.drift(corner, [sx, sy], probes), MOST_SHIFT);
+                shift = if least > shift { least } else { shift };
+                match self.outcomes(corner, square(shift), near, rest) {
+                    Some(sample) => samples.push(sample),
+                    None => return false,
+                }
+            }
+        }
+        self.out.samples[y * self.size[0] + x] = samples;
+        true
+    }
+
+    /// What may be seen and held in a square of a pixel; `None` where leaves have to be opened first.
+    fn outcomes(
+        &mut self,
+        pixel: [f64; 2],
+        (corner, side): ([f64; 2], f64),
+        near: &[u32],
+        rest: &[usize],
+    ) -> Option<Sample> {
+        if !self.see(pixel, (corner, side), near, rest) {
+            return None;
+        }
+        let pixel = Pixel { setting: self.setting, rays: &self.rays, facets: &self.facets, corner: pixel };
+        Some(self.refinery.outcomes(&pixel, &mut self.pieces, &self.sight))
+    }
+
+    /// How far on the screen, in pixels, what a spot sees lies from where it would seem to lie if it were as much farther along the ray as
+    /// depths may be off: a face through it that stands upright on the plan is met as much sooner or later.
+    fn drift(&self, pixel: [f64; 2], spot: [f64; 2], probes: &Probes) -> f64 {
+        const STEP: f64 = 1.0 / 64.0;
+        let mut fragments = self.sight.fragments.iter();
+        let Some(fragment) = fragments.next() else { return 0.0 };
+        let facet = &self.facets[fragment.facet as usize];
+        let hit = |dx: f64, dy: f64| {
+            facet.hit(&self.rays, [pixel[0] + spot[0] + dx, pixel[1] + spot[1] + dy])
+        };
+        let at = hit(0.0, 0.0);
+        let doubt = (probes.along)(self.rays.frame.depth(at.world));
+        if !(doubt > 0.0 && at.error.is_finite()) {
+            return 0.0;
+        }
+        let way = match self.rays.is_central {
+            true => (at.world - self.rays.frame.eye()).normalize_or_zero(),
+            false => self.rays.frame.forward(),
+        };
+        let along = way.truncate() * doubt;
+        let (x, y) = (
+            (hit(STEP, 0.0).plan - hit(-STEP, 0.0).plan) / (2.0 * STEP),
+            (hit(0.0, STEP).plan - hit(0.0, -STEP).plan) / (2.0 * STEP),
+        );
+        let area = x.perp_dot(y);
+        let (right, down) = (along.perp_dot(y) / area, x.perp_dot(along) / area);
+        let far = math::max(right.abs(), down.abs());
+        if far.is_finite() { far } else { MOST_SHIFT }
     }
 
     /// What the pixel's centre sees; where triangles meet there, one of them.
