@@ -17,6 +17,7 @@
 //! # Ok::<(), drapery::Error>(())
 //! ```
 
+mod allowed;
 mod difference;
 mod expected;
 mod heat_map;
@@ -26,6 +27,7 @@ mod read;
 mod report;
 mod verdict;
 
+pub use allowed::{Allowed, Choice, Extremes, FeatureRun, Hypothesis, Stage, StageRange};
 pub use difference::Difference;
 pub use expected::{Expected, Mismatch, Side};
 pub use image::{Image, ValuePlace};
