@@ -48,6 +48,8 @@
 //! each costs.
 #![cfg_attr(not(test), warn(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
+#[cfg(feature = "render")]
+pub mod allowed;
 pub mod buffer;
 #[cfg(feature = "render")]
 pub mod canvas;

@@ -91,6 +91,30 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
         ],
     ),
     ("compare", &["buffer"]),
+    // Of techniques their settings and what they refuse, never how they decide; of `canvas` the places of samples.
+    (
+        "allowed",
+        &[
+            "technique",
+            "canvas",
+            "truth",
+            "footprint",
+            "interval",
+            "certainty",
+            "resolve",
+            "stage",
+            "draw_list",
+            "terrain",
+            "scene",
+            "space",
+            "predicate",
+            "index",
+            "tiling",
+            "parallel",
+            "compare",
+            "buffer",
+        ],
+    ),
     (
         "golden",
         &[

@@ -45,10 +45,8 @@ impl Sample {
         match self.outcomes.iter_mut().find(|known| known.is_like(&outcome)) {
             Some(known) => {
                 known.plan.include_box(&outcome.plan);
-                known.depth = (
-                    math::min(known.depth.0, outcome.depth.0),
-                    math::max(known.depth.1, outcome.depth.1),
-                );
+                known.depth =
+                    (math::min(known.depth.0, outcome.depth.0), math::max(known.depth.1, outcome.depth.1));
             }
             None => self.outcomes.push(outcome),
         }

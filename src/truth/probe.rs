@@ -3,11 +3,11 @@
 //! A machine that rounds vertices takes each sample, in effect, a little beside its place, and one that rounds depths takes visible points a little
 //! along their rays. Whatever it does so, what it sees is one of a sample's outcomes.
 
+use super::Budget;
 use super::outcome::Sample;
 use super::seen::SeenPlan;
 use super::setting::Setting;
 use super::tile::{MOST_SHIFT, Probes, TILE, certify_tile};
-use super::Budget;
 use crate::buffer::Buffer;
 use crate::draw_list::DrawList;
 use crate::footprint::{Footprints, PixelSize, Strokes};
@@ -30,7 +30,10 @@ pub struct Probe<'a> {
     pub spots: &'a [[f64; 2]],
     /// How far a sample may be shifted along each axis, pixels; at most a quarter.
     pub shift: f64,
-    /// How far along its ray a visible point of a view depth (metres) may seem to lie elsewhere, metres.
+    /// How many such shifts' worth of the surface's depth a visible point may seem to lie elsewhere along its ray, because its depth is that
+    /// of another place in the square.
+    pub depths_of_shifts: f64,
+    /// How far along its ray a visible point of a view depth (metres) may seem to lie elsewhere besides, metres.
     pub along: &'a (dyn Fn(f64) -> f64 + Sync),
 }
 
@@ -50,7 +53,9 @@ pub fn probe<R: Send + Clone>(
     let budget = Budget { width: 0.0, depth: DEPTH, coverage: true };
     let setting = Setting::new(&stage.scene, mesh, (&footprints, size), budget).of_what_shows();
     let tiling = Tiling::new(view.width(), view.height(), TILE);
-    let probes = Probes { spots: of.spots, shift: math::min(of.shift, MOST_SHIFT), along: of.along };
+    let shift = math::min(of.shift, MOST_SHIFT);
+    let (spots, depths_of_shifts, along) = (of.spots, of.depths_of_shifts, of.along);
+    let probes = Probes { spots, shift, depths_of_shifts, along };
     let tiles = parallel::map_telling(tiling.count(), progress, |k| {
         let place = tiling.place(k);
         let tile = certify_tile(&setting, mesh, view, &place, Some(probes));

@@ -5,11 +5,11 @@
 
 use super::form::Line;
 use super::knowledge::{Edges, Pixel, State, first_state, polygon_at};
+use super::outcome::{Outcome, Sample};
 use super::polygon::{Halves, Pieces, Polygon, ROUNDING};
 use super::setting::Setting;
 use super::shape::{PixelGround, PixelPrimitive, Verdict};
 use super::visible::{Fragment, SPECK, Sight};
-use super::outcome::{Outcome, Sample};
 use super::{ItemCoverage, PixelCoverage};
 use crate::certainty::{Known, PaintMean, PaintRange};
 use crate::footprint::{BorderPart, Primitive};
@@ -163,7 +163,8 @@ impl Refinery {
                 let v = ground.rays.frame.depth(World::new(x, y, z));
                 depth = (math::min(v, depth.0), math::max(v, depth.1));
             }
-            let states = piece.states.map(|(first, count)| &self.states[first as usize..(first + count) as usize]);
+            let states =
+                piece.states.map(|(first, count)| &self.states[first as usize..(first + count) as usize]);
             let items = states.map(|states| states.iter().map(|s| (s.item, s.known())).collect());
             sample.add(Outcome {
                 triangle: ground.facet.id,

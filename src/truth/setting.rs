@@ -61,7 +61,19 @@ impl<'a> Setting<'a> {
         let sky = compositor.paint(scene.image.background);
         let mode = scene.compositing.mode;
         let tells_hidden = budget.coverage;
-        Self { budget, tells_hidden, footprints, pixel_size, compositor, mode, paints, sky, crowd, ground, texels }
+        Self {
+            budget,
+            tells_hidden,
+            footprints,
+            pixel_size,
+            compositor,
+            mode,
+            paints,
+            sky,
+            crowd,
+            ground,
+            texels,
+        }
     }
 
     /// The same without what lies below opaque items.

@@ -118,7 +118,9 @@ pub(super) struct Probes<'a> {
     pub(super) spots: &'a [[f64; 2]],
     /// How far a sample may be shifted along each axis, pixels.
     pub(super) shift: f64,
-    /// How far along its ray a visible point of a view depth may seem to lie elsewhere, metres.
+    /// How many such shifts' worth of the surface's depth a visible point may seem to lie elsewhere along its ray.
+    pub(super) depths_of_shifts: f64,
+    /// How far along its ray a visible point of a view depth may seem to lie elsewhere besides, metres.
     pub(super) along: &'a (dyn Fn(f64) -> f64 + Sync),
 }
 
@@ -510,16 +512,19 @@ impl<'a> Work<'a> {
         let mut fragments = self.sight.fragments.iter();
         let Some(fragment) = fragments.next() else { return 0.0 };
         let facet = &self.facets[fragment.facet as usize];
-        let hit = |dx: f64, dy: f64| {
-            facet.hit(&self.rays, [pixel[0] + spot[0] + dx, pixel[1] + spot[1] + dy])
-        };
+        let hit =
+            |dx: f64, dy: f64| facet.hit(&self.rays, [pixel[0] + spot[0] + dx, pixel[1] + spot[1] + dy]);
         let at = hit(0.0, 0.0);
-        let doubt = (probes.along)(self.rays.frame.depth(at.world));
+        let depth = |hit: Hit| self.rays.frame.depth(hit.world);
+        let slope = |dx: f64, dy: f64| (depth(hit(dx, dy)) - depth(hit(-dx, -dy))).abs() / (2.0 * STEP);
+        let moved = probes.depths_of_shifts * probes.shift * (slope(STEP, 0.0) + slope(0.0, STEP));
+        let doubt = moved + (probes.along)(depth(at));
         if !(doubt > 0.0 && at.error.is_finite()) {
             return 0.0;
         }
         let way = match self.rays.is_central {
-            true => (at.world - self.rays.frame.eye()).normalize_or_zero(),
+            // View depth 1.
+            true => (at.world - self.rays.frame.eye()) / depth(at),
             false => self.rays.frame.forward(),
         };
         let along = way.truncate() * doubt;

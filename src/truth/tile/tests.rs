@@ -493,7 +493,8 @@ fn violations_in(
     let triangles: Vec<(u32, SurfaceTriangle)> =
         (0..mesh.triangle_ids()).filter_map(|id| Some((id, mesh.surface_triangle(id)?))).collect();
     let (width, height) = (scene.image.width, scene.image.height);
-    let mut work = Work::new(&setting, mesh, frame, &TilePlace { corner: [0, 0], size: [width, height] }, None);
+    let mut work =
+        Work::new(&setting, mesh, frame, &TilePlace { corner: [0, 0], size: [width, height] }, None);
     let all: Vec<u32> = (0..work.leaves.len()).flat_map(|leaf| work.facets_of(leaf)).collect();
     for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
         let near = narrowed((&work.facets, &work.boxes), &all, [x as f64, y as f64], 1.0);

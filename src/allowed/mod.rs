@@ -1,0 +1,61 @@
+//! What a technique's picture may be, of whatever right program draws it: for each pixel the colours that machines within a declared envelope
+//! may come to.
+//!
+//! Input: a stage, a view, a technique at the scene's settings. Output: an [`Allowed`], which bundles carry and [`crate::compare`] judges by. No
+//! technique's own code decides: what may be seen and held within a sample's square is found with the truth's certified pieces
+//! ([`crate::truth::probe`]) over the technique's footprints. Refuses: techniques without a model.
+
+mod envelope;
+mod model;
+mod picture;
+mod pixel;
+mod sampled;
+mod stages;
+mod stencil_volume;
+
+pub use envelope::Envelope;
+
+use crate::compare::Allowed;
+use crate::error::{Error, Result};
+use crate::space::ViewFrame;
+use crate::stage::Stage;
+use crate::technique::{self, Kind};
+use model::{Guess, View};
+
+/// What a technique's picture of a view may be. `progress` is told the share that is done (0..=1), from any thread.
+///
+/// # Errors
+/// When the technique does not draw such a scene, or nobody knows what its picture may be.
+pub fn allowed(
+    kind: Kind,
+    (stage, frame): (&Stage, &ViewFrame),
+    progress: &(dyn Fn(f64) + Sync),
+) -> Result<Allowed> {
+    technique::applies(kind, stage)?;
+    let guesses: Vec<Guess> = Envelope::of(&stage.scene.device)
+        .into_iter()
+        .map(|envelope| Guess { name: format!("{}-bit-vertices", envelope.subpixel_bits), envelope })
+        .collect();
+    let mut all = Allowed { width: frame.width(), height: frame.height(), ..Allowed::default() };
+    let count = guesses.len() as f64;
+    for (k, guess) in guesses.iter().enumerate() {
+        let progress = |share: f64| progress((k as f64 + share) / count);
+        let view = View { stage, frame, progress: &progress };
+        let (hypothesis, stages, features) = match kind {
+            Kind::StencilVolume => {
+                stencil_volume::sampling(&stage.scene.technique.get()).picture(&view, guess)
+            }
+            _ => {
+                return Err(Error::unsupported(format!(
+                    "nobody knows what {}'s picture may be",
+                    kind.name()
+                ))
+                .help("judge it by its picture and a tolerance"));
+            }
+        };
+        all.hypotheses.push(hypothesis);
+        // The last envelope is the widest.
+        (all.stages, all.features) = (stages, features);
+    }
+    Ok(all)
+}

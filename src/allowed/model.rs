@@ -1,0 +1,22 @@
+//! What all techniques' models are asked.
+
+use super::envelope::Envelope;
+use crate::space::ViewFrame;
+use crate::stage::Stage;
+
+/// A view of a stage.
+#[derive(Clone, Copy)]
+pub(super) struct View<'a> {
+    pub(super) stage: &'a Stage,
+    pub(super) frame: &'a ViewFrame,
+    /// Is told the share that is done (0..=1), from any thread.
+    pub(super) progress: &'a (dyn Fn(f64) + Sync),
+}
+
+/// A set of choices that a machine makes the same way everywhere.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Guess {
+    /// Its name in files and reports.
+    pub(super) name: String,
+    pub(super) envelope: Envelope,
+}

@@ -1,0 +1,119 @@
+//! What a pixel may be, from what its samples may see.
+
+use crate::certainty::{PaintMean, PaintRange};
+use crate::resolve::Compositor;
+use crate::truth::{Outcome, Sample};
+
+/// Colours between two, straight alpha, encoded, 0..=1.
+pub(super) type ColorRange = [[f64; 4]; 2];
+
+/// What a pixel may be.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct PixelRange {
+    /// Around all.
+    pub(super) all: ColorRange,
+    /// It is within one of these; none: anywhere within `all`.
+    pub(super) choices: Vec<ColorRange>,
+    /// With all open answers out, and with all in.
+    pub(super) extremes: Option<[[f64; 4]; 2]>,
+    /// The items that have a say.
+    pub(super) items: Vec<u32>,
+}
+
+/// A pixel of so many combinations of its samples' outcomes has no list of them.
+const MOST_CHOICES: usize = 8;
+
+/// How blends of 8-bit targets are rounded: half a code value each.
+const BLEND: f64 = 0.5 / 255.0;
+
+impl PixelRange {
+    /// The mean of samples.
+    pub(super) fn of_samples(samples: &[Sample], compositor: &Compositor) -> Self {
+        let share = 1.0 / samples.len() as f64;
+        let color = |paints: &mut dyn Iterator<Item = PaintRange>| {
+            let mut mean = PaintMean::NOTHING;
+            paints.for_each(|paint| mean.add(&paint, share));
+            let [low, high, _] = mean.colors(compositor, 1e-12);
+            [low, high]
+        };
+        let slack = BLEND * blends(samples);
+        let mut range = Self {
+            all: widened(color(&mut samples.iter().map(Sample::paint)), slack),
+            items: items_of(samples),
+            ..Self::default()
+        };
+        let paints: Vec<Vec<PaintRange>> = samples.iter().map(different_paints).collect();
+        let count =
+            paints.iter().try_fold(1usize, |count, of| Some(count * of.len()).filter(|c| *c <= MOST_CHOICES));
+        if let Some(count) = count.filter(|count| *count > 1) {
+            for mut k in 0..count {
+                let mut picked = paints.iter().map(|of| {
+                    let paint = of[k % of.len()];
+                    k /= of.len();
+                    paint
+                });
+                let choice = widened(color(&mut picked), slack);
+                if !range.choices.contains(&choice) {
+                    range.choices.push(choice);
+                }
+            }
+        }
+        let ends: Option<Vec<_>> = samples.iter().map(ends_of).collect();
+        if let Some(ends) = ends.filter(|ends| ends.iter().any(|[least, most]| least != most)) {
+            let at = |end: usize| color(&mut ends.iter().map(|of| of[end]))[0];
+            range.extremes = Some([at(0), at(1)]);
+        }
+        range
+    }
+}
+
+/// How often a sample is blended at most, and once for its rounding.
+fn blends(samples: &[Sample]) -> f64 {
+    let outcomes = samples.iter().flat_map(|sample| &sample.outcomes);
+    let most = outcomes.map(|outcome| outcome.items.as_ref().map_or(4, Vec::len)).max().unwrap_or(0);
+    most.clamp(1, 4) as f64 + f64::from(u8::from(samples.len() > 1))
+}
+
+fn widened([low, high]: ColorRange, slack: f64) -> ColorRange {
+    [low.map(|v| v - slack), high.map(|v| v + slack)]
+}
+
+fn items_of(samples: &[Sample]) -> Vec<u32> {
+    let outcomes = samples.iter().flat_map(|sample| &sample.outcomes);
+    let mut items: Vec<u32> =
+        outcomes.flat_map(|o| o.items.iter().flatten().map(|(item, _)| *item)).collect();
+    items.sort_unstable();
+    items.dedup();
+    items
+}
+
+fn different_paints(sample: &Sample) -> Vec<PaintRange> {
+    let mut paints: Vec<PaintRange> = Vec::new();
+    for outcome in &sample.outcomes {
+        if !paints.contains(&outcome.paint) {
+            paints.push(outcome.paint);
+        }
+    }
+    paints
+}
+
+/// The paints of a sample in the fewest items and in the most; `None` where its outcomes are not a question of more or fewer.
+fn ends_of(sample: &Sample) -> Option<[PaintRange; 2]> {
+    let count = |outcome: &Outcome| outcome.items.as_ref().map(Vec::len);
+    let mut ends = [sample.outcomes.first()?; 2];
+    for outcome in &sample.outcomes {
+        if outcome.paint.width() > 0.0
+            || outcome.triangle == crate::terrain::SKY && ends[0].triangle != outcome.triangle
+        {
+            return None;
+        }
+        let held = count(outcome)?;
+        if held < count(ends[0])? {
+            ends[0] = outcome;
+        }
+        if held > count(ends[1])? {
+            ends[1] = outcome;
+        }
+    }
+    Some(ends.map(|outcome| outcome.paint))
+}

@@ -1,0 +1,100 @@
+//! What pictures may be: whatever an imitated machine within the envelope draws is allowed, and what a planted bug draws is not.
+#![cfg(feature = "render")]
+
+mod drawing;
+
+use drapery::buffer::Buffer;
+use drapery::compare::{Allowed, Hypothesis};
+use drapery::technique::Kind;
+use drawing::{frame_of, scene, stage};
+
+/// How many pixels of a picture a hypothesis does not allow.
+fn outside(hypothesis: &Hypothesis, image: &Buffer<[u8; 4]>) -> usize {
+    let fits = |code: &[u8; 4], lo: &[u16; 4], hi: &[u16; 4]| {
+        (0..4).all(|c| (lo[c]..=hi[c]).contains(&(u16::from(code[c]) * 257)))
+    };
+    let mut choices = hypothesis.choices.chunk_by(|a, b| a.pixel == b.pixel).peekable();
+    let pixels = (0u32..).zip(image.values()).filter(|(pixel, code)| {
+        let k = *pixel as usize;
+        let of_pixel = choices.next_if(|of| of[0].pixel == *pixel);
+        let is_chosen = of_pixel.is_none_or(|of| of.iter().any(|c| fits(code, &c.lo, &c.hi)));
+        !(is_chosen && fits(code, &hypothesis.lo[k], &hypothesis.hi[k]))
+    });
+    pixels.count()
+}
+
+fn allowed(kind: Kind, text: &str, changes: &[&str]) -> Allowed {
+    let stage = stage(text, changes);
+    drapery::allowed::allowed(kind, (&stage, &stage.view().unwrap()), &|_| {}).unwrap()
+}
+
+/// The fewest pixels outside of any hypothesis.
+fn best(allowed: &Allowed, image: &Buffer<[u8; 4]>) -> usize {
+    allowed.hypotheses.iter().map(|hypothesis| outside(hypothesis, image)).min().unwrap()
+}
+
+/// How many pixels may be more than two code values apart.
+fn wide(hypothesis: &Hypothesis) -> usize {
+    let is_wide = |(lo, hi): (&[u16; 4], &[u16; 4])| (0..4).any(|c| hi[c] - lo[c] > 2 * 257 + 2);
+    hypothesis.lo.iter().zip(&hypothesis.hi).filter(|pixel| is_wide(*pixel)).count()
+}
+
+const HILLS: &str = r#"kind = "fbm", seed = 3, posts = [65, 65], cell_m = 10.0, height_m = 120.0"#;
+
+/// A road, a translucent lake with a hole and a river over hills, seen from the south.
+fn hills() -> String {
+    let layers = "[[layer]]\nfeatures = [{ polygon = [[-150, -150], [120, -180], [60, 20], [160, 150], [-120, 90]] }]\n\
+         fill = { color = \"#3388ff\", opacity = 0.6 }\noutline = { color = \"#003366\", width_m = 6.0 }\n\
+         [[layer]]\nfeatures = [{ line = [[-280, -200], [0, 100], [250, -60], [300, 280]] }, { line = [[-200, 200], [-20, -40], [200, -250]] }]\n\
+         line = { color = \"#ff7f00\", width_m = 12 }\n";
+    scene(HILLS, "eye = [40, -420, 260], target = [0, 0, 40]", layers)
+}
+
+const MACHINES: [&[&str]; 5] = [
+    &[],
+    &["device.subpixel_bits=8"],
+    &["device.subpixel_bits=8", "device.precision=\"f32\""],
+    &["device.subpixel_bits=4", "device.precision=\"f32\"", "device.depth=\"unorm24\""],
+    &["device.subpixel_bits=4"],
+];
+
+#[test]
+fn what_machines_draw_is_allowed_and_little_else_is() {
+    let kinds = [Kind::StencilVolume];
+    for kind in kinds {
+        let all = allowed(kind, &hills(), &[]);
+        for machine in MACHINES {
+            let image = frame_of(kind, &stage(&hills(), machine), &[]).image;
+            let missed: Vec<usize> = all.hypotheses.iter().map(|h| outside(h, &image)).collect();
+            println!("{} {machine:?}: {missed:?}", kind.name());
+            assert_eq!(best(&all, &image), 0, "{} {machine:?}: {missed:?}", kind.name());
+        }
+        let widths: Vec<usize> = all.hypotheses.iter().map(wide).collect();
+        println!("{}: wide {widths:?} of {}", kind.name(), all.width * all.height);
+        assert!(widths[0] * 50 < all.width * all.height, "{}: {widths:?}", kind.name());
+    }
+}
+
+#[test]
+fn what_bugs_draw_is_not_allowed() {
+    let all = allowed(Kind::StencilVolume, &hills(), &["device.subpixel_bits=8"]);
+    let bugs: [(&str, &str, &str); 6] = [
+        ("wider by a twentieth", "width_m = 12 ", "width_m = 12.6 "),
+        ("a line missing", ", { line = [[-200, 200], [-20, -40], [200, -250]] }", ""),
+        (
+            "half a pixel up",
+            "eye = [40, -420, 260], target = [0, 0, 40]",
+            "eye = [40, -420, 260.0], target = [0, 0, 42.0]",
+        ),
+        ("opacity", "opacity = 0.6", "opacity = 0.58"),
+        ("outline", "width_m = 6.0", "width_m = 6.4"),
+        ("a vertex moved", "[60, 20]", "[61.5, 20]"),
+    ];
+    for (name, from, to) in bugs {
+        let text = hills().replacen(from, to, 1);
+        assert_ne!(text, hills(), "{name}");
+        let image = frame_of(Kind::StencilVolume, &stage(&text, &[]), &[]).image;
+        println!("{name}: {:?}", all.hypotheses.iter().map(|h| outside(h, &image)).collect::<Vec<_>>());
+        assert!(best(&all, &image) > 0, "{name}");
+    }
+}
