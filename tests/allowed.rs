@@ -60,7 +60,7 @@ const MACHINES: [&[&str]; 5] = [
 
 #[test]
 fn what_machines_draw_is_allowed_and_little_else_is() {
-    let kinds = [Kind::StencilVolume];
+    let kinds = [Kind::StencilVolume, Kind::StaticDecal];
     for kind in kinds {
         let all = allowed(kind, &hills(), &[]);
         for machine in MACHINES {

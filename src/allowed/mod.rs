@@ -11,6 +11,7 @@ mod picture;
 mod pixel;
 mod sampled;
 mod stages;
+mod static_decal;
 mod stencil_volume;
 
 pub use envelope::Envelope;
@@ -44,6 +45,10 @@ pub fn allowed(
         let (hypothesis, stages, features) = match kind {
             Kind::StencilVolume => {
                 stencil_volume::sampling(&stage.scene.technique.get()).picture(&view, guess)
+            }
+            Kind::StaticDecal => {
+                let settings = stage.scene.technique.get();
+                static_decal::sampling(&settings, &stage.draw_list)?.picture(&view, guess)
             }
             _ => {
                 return Err(Error::unsupported(format!(

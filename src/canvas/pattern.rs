@@ -46,6 +46,22 @@ impl SamplePattern {
             Self::Grid(side) => side * side,
         }
     }
+
+    /// Where they lie in a pixel, from its upper left corner, 0..=1.
+    pub fn places(self) -> Vec<[f64; 2]> {
+        match self {
+            Self::Multisample(places) => places.iter().map(|at| in_pixel(*at)).collect(),
+            Self::Grid(side) => {
+                let place = |k: usize| (k as f64 + 0.5) / side as f64;
+                (0..side * side).map(|k| [place(k % side), place(k / side)]).collect()
+            }
+        }
+    }
+}
+
+/// A place of a graphics processor's pattern in the pixel.
+fn in_pixel([x, y]: [i8; 2]) -> [f64; 2] {
+    [0.5 + f64::from(x) / 16.0, 0.5 + f64::from(y) / 16.0]
 }
 
 /// What the samples of a block of pixels see.
@@ -70,7 +86,6 @@ impl<'a> BlockSamples<'a> {
         let seen = match pattern {
             SamplePattern::Grid(n) => vec![see(Lattice::samples(place.corner, place.size, n))],
             SamplePattern::Multisample(places) => {
-                let in_pixel = |[x, y]: [i8; 2]| [0.5 + f64::from(x) / 16.0, 0.5 + f64::from(y) / 16.0];
                 let lattices =
                     places.iter().map(|at| Lattice::one_each(place.corner, place.size, in_pixel(*at)));
                 lattices.map(see).collect()

@@ -118,7 +118,7 @@ pub(super) struct Probes<'a> {
     pub(super) spots: &'a [[f64; 2]],
     /// How far a sample may be shifted along each axis, pixels.
     pub(super) shift: f64,
-    /// How many such shifts' worth of the surface's depth a visible point may seem to lie elsewhere along its ray.
+    /// How many shifts' worth of the surface's depth a visible point may seem to lie elsewhere along its ray.
     pub(super) depths_of_shifts: f64,
     /// How far along its ray a visible point of a view depth may seem to lie elsewhere besides, metres.
     pub(super) along: &'a (dyn Fn(f64) -> f64 + Sync),
@@ -226,9 +226,6 @@ const NEAR_SHARE: f64 = 1e-6;
 
 /// From so many samples a pixel on it is first asked whether all see the same paint.
 const ALIKE_FROM: usize = 4;
-
-/// The first square around a sample is a little larger than the shift, so that a small drift needs no second one.
-const EASE: f64 = 1.0625;
 
 /// Side of a block of pixels that open the terrain's leaves together.
 const BLOCK: usize = 8;
@@ -466,76 +463,65 @@ impl<'a> Work<'a> {
         let corner = [x as f64, y as f64];
         let mut samples = Vec::with_capacity(probes.spots.len());
         if probes.spots.len() >= ALIKE_FROM {
-            let all = self.outcomes(corner, ([-MOST_SHIFT; 2], 1.0 + 2.0 * MOST_SHIFT), near, rest);
-            if all.as_ref().is_some_and(Sample::has_one_paint) {
-                samples = vec![all.unwrap_or_default(); probes.spots.len()];
+            if !self.see(corner, ([-MOST_SHIFT; 2], 1.0 + 2.0 * MOST_SHIFT), near, rest) {
+                return false;
+            }
+            let all = self.outcomes(corner);
+            if all.has_one_paint() {
+                samples = vec![all; probes.spots.len()];
             }
         }
         if samples.is_empty() {
             for &[sx, sy] in probes.spots {
-                let mut shift = probes.shift * EASE;
                 let square = |shift: f64| ([sx - shift, sy - shift], 2.0 * shift);
-                if !self.see(corner, square(shift), near, rest) {
+                if !self.see(corner, square(probes.shift), near, rest) {
                     return false;
                 }
-                let least = math::min(probes.shift + self.drift(corner, [sx, sy], probes), MOST_SHIFT);
-                shift = if least > shift { least } else { shift };
-                match self.outcomes(corner, square(shift), near, rest) {
-                    Some(sample) => samples.push(sample),
-                    None => return false,
+                let reach = self.reach(corner, [sx, sy], probes);
+                if reach > probes.shift && !self.see(corner, square(reach), near, rest) {
+                    return false;
                 }
+                samples.push(self.outcomes(corner));
             }
         }
         self.out.samples[y * self.size[0] + x] = samples;
         true
     }
 
-    /// What may be seen and held in a square of a pixel; `None` where leaves have to be opened first.
-    fn outcomes(
-        &mut self,
-        pixel: [f64; 2],
-        (corner, side): ([f64; 2], f64),
-        near: &[u32],
-        rest: &[usize],
-    ) -> Option<Sample> {
-        if !self.see(pixel, (corner, side), near, rest) {
-            return None;
-        }
+    /// What may be seen and held in the square of a pixel that was looked at last.
+    fn outcomes(&mut self, pixel: [f64; 2]) -> Sample {
         let pixel = Pixel { setting: self.setting, rays: &self.rays, facets: &self.facets, corner: pixel };
-        Some(self.refinery.outcomes(&pixel, &mut self.pieces, &self.sight))
+        self.refinery.outcomes(&pixel, &mut self.pieces, &self.sight)
     }
 
-    /// How far on the screen, in pixels, what a spot sees lies from where it would seem to lie if it were as much farther along the ray as
-    /// depths may be off: a face through it that stands upright on the plan is met as much sooner or later.
-    fn drift(&self, pixel: [f64; 2], spot: [f64; 2], probes: &Probes) -> f64 {
+    /// How far a spot's sample may be shifted for what it seems to see to be all that it may, pixels. What is seen may lie elsewhere along the
+    /// ray; a face through it that stands upright on the plan is met as much sooner or later.
+    fn reach(&self, pixel: [f64; 2], spot: [f64; 2], probes: &Probes) -> f64 {
         const STEP: f64 = 1.0 / 64.0;
-        let mut fragments = self.sight.fragments.iter();
-        let Some(fragment) = fragments.next() else { return 0.0 };
+        let Some(fragment) = self.sight.fragments.first() else { return probes.shift };
         let facet = &self.facets[fragment.facet as usize];
         let hit =
             |dx: f64, dy: f64| facet.hit(&self.rays, [pixel[0] + spot[0] + dx, pixel[1] + spot[1] + dy]);
         let at = hit(0.0, 0.0);
-        let depth = |hit: Hit| self.rays.frame.depth(hit.world);
-        let slope = |dx: f64, dy: f64| (depth(hit(dx, dy)) - depth(hit(-dx, -dy))).abs() / (2.0 * STEP);
-        let moved = probes.depths_of_shifts * probes.shift * (slope(STEP, 0.0) + slope(0.0, STEP));
-        let doubt = moved + (probes.along)(depth(at));
-        if !(doubt > 0.0 && at.error.is_finite()) {
-            return 0.0;
-        }
+        let depth = |hit: &Hit| self.rays.frame.depth(hit.world);
+        let (right, down) = ([hit(STEP, 0.0), hit(-STEP, 0.0)], [hit(0.0, STEP), hit(0.0, -STEP)]);
+        let slope = |[a, b]: &[Hit; 2]| (depth(a) - depth(b)).abs() / (2.0 * STEP);
         let way = match self.rays.is_central {
             // View depth 1.
-            true => (at.world - self.rays.frame.eye()) / depth(at),
+            true => (at.world - self.rays.frame.eye()) / depth(&at),
             false => self.rays.frame.forward(),
         };
-        let along = way.truncate() * doubt;
-        let (x, y) = (
-            (hit(STEP, 0.0).plan - hit(-STEP, 0.0).plan) / (2.0 * STEP),
-            (hit(0.0, STEP).plan - hit(0.0, -STEP).plan) / (2.0 * STEP),
-        );
+        let [x, y] = [&right, &down].map(|[a, b]| (a.plan - b.plan) / (2.0 * STEP));
         let area = x.perp_dot(y);
-        let (right, down) = (along.perp_dot(y) / area, x.perp_dot(along) / area);
-        let far = math::max(right.abs(), down.abs());
-        if far.is_finite() { far } else { MOST_SHIFT }
+        let pixels = |metres: f64| {
+            let along = way.truncate() * metres;
+            let far = math::max((along.perp_dot(y) / area).abs(), (x.perp_dot(along) / area).abs());
+            // Seen edge-on: whatever is near.
+            if far.is_finite() { far } else { MOST_SHIFT }
+        };
+        let of_shift = pixels(probes.depths_of_shifts * probes.shift * (slope(&right) + slope(&down)));
+        let all = math::max(probes.shift, of_shift) + pixels((probes.along)(depth(&at)));
+        math::min(all, MOST_SHIFT)
     }
 
     /// What the pixel's centre sees; where triangles meet there, one of them.
