@@ -50,6 +50,17 @@ fn hills() -> String {
     scene(HILLS, "eye = [40, -420, 260], target = [0, 0, 40]", layers)
 }
 
+/// Outlines inside and outside of a wide ring and of a narrow polygon with an acute corner, round lines, and a bevelled one.
+fn outlines() -> String {
+    let layers = "[[layer]]\nfeatures = [{ polygon = [[[-150, -150], [120, -180], [60, 20], [160, 150], [-120, 90]], [[-60, -60], [20, -50], [-20, 40]]] }]\n\
+         outline = { color = \"#003366\", width_m = 24.0, mode = \"inset\", opacity = 0.7 }\n\
+         [[layer]]\nfeatures = [{ polygon = [[150, -150], [220, 180], [170, 120]] }]\n\
+         outline = { color = \"#660033\", width_m = 18.0, mode = \"offset\", join = \"round\" }\n\
+         [[layer]]\nfeatures = [{ line = [[-280, -200], [-100, 200], [-200, -250]] }]\n\
+         line = { color = \"#ff7f00\", width_m = 12, opacity = 0.5, join = \"bevel\", cap = \"square\" }\n";
+    scene(HILLS, "eye = [40, -420, 260], target = [0, 0, 40]", layers)
+}
+
 const MACHINES: [&[&str]; 5] = [
     &[],
     &["device.subpixel_bits=8"],
@@ -61,10 +72,10 @@ const MACHINES: [&[&str]; 5] = [
 #[test]
 fn what_machines_draw_is_allowed_and_little_else_is() {
     let kinds = [Kind::StencilVolume, Kind::StaticDecal];
-    for kind in kinds {
-        let all = allowed(kind, &hills(), &[]);
+    for (kind, text) in kinds.into_iter().flat_map(|kind| [(kind, hills()), (kind, outlines())]) {
+        let all = allowed(kind, &text, &[]);
         for machine in MACHINES {
-            let image = frame_of(kind, &stage(&hills(), machine), &[]).image;
+            let image = frame_of(kind, &stage(&text, machine), &[]).image;
             let missed: Vec<usize> = all.hypotheses.iter().map(|h| outside(h, &image)).collect();
             println!("{} {machine:?}: {missed:?}", kind.name());
             assert_eq!(best(&all, &image), 0, "{} {machine:?}: {missed:?}", kind.name());

@@ -2,7 +2,7 @@
 
 use super::sampled::Sampling;
 use crate::canvas::SamplePattern;
-use crate::draw_list::DrawList;
+use crate::draw_list::{DrawList, ItemStyle};
 use crate::error::{Error, Result};
 use crate::footprint::Strokes;
 use crate::technique::static_decal::{Edges, Joins, Outlines, Overlaps, Settings};
@@ -19,18 +19,14 @@ pub(super) fn sampling(settings: &Settings, list: &DrawList) -> Result<Sampling>
     if settings.edges == Edges::Analytic {
         return Err(unknown("edges = \"analytic\"", "technique.static-decal.edges = \"sampled\""));
     }
-    let mut styles = list.styles().iter().filter(|style| style.stroke.is_some());
-    if settings.overlaps == Overlaps::Double && styles.clone().any(|style| style.paint.0[3] < 1.0) {
+    let is_translucent = |style: &ItemStyle| style.stroke.is_some() && style.paint.0[3] < 1.0;
+    if settings.overlaps == Overlaps::Double && list.styles().iter().any(is_translucent) {
         let instead = "technique.static-decal.overlaps = \"once\"";
         return Err(unknown("overlaps = \"double\" of translucent lines", instead));
     }
-    if settings.outlines == Outlines::Side && styles.any(|style| style.cut.is_some()) {
-        let instead = "technique.static-decal.outlines = \"polygon\"";
-        return Err(unknown("outlines = \"side\" of outlines that are inset or offset", instead));
-    }
-    let strokes = match settings.joins {
-        Joins::Thesis => Strokes::RoundBelow40,
-        Joins::Style => Strokes::Style,
+    let strokes = Strokes::Decals {
+        is_round_below_40: settings.joins == Joins::Thesis,
+        is_cut_by_side: settings.outlines == Outlines::Side,
     };
     let spots = SamplePattern::of(settings.samples).map_or_else(Vec::new, SamplePattern::places);
     // A plan point is that of the terrain's depth along the pixel's ray, or interpolated.

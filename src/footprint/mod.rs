@@ -86,6 +86,9 @@ pub struct Footprints<'l> {
 /// Tells whether a box of the plan can be seen.
 pub type IsSeen<'s> = dyn Fn(&PlanBox) -> bool + Sync + 's;
 
+/// How far beside a segment its polygon is asked for, as a share of the segment's length.
+const BESIDE: f64 = 1e-6;
+
 /// No number of an area.
 const NO_AREA: u32 = u32::MAX;
 
@@ -145,7 +148,7 @@ impl<'l> Footprints<'l> {
     #[inline]
     pub fn wants_polygon(&self, item: u32) -> Option<bool> {
         let style = self.list.style_of(item);
-        match (style.role, style.cut) {
+        match (style.role, style.cut.filter(|_| !self.strokes.is_cut_by_side())) {
             (Role::Fill, _) | (_, Some(Side::Inside)) => Some(true),
             (Role::Outside, _) | (_, Some(Side::Outside)) => Some(false),
             (Role::Outline | Role::Line | Role::Point, None) => None,
@@ -171,10 +174,28 @@ impl<'l> Footprints<'l> {
         match stroke_of(self.list, part.item, part.chain) {
             Some((chain, line)) => {
                 let segment = segment_of(vertices, chain, at);
-                stroke::primitives(&segment, line, (&self.pixel, self.strokes), out);
+                let of = (&self.pixel, self.strokes);
+                match self.list.style_of(part.item).cut.filter(|_| self.strokes.is_cut_by_side()) {
+                    Some(cut) => {
+                        let is_left = self.has_polygon_on_the_left(part.item, &segment);
+                        let is_left = is_left.map(|is_left| is_left == (cut == Side::Inside));
+                        stroke::side_primitives(&segment, line, of, is_left, out);
+                    }
+                    None => stroke::primitives(&segment, line, of, out),
+                }
             }
             None => out.push(Primitive::Edge { from: vertices[at], to: vertices[at + 1] }),
         }
+    }
+
+    /// Whether an item's polygon lies on the left of a segment of its outline, rather than on the right; `None`: on both, or on neither.
+    fn has_polygon_on_the_left(&self, item: u32, segment: &stroke::Segment) -> Option<bool> {
+        let along = segment.to - segment.from;
+        let middle = segment.from + along * 0.5;
+        // Beside the segment, nearer than anything that is drawn on purpose.
+        let aside = along.perp() * BESIDE;
+        let [left, right] = [aside, -aside].map(|by| self.polygon_holds(item, middle + by));
+        (left != right).then_some(left)
     }
 
     /// Bytes held, without the draw list.

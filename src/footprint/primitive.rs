@@ -4,7 +4,7 @@ use crate::interval::Ball;
 use crate::space::{Plan, PlanBox};
 
 /// The most half planes of a [`Convex`].
-pub const MOST_SIDES: usize = 4;
+pub const MOST_SIDES: usize = 5;
 
 /// The plan points p with `normal . (p - at) + offset >= 0`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,6 +53,17 @@ impl Convex {
         let mut all = [sides[0]; MOST_SIDES];
         all[..sides.len()].copy_from_slice(sides);
         Self { sides: all, count: sides.len() }
+    }
+
+    /// The points of it that are in another half plane, too.
+    ///
+    /// # Panics
+    /// When it has [`MOST_SIDES`] already.
+    pub(super) fn cut(&self, by: HalfPlane) -> Self {
+        let mut all = *self;
+        all.sides[all.count] = by;
+        all.count += 1;
+        all
     }
 
     /// The half planes.

@@ -18,8 +18,24 @@ pub enum Strokes {
     Rectangles,
     /// What their style says, of polygons: a disc has [`DISC_CORNERS`] corners.
     Polygons,
-    /// Miters without a limit down to 40 degrees between segments, below that and at ends discs (Zechmeister 2020, 4.2.1).
-    RoundBelow40,
+    /// Those of static decals (Zechmeister 2020).
+    Decals {
+        /// Miters without a limit down to 40 degrees between segments, below that and at ends discs (4.2.1); else what the style says.
+        is_round_below_40: bool,
+        /// Outlines are cut to their polygon by the side of each segment (Fig. 4.8); else by the polygon.
+        is_cut_by_side: bool,
+    },
+}
+
+impl Strokes {
+    fn is_round_below_40(self) -> bool {
+        matches!(self, Self::Decals { is_round_below_40: true, .. })
+    }
+
+    /// Whether outlines are cut by the sides of segments.
+    pub(super) fn is_cut_by_side(self) -> bool {
+        matches!(self, Self::Decals { is_cut_by_side: true, .. })
+    }
 }
 
 /// A segment of a stroke.
@@ -50,7 +66,7 @@ pub(super) fn bounds(segment: &Segment, line: &Line, (pixel, strokes): (&PixelSi
     let (half, growth) = half_width(line, pixel);
     let reach = match (line.join, line.width) {
         (_, Width::Pixels(_)) if grows_with_distance(line, pixel) => dynamic_reach(segment, growth, pixel),
-        (Join::Miter { .. }, Width::Metres(_)) if strokes == Strokes::RoundBelow40 => half * REACH_OF_40,
+        (Join::Miter { .. }, Width::Metres(_)) if strokes.is_round_below_40() => half * REACH_OF_40,
         (Join::Miter { limit }, Width::Metres(_)) => half * math::max(limit, std::f64::consts::SQRT_2),
         _ => half * std::f64::consts::SQRT_2,
     };
@@ -93,11 +109,11 @@ pub(super) fn primitives(
         return;
     }
     let disc = |at: Plan, out: &mut Vec<Primitive>| match strokes {
-        Strokes::Polygons => disc_polygon(at, half, out),
+        Strokes::Polygons => out.extend(disc_slabs(at, half).map(Primitive::Convex)),
         _ => out.push(Primitive::Near { from: at, to: at, reach: half, growth: 0.0 }),
     };
     let cap = match (strokes, line.cap) {
-        (Strokes::RoundBelow40, _) => Cap::Round,
+        _ if strokes.is_round_below_40() => Cap::Round,
         (Strokes::Rectangles, Cap::Round) => Cap::Butt,
         (_, cap) => cap,
     };
@@ -123,13 +139,57 @@ pub(super) fn primitives(
     match (strokes, line.join) {
         (Strokes::Rectangles, _) => {}
         (_, Join::Round) => disc(from, out),
-        (Strokes::RoundBelow40, Join::Miter { .. }) => round_below_40(before, from, to, half, out),
+        (_, Join::Miter { .. }) if strokes.is_round_below_40() => round_below_40(before, from, to, half, out),
         (_, Join::Miter { limit }) => join(before, from, to, half, Some(limit), out),
         (_, Join::Bevel) => join(before, from, to, half, None, out),
     }
 }
 
-/// A join of [`Strokes::RoundBelow40`].
+/// The part of a segment's stroke that lies on one side of it (Zechmeister 2020, 4.4.1: a sample is in the outline if it is on the polygon's side of a
+/// segment that holds it). `is_left`: which; `None`: it is not known.
+pub(super) fn side_primitives(
+    segment: &Segment,
+    line: &Line,
+    of: (&PixelSize, Strokes),
+    is_left: Option<bool>,
+    out: &mut Vec<Primitive>,
+) {
+    let mut whole = Vec::new();
+    primitives(segment, line, of, &mut whole);
+    let (half, _) = half_width(line, of.0);
+    if line.join == Join::Round && !segment.is_last {
+        // A round join is of both segments, and each has a side of its own.
+        whole.push(Primitive::Near { from: segment.to, to: segment.to, reach: half, growth: 0.0 });
+    }
+    let [along, ..] = Primitive::edge_sides(segment.from, segment.to);
+    let right = HalfPlane { normal: along.normal.map(|n| -n), ..along };
+    for (side, is_wanted) in [(along, is_left != Some(false)), (right, is_left != Some(true))] {
+        let mut add = |shape: &Convex, is_sure: bool| {
+            let part = shape.cut(side);
+            out.push(if is_sure && is_left.is_some() {
+                Primitive::Convex(part)
+            } else {
+                Primitive::Perhaps(part)
+            });
+        };
+        for primitive in whole.iter().filter(|_| is_wanted) {
+            match primitive {
+                Primitive::Convex(shape) => add(shape, true),
+                Primitive::Perhaps(shape) => add(shape, false),
+                Primitive::Near { from, reach, .. } => {
+                    // A disc lies between two polygons.
+                    let around = reach / math::cos(std::f64::consts::PI / DISC_CORNERS as f64) * (1.0 + 1e-9);
+                    for (radius, is_sure) in [(*reach, true), (around, false)] {
+                        disc_slabs(*from, radius).iter().for_each(|slab| add(slab, is_sure));
+                    }
+                }
+                Primitive::Edge { .. } => {}
+            }
+        }
+    }
+}
+
+/// A join of static decals.
 fn round_below_40(before: Plan, at: Plan, after: Plan, half: f64, out: &mut Vec<Primitive>) {
     let (into, leaving) = (at - before, after - at);
     let lengths = into.length() * leaving.length();
@@ -151,10 +211,10 @@ fn round_below_40(before: Plan, at: Plan, after: Plan, half: f64, out: &mut Vec<
     }
 }
 
-/// A disc as a polygon: slabs between opposite sides.
-fn disc_polygon(at: Plan, radius: f64, out: &mut Vec<Primitive>) {
+/// A disc as a polygon, in slabs between opposite sides.
+fn disc_slabs(at: Plan, radius: f64) -> [Convex; DISC_CORNERS / 2 - 1] {
     let corners = disc_corners(at, radius);
-    for k in 0..DISC_CORNERS / 2 - 1 {
+    std::array::from_fn(|k| {
         let opposite = DISC_CORNERS - 1 - k;
         let ring = [corners[k], corners[k + 1], corners[opposite - 1], corners[opposite]];
         let side = |a: Plan, b: Plan| {
@@ -163,9 +223,8 @@ fn disc_polygon(at: Plan, radius: f64, out: &mut Vec<Primitive>) {
         };
         let turn = if orient2d(ring[0], ring[1], ring[2]) < 0.0 { [3, 2, 1, 0] } else { [0, 1, 2, 3] };
         let [a, b, c, d] = turn.map(|k| ring[k]);
-        let sides = [side(a, b), side(b, c), side(c, d), side(d, a)];
-        out.push(Primitive::Convex(Convex::new(&sides)));
-    }
+        Convex::new(&[side(a, b), side(b, c), side(c, d), side(d, a)])
+    })
 }
 
 /// A square whose sides lie along the axes: the dot of a line that has no direction.
