@@ -109,3 +109,72 @@ fn what_bugs_draw_is_not_allowed() {
         assert!(best(&all, &image) > 0, "{name}");
     }
 }
+
+/// Every scene among the goldens, by every machine that is allowed: about ten minutes of two cores in a release build.
+#[test]
+#[ignore = "minutes; the goldens' own pictures are looked at by `golden check`"]
+fn what_machines_draw_of_every_golden_is_allowed() {
+    let only = std::env::var("DRAPERY_ALLOWED").unwrap_or_default();
+    let mut paths: Vec<_> = std::fs::read_dir("golden")
+        .unwrap()
+        .filter_map(|topic| {
+            let topic = topic.unwrap().path();
+            topic.is_dir().then(|| std::fs::read_dir(topic).unwrap().map(|file| file.unwrap().path()))
+        })
+        .flatten()
+        .filter(|path| {
+            path.extension().is_some_and(|e| e == "toml") && !path.to_string_lossy().ends_with("golden.toml")
+        })
+        .collect();
+    paths.sort();
+    for path in paths {
+        let text = std::fs::read_to_string(&path).unwrap();
+        for kind in [Kind::StencilVolume, Kind::StaticDecal] {
+            let name = format!("{} {}", path.display(), kind.name());
+            if !name.contains(&only) {
+                continue;
+            }
+            let open = |changes: &[&str]| {
+                let changes: Vec<_> =
+                    changes.iter().map(|c| drapery::scene_file::Override::parse(c).unwrap()).collect();
+                let file = drapery::scene_file::SceneFile::parse(&text, Some(&path), &changes).ok()?;
+                let (scene, surface) = drapery::source::load::load(&file, &|_| {}).ok()?;
+                drapery::stage::Stage::new(scene, surface).ok()
+            };
+            let Some(stage) = open(&[]) else {
+                println!("{name}: not opened");
+                continue;
+            };
+            if drapery::technique::applies(kind, &stage).is_err() {
+                continue;
+            }
+            let view = stage.view().unwrap();
+            let start = std::time::Instant::now();
+            let all = match drapery::allowed::allowed(kind, (&stage, &view), &|_| {}) {
+                Ok(all) => all,
+                Err(error) => {
+                    println!("{name}: {error}");
+                    continue;
+                }
+            };
+            let took = start.elapsed().as_secs_f64();
+            let start = std::time::Instant::now();
+            let _ = drawing::truth_of(&stage);
+            let truth = start.elapsed().as_secs_f64();
+            let size = all.width * all.height;
+            let widths: Vec<f64> =
+                all.hypotheses.iter().map(|h| (wide(h) * 1000 / size) as f64 / 10.0).collect();
+            print!("{name}: wide {widths:?} %, {:.1} truths;", took / truth);
+            let exact = stage.scene.device.is_exact();
+            let mut worst = 0;
+            for machine in if exact { &MACHINES[..] } else { &MACHINES[..1] } {
+                let Some(stage) = open(machine) else { continue };
+                let image = frame_of(kind, &stage, &[]).image;
+                let missed: Vec<usize> = all.hypotheses.iter().map(|h| outside(h, &image)).collect();
+                worst = worst.max(*missed.iter().min().unwrap());
+                print!(" {missed:?}");
+            }
+            println!("{}", if worst > 0 { " OUTSIDE" } else { "" });
+        }
+    }
+}

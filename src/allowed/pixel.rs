@@ -23,12 +23,21 @@ pub(super) struct PixelRange {
 /// A pixel of so many combinations of its samples' outcomes has no list of them.
 const MOST_CHOICES: usize = 8;
 
-/// How blends of 8-bit targets are rounded: half a code value each.
-const BLEND: f64 = 0.5 / 255.0;
+/// A rounding to code values: half of one, and a hair for arithmetic in single precision.
+const ROUNDING: f64 = 0.51 / 255.0;
+
+/// Where colours are composed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Blending {
+    /// In a shader: they are rounded once, when they are written.
+    Shader,
+    /// In a target of code values: they are rounded at each blend.
+    Target,
+}
 
 impl PixelRange {
     /// The mean of samples.
-    pub(super) fn of_samples(samples: &[Sample], compositor: &Compositor) -> Self {
+    pub(super) fn of_samples(samples: &[Sample], compositor: &Compositor, blending: Blending) -> Self {
         let share = 1.0 / samples.len() as f64;
         let color = |paints: &mut dyn Iterator<Item = PaintRange>| {
             let mut mean = PaintMean::NOTHING;
@@ -36,7 +45,10 @@ impl PixelRange {
             let [low, high, _] = mean.colors(compositor, 1e-12);
             [low, high]
         };
-        let slack = BLEND * blends(samples);
+        let slack = match blending {
+            Blending::Shader => ROUNDING,
+            Blending::Target => ROUNDING * blends(samples),
+        };
         let mut range = Self {
             all: widened(color(&mut samples.iter().map(Sample::paint)), slack),
             items: items_of(samples),

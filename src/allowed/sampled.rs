@@ -1,9 +1,9 @@
 //! Techniques that take samples: a pixel is the mean of what points of it see and are held by.
 
-use super::envelope::Envelope;
+use super::envelope::COORDINATES;
 use super::model::{Guess, View};
 use super::picture;
-use super::pixel::PixelRange;
+use super::pixel::{Blending, PixelRange};
 use super::stages::{Seen, stages};
 use crate::buffer::Buffer;
 use crate::compare::{FeatureRun, Hypothesis, Stage};
@@ -19,6 +19,7 @@ pub(super) struct Sampling {
     pub(super) strokes: Strokes,
     /// How many shifts' worth of depth a comparison of two surfaces may be off: see [`Probe::depths_of_shifts`].
     pub(super) depths_of_shifts: f64,
+    pub(super) blending: Blending,
 }
 
 /// What a pixel may be, and what its centre may see.
@@ -33,7 +34,6 @@ impl Sampling {
     pub(super) fn picture(&self, view: &View, guess: &Guess) -> (Hypothesis, Vec<Stage>, Vec<FeatureRun>) {
         let stage = view.stage;
         let compositor = Compositor::new(stage.scene.compositing);
-        let Envelope { .. } = guess.envelope;
         let along = |depth: f64| guess.envelope.along(view.frame, depth);
         let centre = [0.5; 2];
         let mut spots = self.spots.clone();
@@ -49,13 +49,14 @@ impl Sampling {
             shift: guess.envelope.shift(),
             depths_of_shifts: self.depths_of_shifts,
             along: &along,
+            share: COORDINATES,
         };
         let judged: Buffer<Judged> = probe(
             stage,
             view.frame,
             &of,
             &|_, samples| Judged {
-                range: PixelRange::of_samples(&samples[..count], &compositor),
+                range: PixelRange::of_samples(&samples[..count], &compositor, self.blending),
                 centre: Seen::of(&samples[at_centre], &along),
             },
             view.progress,

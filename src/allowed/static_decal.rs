@@ -1,5 +1,6 @@
 //! Static decals (Zechmeister 2020): a sample is painted where its plan point lies in polygons, and in strokes as the thesis joins them.
 
+use super::pixel::Blending;
 use super::sampled::Sampling;
 use crate::canvas::SamplePattern;
 use crate::draw_list::{DrawList, ItemStyle};
@@ -30,5 +31,5 @@ pub(super) fn sampling(settings: &Settings, list: &DrawList) -> Result<Sampling>
     };
     let spots = SamplePattern::of(settings.samples).map_or_else(Vec::new, SamplePattern::places);
     // A plan point is that of the terrain's depth along the pixel's ray, or interpolated.
-    Ok(Sampling { spots, strokes, depths_of_shifts: 1.0 })
+    Ok(Sampling { spots, strokes, depths_of_shifts: 1.0, blending: Blending::Shader })
 }

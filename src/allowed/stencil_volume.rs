@@ -1,5 +1,6 @@
 //! Stencil volumes (Schneider & Klein 2007): a sample is painted where its visible point lies between walls that stand on footprints.
 
+use super::pixel::Blending;
 use super::sampled::Sampling;
 use crate::canvas::SamplePattern;
 use crate::footprint::Strokes;
@@ -13,5 +14,5 @@ pub(super) fn sampling(settings: &Settings) -> Sampling {
         VolumeJoins::Style => Strokes::Polygons,
     };
     // A wall's depth is that of a place within a shift, and the terrain's that of another within a shift: two apart, and one from here.
-    Sampling { spots, strokes, depths_of_shifts: 3.0 }
+    Sampling { spots, strokes, depths_of_shifts: 3.0, blending: Blending::Target }
 }

@@ -35,6 +35,8 @@ pub struct Probe<'a> {
     pub depths_of_shifts: f64,
     /// How far along its ray a visible point of a view depth (metres) may seem to lie elsewhere besides, metres.
     pub along: &'a (dyn Fn(f64) -> f64 + Sync),
+    /// How far a visible point's coordinates may be off, as a share of their size (how large they are and how far the eye is).
+    pub share: f64,
 }
 
 /// What `judge` makes of each pixel's samples; it is told the pixel (column, row) and its samples in the order of the spots.
@@ -55,7 +57,7 @@ pub fn probe<R: Send + Clone>(
     let tiling = Tiling::new(view.width(), view.height(), TILE);
     let shift = math::min(of.shift, MOST_SHIFT);
     let (spots, depths_of_shifts, along) = (of.spots, of.depths_of_shifts, of.along);
-    let probes = Probes { spots, shift, depths_of_shifts, along };
+    let probes = Probes { spots, shift, depths_of_shifts, along, share: of.share };
     let tiles = parallel::map_telling(tiling.count(), progress, |k| {
         let place = tiling.place(k);
         let tile = certify_tile(&setting, mesh, view, &place, Some(probes));

@@ -122,6 +122,8 @@ pub(super) struct Probes<'a> {
     pub(super) depths_of_shifts: f64,
     /// How far along its ray a visible point of a view depth may seem to lie elsewhere besides, metres.
     pub(super) along: &'a (dyn Fn(f64) -> f64 + Sync),
+    /// How far a visible point's coordinates may be off, as a share of their size.
+    pub(super) share: f64,
 }
 
 /// The largest shift of a sample, pixels: more than that is no question of rounding.
@@ -520,7 +522,10 @@ impl<'a> Work<'a> {
             if far.is_finite() { far } else { MOST_SHIFT }
         };
         let of_shift = pixels(probes.depths_of_shifts * probes.shift * (slope(&right) + slope(&down)));
-        let all = math::max(probes.shift, of_shift) + pixels((probes.along)(depth(&at)));
+        let size = at.world.to_vec().abs().max_element() + (at.world - self.rays.frame.eye()).length();
+        let aside = probes.share * size * (x.length() + y.length()) / area.abs();
+        let of_coordinates = if aside.is_finite() { aside } else { MOST_SHIFT };
+        let all = math::max(probes.shift, of_shift) + pixels((probes.along)(depth(&at))) + of_coordinates;
         math::min(all, MOST_SHIFT)
     }
 
