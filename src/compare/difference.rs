@@ -30,6 +30,11 @@ impl Difference {
         Ok(Self(image))
     }
 
+    /// Distances that are known already.
+    pub(super) fn known(distances: Image) -> Self {
+        Self(distances)
+    }
+
     /// The distances as a picture.
     pub fn distances(&self) -> &Image {
         &self.0

@@ -40,6 +40,31 @@ impl Expected {
         Ok(Self { lo, hi: Some(hi) })
     }
 
+    /// The same, each end moved outward by a share of itself. Infinite ends stay.
+    pub(super) fn widened(&self, share: f64) -> Self {
+        let moved = |image: &Image, sign: f64| {
+            let mut image = image.clone();
+            let finite = image.values_mut().iter_mut().filter(|value| value.is_finite());
+            finite.for_each(|value| *value += sign * share * value.abs());
+            image
+        };
+        Self { lo: moved(&self.lo, -1.0), hi: Some(moved(self.hi(), 1.0)) }
+    }
+
+    /// The same, and of some pixels whatever there is.
+    ///
+    /// # Panics
+    /// When it is not told of each pixel.
+    #[must_use]
+    pub fn ignoring(&self, ignored: &[bool]) -> Self {
+        let with = |image: &Image, value: f64| {
+            let mut image = image.clone();
+            image.fill_pixels(ignored, value);
+            image
+        };
+        Self { lo: with(&self.lo, f64::NEG_INFINITY), hi: Some(with(self.hi(), f64::INFINITY)) }
+    }
+
     /// The lower ends.
     pub fn lo(&self) -> &Image {
         &self.lo

@@ -45,6 +45,12 @@ impl Image {
         Ok(Self { width, height, channels, values })
     }
 
+    /// A picture that is known to be filled.
+    pub(super) fn filled(width: usize, height: usize, channels: usize, values: Vec<f64>) -> Self {
+        debug_assert_eq!(values.len(), width * height * channels, "values fill a picture");
+        Self { width, height, channels, values }
+    }
+
     /// A picture of 8-bit code values.
     ///
     /// # Errors
@@ -92,6 +98,33 @@ impl Image {
 
     pub(super) fn values_mut(&mut self) -> &mut [f64] {
         &mut self.values
+    }
+
+    /// The same, with 0 in some pixels: what is not looked at need be no number.
+    ///
+    /// # Panics
+    /// When it is not told of each pixel.
+    #[must_use]
+    pub fn without(mut self, ignored: &[bool]) -> Self {
+        self.fill_pixels(ignored, 0.0);
+        self
+    }
+
+    /// Gives some pixels a value in every channel.
+    pub(super) fn fill_pixels(&mut self, which: &[bool], value: f64) {
+        assert_eq!(which.len(), self.width * self.height, "pixels and what is told of them");
+        let pixels = self.values.chunks_exact_mut(self.channels).zip(which);
+        pixels.filter(|(_, is_meant)| **is_meant).for_each(|(pixel, _)| pixel.fill(value));
+    }
+
+    /// Of each pixel of a mask, whether it is marked: whether it has a colour other than black, and is not transparent.
+    pub fn marked(&self) -> Vec<bool> {
+        let is_marked = |pixel: &[f64]| {
+            let colors = pixel.len() - usize::from([2, 4].contains(&pixel.len()));
+            pixel[..colors].iter().any(|value| *value != 0.0)
+                && pixel[colors..].iter().all(|alpha| *alpha != 0.0)
+        };
+        self.values.chunks_exact(self.channels).map(is_marked).collect()
     }
 
     /// Where the value of this index is.

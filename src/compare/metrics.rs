@@ -48,6 +48,25 @@ pub struct Window {
     pub failing: usize,
 }
 
+impl Metrics {
+    /// Those of a picture that is as expected.
+    pub(super) fn of_no_distance(channels: usize) -> Self {
+        let channel_max = vec![0.0; channels];
+        let (max, mean, rmse, p99, over_one_code_value) = (0.0, 0.0, 0.0, 0.0, 0.0);
+        Self {
+            max,
+            worst: None,
+            mean,
+            rmse,
+            p99,
+            channel_max,
+            over_one_code_value,
+            failing: 0,
+            densest: None,
+        }
+    }
+}
+
 impl Difference {
     /// The numbers of the comparison. A pixel fails when one of its values is over the tolerance.
     pub fn metrics(&self, tolerance: f64) -> Metrics {
@@ -74,6 +93,24 @@ impl Difference {
     }
 }
 
+impl Difference {
+    /// The windows with most failing pixels, none of which shares a failing pixel with another; most first, a few at most.
+    pub fn windows(&self, tolerance: f64) -> Vec<Window> {
+        const MOST: usize = 8;
+        let (width, height) = (self.distances().width(), self.distances().height());
+        let mut failing: Vec<bool> = self.of_pixels().map(|d| is_over(d, tolerance)).collect();
+        let mut windows = Vec::new();
+        while windows.len() < MOST {
+            let Some(window) = densest(&failing, width, height) else { break };
+            for y in window.y..window.y + window.height {
+                failing[y * width + window.x..][..window.width].fill(false);
+            }
+            windows.push(window);
+        }
+        windows
+    }
+}
+
 fn channel_max(values: &[f64], channels: usize) -> Vec<f64> {
     let mut most = vec![0.0; channels];
     for pixel in values.chunks_exact(channels) {
@@ -93,7 +130,7 @@ fn p99(values: &[f64]) -> f64 {
 }
 
 /// The window with most failing pixels, the uppermost and then leftmost of several.
-fn densest(failing: &[bool], width: usize, height: usize) -> Option<Window> {
+pub(super) fn densest(failing: &[bool], width: usize, height: usize) -> Option<Window> {
     let (columns, rows) = (WINDOW.min(width), WINDOW.min(height));
     // Failing pixels of each column in the window's rows: a row enters below, another leaves above.
     let mut in_column = vec![0; width];

@@ -18,20 +18,29 @@
 //! ```
 
 mod allowed;
+mod bundle;
 mod difference;
 mod expected;
 mod heat_map;
 mod image;
+mod judgement;
 mod metrics;
 mod read;
 mod report;
+mod submitted;
 mod verdict;
 
 pub use allowed::{Allowed, Choice, Extremes, FeatureRun, Hypothesis, Stage, StageRange};
+pub use bundle::{ConformanceCase, ConformanceSet, Judge};
 pub use difference::Difference;
 pub use expected::{Expected, Mismatch, Side};
 pub use image::{Image, ValuePlace};
+pub use judgement::{
+    Fitted, Gates, Involved, Judgement, Lean, Lopsided, MOST_IN_WINDOW, Ruling, StageFound, StageOutcome,
+    Tried,
+};
 pub use metrics::{Metrics, WINDOW, Window};
 pub use read::same_file;
-pub use report::{COMPARE_SCHEMA, Report};
+pub use report::{COMPARE_SCHEMA, Case, Cases, Failure, JudgementReport, Report};
+pub use submitted::Submitted;
 pub use verdict::{Limits, Measured, Verdict};

@@ -12,7 +12,9 @@ use std::fmt;
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Limits {
     tolerance: f64,
+    relative: f64,
     allow: usize,
+    densest: Option<usize>,
 }
 
 impl Limits {
@@ -26,7 +28,35 @@ impl Limits {
             return Err(Error::usage(format!("{tolerance} is no tolerance"))
                 .help("it is a distance in units of 1, such as 0, 0.01 or 2/255"));
         }
-        Ok(Self { tolerance, allow })
+        Ok(Self { tolerance, allow, ..Self::default() })
+    }
+
+    /// The same, and a value may be off by this share of what is expected besides.
+    ///
+    /// # Errors
+    /// When the share is negative, infinite or not a number.
+    pub fn with_relative(self, relative: f64) -> Result<Self> {
+        if !(relative >= 0.0 && relative.is_finite()) {
+            return Err(Error::usage(format!("{relative} is no relative tolerance"))
+                .help("it is a share of what is expected, such as 0.001"));
+        }
+        Ok(Self { relative, ..self })
+    }
+
+    /// The same, and no window of 16 x 16 pixels may have more failing pixels than this.
+    #[must_use]
+    pub fn with_densest(self, densest: usize) -> Self {
+        Self { densest: Some(densest), ..self }
+    }
+
+    /// The share of what is expected that a value may be off besides.
+    pub fn relative(self) -> f64 {
+        self.relative
+    }
+
+    /// How many failing pixels a window of 16 x 16 may have, where that is limited.
+    pub fn densest(self) -> Option<usize> {
+        self.densest
     }
 
     /// How far a value may be off.
@@ -58,6 +88,13 @@ pub struct Measured {
     pub metrics: Metrics,
 }
 
+impl Measured {
+    /// The failing pixels in the densest window.
+    fn in_window(&self) -> usize {
+        self.metrics.densest.map_or(0, |window| window.failing)
+    }
+}
+
 impl Verdict {
     /// Judges a picture.
     pub fn on(actual: &Image, expected: &Expected, limits: Limits) -> Self {
@@ -65,20 +102,27 @@ impl Verdict {
             let metrics = difference.metrics(limits.tolerance);
             Measured { difference, metrics }
         };
-        Self { limits, outcome: Difference::of(expected, actual).map(measured) }
+        let outcome = match limits.relative > 0.0 {
+            true => Difference::of(&expected.widened(limits.relative), actual),
+            false => Difference::of(expected, actual),
+        };
+        Self { limits, outcome: outcome.map(measured) }
     }
 
     /// Whether it passed. What cannot be measured has not.
     pub fn passed(&self) -> bool {
-        self.outcome.as_ref().is_ok_and(|measured| measured.metrics.failing <= self.limits.allow)
+        self.failure().is_none()
     }
 
     /// The name of the failure in reports, where it failed.
     pub fn failure(&self) -> Option<&'static str> {
         match &self.outcome {
             Err(mismatch) => Some(mismatch.name()),
-            Ok(_) if self.passed() => None,
-            Ok(_) => Some("over-tolerance"),
+            Ok(measured) if measured.metrics.failing > self.limits.allow => Some("over-tolerance"),
+            Ok(measured) if self.limits.densest.is_some_and(|most| measured.in_window() > most) => {
+                Some("dense")
+            }
+            Ok(_) => None,
         }
     }
 
@@ -96,10 +140,21 @@ impl fmt::Display for Verdict {
             Ok(measured) => measured,
             Err(mismatch) => return write!(f, "FAIL: {mismatch}"),
         };
+        if let (Some("dense"), Some(most)) = (self.failure(), self.limits.densest) {
+            return write!(
+                f,
+                "FAIL: {} pixels over the tolerance lie in one window ({most} allowed)",
+                measured.in_window()
+            );
+        }
         let distances = measured.difference.distances();
+        let relative = match self.limits.relative {
+            0.0 => String::new(),
+            relative => format!(" and {relative} of what is expected"),
+        };
         write!(
             f,
-            "{}: {} of {} pixels are over the tolerance {} ({} allowed)",
+            "{}: {} of {} pixels are over the tolerance {}{relative} ({} allowed)",
             if self.passed() { "PASS" } else { "FAIL" },
             measured.metrics.failing,
             distances.width() * distances.height(),

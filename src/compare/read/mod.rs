@@ -8,6 +8,9 @@ mod npy;
 mod png;
 mod size;
 
+pub(super) use npy::Array;
+pub(super) use png::codes;
+
 use super::image::Image;
 use crate::error::{Error, Result};
 use std::io;

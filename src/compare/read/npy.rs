@@ -1,5 +1,5 @@
-//! .npy arrays (NumPy's `numpy.lib.format`, versions 1 to 3): little-endian f64, f32, u32, u16 and u8 in C order, of
-//! (rows, columns) or (rows, columns, channels).
+//! .npy arrays (NumPy's `numpy.lib.format`, versions 1 to 3): little-endian f64, f32, u32, u16 and u8 in C order; pictures of
+//! (rows, columns) or (rows, columns, channels), and tables.
 
 use super::size::check_size;
 use crate::compare::image::Image;
@@ -7,27 +7,116 @@ use crate::error::{Error, Result};
 
 pub(super) const MAGIC: &[u8] = b"\x93NUMPY";
 
+/// An array as its file holds it.
+#[derive(Debug)]
+pub(in crate::compare) struct Array<'a> {
+    /// Its sides, as the file writes them.
+    shape: &'a str,
+    /// The kind of its numbers.
+    kind: &'a str,
+    data: &'a [u8],
+}
+
 pub(super) fn decode(bytes: &[u8]) -> Result<Image> {
-    let (head, data) = split(bytes).ok_or_else(|| broken("it ends before its values"))?;
-    let head = std::str::from_utf8(head).map_err(|_| broken("its header is no text"))?;
-    if entry(head, "fortran_order")?.trim() != "False" {
-        return Err(
-            Error::unsupported("this .npy array is in Fortran order").help("save numpy.ascontiguousarray(a)")
-        );
+    let array = Array::of(bytes)?;
+    let [height, width, channels] = array.picture_shape()?;
+    let unit = match array.kind {
+        "<u2" => 65535.0,
+        "|u1" => 255.0,
+        _ => 1.0,
+    };
+    let mut values = array.values()?;
+    if unit != 1.0 {
+        values.iter_mut().for_each(|value| *value /= unit);
     }
-    let [height, width, channels] = shape(entry(head, "shape")?)?;
-    check_size(width, height, channels)?;
-    let values = values(entry(head, "descr")?.trim().trim_matches(['\'', '"']), data)?;
     Image::new(width, height, channels, values)
+}
+
+impl<'a> Array<'a> {
+    /// The array in a file's bytes. Its numbers are looked at later.
+    pub(in crate::compare) fn of(bytes: &'a [u8]) -> Result<Self> {
+        let opened = bytes.strip_prefix(MAGIC).ok_or_else(|| broken("it is none"))?;
+        let (head, data) = split(opened).ok_or_else(|| broken("it ends before its values"))?;
+        let head = std::str::from_utf8(head).map_err(|_| broken("its header is no text"))?;
+        if entry(head, "fortran_order")?.trim() != "False" {
+            return Err(Error::unsupported("this .npy array is in Fortran order")
+                .help("save numpy.ascontiguousarray(a)"));
+        }
+        let kind = entry(head, "descr")?.trim().trim_matches(['\'', '"']);
+        Ok(Self { shape: entry(head, "shape")?.trim(), kind, data })
+    }
+
+    /// Rows, columns and channels of a picture.
+    fn picture_shape(&self) -> Result<[usize; 3]> {
+        let [height, width, channels] = match self.sides().as_deref() {
+            Some([height, width]) => [*height, *width, 1],
+            Some([height, width, channels]) => [*height, *width, *channels],
+            _ => {
+                let what = format!("this .npy array of the shape {} is no picture", self.shape);
+                return Err(
+                    Error::unsupported(what).help("(rows, columns) and (rows, columns, channels) are")
+                );
+            }
+        };
+        check_size(width, height, channels)?;
+        Ok([height, width, channels])
+    }
+
+    fn sides(&self) -> Option<Vec<usize>> {
+        let inside = self.shape.trim_start_matches('(').trim_end_matches(')');
+        let sides = inside.split(',').map(str::trim).filter(|side| !side.is_empty());
+        sides.map(|side| side.parse().ok()).collect()
+    }
+
+    /// A buffer's numbers as they are, codes undivided.
+    pub(in crate::compare) fn plane(&self) -> Result<Image> {
+        let [height, width, channels] = self.picture_shape()?;
+        Image::new(width, height, channels, self.values()?)
+    }
+
+    /// The rows of a table of so many columns, of whole numbers; it may have none.
+    pub(in crate::compare) fn whole_rows<const N: usize>(&self) -> Result<Vec<[u32; N]>> {
+        if self.kind != "<u4" {
+            return Err(broken(&format!("its values are of the kind `{}` and not `<u4`", self.kind)));
+        }
+        self.rows(&numbers(self.data, u32::from_le_bytes)?)
+    }
+
+    /// The rows of a table of so many columns; it may have none.
+    pub(in crate::compare) fn real_rows<const N: usize>(&self) -> Result<Vec<[f64; N]>> {
+        self.rows(&self.values()?)
+    }
+
+    fn rows<T: Copy, const N: usize>(&self, values: &[T]) -> Result<Vec<[T; N]>> {
+        let (rows, rest) = values.as_chunks::<N>();
+        if self.sides() != Some(vec![rows.len(), N]) || !rest.is_empty() {
+            let (shape, n) = (self.shape, values.len());
+            return Err(broken(&format!("{n} values of the shape {shape} are no table of {N} columns")));
+        }
+        Ok(rows.to_vec())
+    }
+
+    /// Its numbers as they are.
+    fn values(&self) -> Result<Vec<f64>> {
+        match self.kind {
+            "<f8" => numbers(self.data, f64::from_le_bytes),
+            "<f4" => numbers(self.data, |b| f64::from(f32::from_le_bytes(b))),
+            "<u4" => numbers(self.data, |b| f64::from(u32::from_le_bytes(b))),
+            "<u2" => numbers(self.data, |b| f64::from(u16::from_le_bytes(b))),
+            "|u1" => numbers(self.data, |[b]| f64::from(b)),
+            kind => Err(Error::unsupported(format!("this .npy array holds values of the kind `{kind}`"))
+                .help("<f8, <f4, <u4, <u2 and |u1 can be compared: a.astype(numpy.float64)")),
+        }
+    }
 }
 
 fn broken(why: &str) -> Error {
     Error::new(format!("this .npy file cannot be read: {why}"))
 }
 
-/// The header and the values.
-fn split(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
-    let (version, rest) = bytes.get(MAGIC.len()..)?.split_at_checked(2)?;
+/// The header and the values of what follows the magic.
+fn split(opened: &[u8]) -> Option<(&[u8], &[u8])> {
+    let (version, rest) = opened.split_at_checked(2)?;
     let (length, rest) = if version[0] == 1 {
         let (length, rest) = rest.split_first_chunk::<2>()?;
         (usize::from(u16::from_le_bytes(*length)), rest)
@@ -50,32 +139,7 @@ fn entry<'a>(head: &'a str, key: &str) -> Result<&'a str> {
     end.map(|end| &rest[..end]).ok_or_else(missing)
 }
 
-/// Rows, columns, channels.
-fn shape(text: &str) -> Result<[usize; 3]> {
-    let inside = text.trim().trim_start_matches('(').trim_end_matches(')');
-    let sides = inside.split(',').map(str::trim).filter(|side| !side.is_empty());
-    let sides: std::result::Result<Vec<usize>, _> = sides.map(str::parse).collect();
-    match sides.as_deref() {
-        Ok([height, width]) => Ok([*height, *width, 1]),
-        Ok([height, width, channels]) => Ok([*height, *width, *channels]),
-        _ => Err(Error::unsupported(format!("this .npy array of the shape {} is no picture", text.trim()))
-            .help("(rows, columns) and (rows, columns, channels) are")),
-    }
-}
-
-fn values(kind: &str, data: &[u8]) -> Result<Vec<f64>> {
-    match kind {
-        "<f8" => numbers(data, f64::from_le_bytes),
-        "<f4" => numbers(data, |b| f64::from(f32::from_le_bytes(b))),
-        "<u4" => numbers(data, |b| f64::from(u32::from_le_bytes(b))),
-        "<u2" => numbers(data, |b| f64::from(u16::from_le_bytes(b)) / 65535.0),
-        "|u1" => numbers(data, |[b]| f64::from(b) / 255.0),
-        _ => Err(Error::unsupported(format!("this .npy array holds values of the kind `{kind}`"))
-            .help("<f8, <f4, <u4, <u2 and |u1 can be compared: a.astype(numpy.float64)")),
-    }
-}
-
-fn numbers<const N: usize>(data: &[u8], number: impl Fn([u8; N]) -> f64) -> Result<Vec<f64>> {
+fn numbers<T, const N: usize>(data: &[u8], number: impl Fn([u8; N]) -> T) -> Result<Vec<T>> {
     let (values, rest) = data.as_chunks::<N>();
     if !rest.is_empty() {
         return Err(broken("its last value is cut off"));

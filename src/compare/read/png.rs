@@ -3,7 +3,7 @@
 use super::size::{MOST_PIXELS, check_promise, check_size};
 use crate::compare::image::Image;
 use crate::error::{Error, Result};
-use image::{ImageDecoder, ImageFormat, ImageReader, Limits};
+use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 use std::io::Cursor;
 
 pub(super) const MAGIC: &[u8] = b"\x89PNG\r\n\x1a\n";
@@ -12,6 +12,26 @@ pub(super) const MAGIC: &[u8] = b"\x89PNG\r\n\x1a\n";
 const MOST_BYTES: u64 = 8 * MOST_PIXELS as u64;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Image> {
+    let picture = open(bytes)?;
+    let (width, height) = (picture.width() as usize, picture.height() as usize);
+    // v * 257 / 65535 is v / 255, in doubles too: both are the nearest to the same quotient.
+    let (channels, codes) = if picture.color().has_alpha() {
+        (4, picture.into_rgba16().into_raw())
+    } else {
+        (3, picture.into_rgb16().into_raw())
+    };
+    let values = codes.into_iter().map(|code| f64::from(code) / 65535.0).collect();
+    Image::new(width, height, channels, values)
+}
+
+/// Width, height and pixels in codes of 16 bits.
+pub(in crate::compare) fn codes(bytes: &[u8]) -> Result<(usize, usize, Vec<[u16; 4]>)> {
+    let picture = open(bytes)?;
+    let (width, height) = (picture.width() as usize, picture.height() as usize);
+    Ok((width, height, picture.into_rgba16().into_raw().as_chunks().0.to_vec()))
+}
+
+fn open(bytes: &[u8]) -> Result<DynamicImage> {
     let refuse =
         |error: image::ImageError| Error::new(format!("this PNG cannot be read: {error}")).caused_by(error);
     let mut reader = ImageReader::with_format(Cursor::new(bytes), ImageFormat::Png);
@@ -24,15 +44,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Image> {
     check_size(width, height, 4)?;
     let bits = u64::from(decoder.original_color_type().bits_per_pixel());
     check_promise((width * height) as u64 * bits / 8, bytes.len())?;
-    let picture = image::DynamicImage::from_decoder(decoder).map_err(refuse)?;
-    // v * 257 / 65535 is v / 255, in doubles too: both are the nearest to the same quotient.
-    let (channels, codes) = if picture.color().has_alpha() {
-        (4, picture.into_rgba16().into_raw())
-    } else {
-        (3, picture.into_rgb16().into_raw())
-    };
-    let values = codes.into_iter().map(|code| f64::from(code) / 65535.0).collect();
-    Image::new(width, height, channels, values)
+    DynamicImage::from_decoder(decoder).map_err(refuse)
 }
 
 #[cfg(test)]
