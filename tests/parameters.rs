@@ -29,7 +29,7 @@ fn parameters() -> Vec<(Kind, &'static Key)> {
 /// Values of a shape, its extremes among them; numbers are large enough for a cache of tiles.
 fn examples(shape: &Shape) -> Vec<Value> {
     match shape {
-        Shape::Choice(names) => {
+        Shape::Choice(names, _) => {
             assert_eq!(
                 names().into_iter().collect::<BTreeSet<_>>().len(),
                 names().len(),

@@ -26,7 +26,20 @@ use std::path::{Path, PathBuf};
 pub struct Batch {
     folder: PathBuf,
     staging: Part,
-    names: Vec<String>,
+    /// Where the files go that are staged now: a folder of `folder` with a slash behind it, or nothing.
+    within: String,
+    files: Vec<StagedFile>,
+}
+
+/// A file of a batch, as it was written.
+#[derive(Debug, Clone, PartialEq, Eq, serde::Serialize)]
+pub struct StagedFile {
+    /// Its name, with the folders before it.
+    pub name: String,
+    /// Its size.
+    pub bytes: u64,
+    /// BLAKE3 of its bytes, in hexadecimal digits.
+    pub blake3: String,
 }
 
 impl Batch {
@@ -43,7 +56,24 @@ impl Batch {
             Err(error) if error.kind() == io::ErrorKind::NotFound => beside(folder),
             Err(error) => Err(error),
         };
-        Ok(Self { folder: folder.into(), staging: staging.map_err(refuse)?, names: Vec::new() })
+        let staging = staging.map_err(refuse)?;
+        Ok(Self { folder: folder.into(), staging, within: String::new(), files: Vec::new() })
+    }
+
+    /// Files that are staged from now on lie in this folder of the batch's (`a/b`; empty: in the batch's own).
+    pub fn enter(&mut self, folder: &str) {
+        self.within = if folder.is_empty() { String::new() } else { format!("{folder}/") };
+    }
+
+    /// What has been staged in the folder that was entered, as seen from there, in the order of the names.
+    pub fn staged(&self) -> Vec<StagedFile> {
+        let here = |file: &StagedFile| {
+            let name = file.name.strip_prefix(&self.within)?.to_owned();
+            Some(StagedFile { name, ..file.clone() })
+        };
+        let mut files: Vec<StagedFile> = self.files.iter().filter_map(here).collect();
+        files.sort_by(|a, b| a.name.cmp(&b.name));
+        files
     }
 
     /// Writes a file of this name, to appear with the others; the name may begin with folders.
@@ -51,21 +81,24 @@ impl Batch {
     /// # Errors
     /// When it cannot be written, or a folder has its name; says which file.
     pub fn stage(&mut self, name: &str, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
-        let path = self.folder.join(name);
+        let name = format!("{}{name}", self.within);
+        let path = self.folder.join(&name);
         let refuse = |error: io::Error| Error::io("this file cannot be written", error).in_file(&path);
         if path.is_dir() {
             return Err(refuse(io::Error::other("a folder has this name")));
         }
-        if self.names.iter().any(|known| known == name) {
+        if self.files.iter().any(|known| known.name == name) {
             return Err(Error::internal("one run writes this file twice").in_file(&path));
         }
-        let staged = self.staging.files().join(name);
+        let staged = self.staging.files().join(&name);
+        let mut written = Hashed::default();
         parent(&staged)
             .map_or(Ok(()), fs::create_dir_all)
             .and_then(|()| File::create_new(staged))
-            .and_then(|file| fill(file, write))
+            .and_then(|file| fill(file, |to| write(&mut HashedWriter { to, written: &mut written })))
             .map_err(refuse)?;
-        self.names.push(name.into());
+        let blake3 = written.hasher.finalize().to_hex().to_string();
+        self.files.push(StagedFile { name, bytes: written.bytes, blake3 });
         Ok(())
     }
 
@@ -78,7 +111,7 @@ impl Batch {
         let refuse =
             |path: &Path, error: io::Error| Error::io("this cannot be put in its place", error).in_file(path);
         if self.folder.is_dir() {
-            for name in &self.names {
+            for StagedFile { name, .. } in &self.files {
                 let place = self.folder.join(name);
                 parent(&place)
                     .map_or(Ok(()), fs::create_dir_all)
@@ -91,6 +124,32 @@ impl Batch {
             .map_or(Ok(()), fs::create_dir_all)
             .and_then(|()| fs::rename(self.staging.files(), &self.folder))
             .map_err(|error| refuse(&self.folder, error))
+    }
+}
+
+/// What is told of the bytes that have been written.
+#[derive(Default)]
+struct Hashed {
+    hasher: blake3::Hasher,
+    bytes: u64,
+}
+
+/// Writes on, and keeps count of what it writes.
+struct HashedWriter<'a> {
+    to: &'a mut dyn Write,
+    written: &'a mut Hashed,
+}
+
+impl Write for HashedWriter<'_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let count = self.to.write(bytes)?;
+        self.written.hasher.update(&bytes[..count]);
+        self.written.bytes += count as u64;
+        Ok(count)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.to.flush()
     }
 }
 
@@ -201,6 +260,26 @@ mod tests {
             assert_eq!(fs::read_to_string(out.join("topic/a")).unwrap(), "topic/a");
             assert_eq!(names_in(&out), ["b", "topic"]);
         }
+    }
+
+    #[test]
+    fn what_is_told_of_files_is_of_their_bytes_and_of_the_folder_that_was_entered() {
+        let place = tempfile::tempdir().unwrap();
+        let mut batch = Batch::into(&place.path().join("out")).unwrap();
+        stage(&mut batch, "z");
+        batch.enter("topic/a");
+        // In pieces, as tables are written.
+        batch.stage("two", |w| w.write_all(b"t").and_then(|()| w.write_all(b"wo"))).unwrap();
+        stage(&mut batch, "one");
+        let told: Vec<(String, u64)> =
+            batch.staged().into_iter().map(|file| (file.name, file.bytes)).collect();
+        assert_eq!(told, [("one".to_owned(), 3), ("two".to_owned(), 3)]);
+        assert_eq!(batch.staged()[1].blake3, blake3::hash(b"two").to_hex().to_string());
+        batch.enter("");
+        let names: Vec<String> = batch.staged().into_iter().map(|file| file.name).collect();
+        assert_eq!(names, ["topic/a/one", "topic/a/two", "z"]);
+        batch.commit().unwrap();
+        assert_eq!(fs::read_to_string(place.path().join("out/topic/a/two")).unwrap(), "two");
     }
 
     #[test]

@@ -13,10 +13,10 @@ mod picture;
 mod result;
 mod whole;
 
-pub use batch::Batch;
+pub use batch::{Batch, StagedFile};
 pub use look::look;
 pub use npy::{Npy, absolute};
-pub use picture::{small_png, write_png};
+pub use picture::{small_png, write_codes16, write_png};
 pub use result::{
     BufferResult, ByName, ErrorResult, ImageResult, RESULT_SCHEMA, RenderResult, RunResult, SceneResult,
     SurfaceError,

@@ -14,6 +14,15 @@ pub fn write_png(picture: &Buffer<[u8; 4]>, to: &mut dyn Write) -> io::Result<()
     write(picture, CompressionType::Fast, to)
 }
 
+/// Writes codes of 16 bits as an RGBA PNG.
+///
+/// # Errors
+/// As [`write_png`].
+pub fn write_codes16(codes: &Buffer<[u16; 4]>, to: &mut dyn Write) -> io::Result<()> {
+    let bytes: Vec<u8> = codes.values().iter().flatten().flat_map(|code| code.to_ne_bytes()).collect();
+    encode((&bytes, ExtendedColorType::Rgba16), [codes.width(), codes.height()], CompressionType::Fast, to)
+}
+
 /// The bytes of a PNG that is to be carried around within another file: compressed for size.
 ///
 /// # Errors
@@ -25,10 +34,19 @@ pub fn small_png(picture: &Buffer<[u8; 4]>) -> io::Result<Vec<u8>> {
 }
 
 fn write(picture: &Buffer<[u8; 4]>, compression: CompressionType, to: &mut dyn Write) -> io::Result<()> {
+    let bytes = picture.values().as_flattened();
+    encode((bytes, ExtendedColorType::Rgba8), [picture.width(), picture.height()], compression, to)
+}
+
+fn encode(
+    (bytes, kind): (&[u8], ExtendedColorType),
+    [width, height]: [usize; 2],
+    compression: CompressionType,
+    to: &mut dyn Write,
+) -> io::Result<()> {
     let size = |n: usize| u32::try_from(n).map_err(io::Error::other);
-    let (width, height) = (size(picture.width())?, size(picture.height())?);
     PngEncoder::new_with_quality(to, compression, FilterType::Adaptive)
-        .write_image(picture.values().as_flattened(), width, height, ExtendedColorType::Rgba8)
+        .write_image(bytes, size(width)?, size(height)?, kind)
         .map_err(io::Error::other)
 }
 

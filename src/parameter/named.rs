@@ -4,6 +4,8 @@
 pub trait Named: Copy + PartialEq + 'static {
     /// Each word and what it stands for.
     const NAMES: &'static [(&'static str, Self)];
+    /// What each word means, in their order, for people.
+    const MEANINGS: &'static [&'static str];
 
     /// What a word stands for.
     fn from_name(name: &str) -> Option<Self> {
@@ -33,18 +35,27 @@ macro_rules! words {
     (
         $(#[$about:meta])*
         $visibility:vis enum $name:ident {
-            $($(#[$value_about:meta])* $value:ident = $word:literal,)+
+            $($(#[$($about_value:tt)+])* $value:ident = $word:literal,)+
         }
     ) => {
         $(#[$about])*
         #[derive(Debug, Clone, Copy, PartialEq, Eq)]
         $visibility enum $name {
-            $($(#[$value_about])* $value,)+
+            $($(#[$($about_value)+])* $value,)+
         }
 
         impl $crate::parameter::Named for $name {
             const NAMES: &'static [(&'static str, Self)] = &[$(($word, Self::$value)),+];
+            const MEANINGS: &'static [&'static str] = &[
+                $($crate::parameter::words!(@meaning $([$($about_value)+])*).trim_ascii()),+
+            ];
         }
     };
+    // The text of the attributes that are documentation.
+    (@meaning) => { "" };
+    (@meaning [doc = $line:literal] $($rest:tt)*) => {
+        concat!($line, $crate::parameter::words!(@meaning $($rest)*))
+    };
+    (@meaning [$($other:tt)+] $($rest:tt)*) => { $crate::parameter::words!(@meaning $($rest)*) };
 }
 pub(crate) use words;

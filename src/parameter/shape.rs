@@ -13,8 +13,8 @@ pub enum Shape {
     Color,
     /// `true` or `false`.
     Flag,
-    /// One of some words.
-    Choice(fn() -> Vec<&'static str>),
+    /// One of some words, and what each of them means.
+    Choice(fn() -> Vec<&'static str>, &'static [&'static str]),
     /// A whole number in a range, both ends included.
     Integer(i64, i64),
     /// One of some whole numbers.
@@ -133,6 +133,13 @@ impl Range {
 }
 
 impl Shape {
+    /// What a word of this shape means.
+    pub fn meaning(&self, word: &str) -> Option<&'static str> {
+        let Shape::Choice(names, meanings) = self else { return None };
+        let at = names().into_iter().position(|name| name == word)?;
+        meanings.get(at).copied()
+    }
+
     /// The shape in words, to follow "must be".
     pub fn words(&self) -> String {
         match self {
@@ -142,7 +149,7 @@ impl Shape {
                 "a colour of CSS (\"#rrggbb\", \"#rrggbbaa\", \"#rgb\", a name, rgb(), hsl())".into()
             }
             Shape::Flag => "true or false".into(),
-            Shape::Choice(names) => choice_words(&names()),
+            Shape::Choice(names, _) => choice_words(&names()),
             Shape::Integer(low, high) if low == high => format!("{low}"),
             Shape::Integer(low, high) => format!("a whole number from {low} to {high}"),
             Shape::IntegerOf(numbers) => format!("one of {numbers:?}"),
@@ -171,7 +178,7 @@ fn choice_words(names: &[&str]) -> String {
 
 /// A word for a value of `T`.
 pub const fn choice<T: Named>() -> Shape {
-    Shape::Choice(|| T::NAMES.iter().map(|(name, _)| *name).collect())
+    Shape::Choice(|| T::NAMES.iter().map(|(name, _)| *name).collect(), T::MEANINGS)
 }
 
 /// A key that may be left out.

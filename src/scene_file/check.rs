@@ -177,12 +177,12 @@ impl Check<'_> {
             (Shape::Integer(SCHEMA, SCHEMA), Value::Integer(_)) => {
                 error.help(format!("this program reads schema {SCHEMA}; another needs another version of it"))
             }
-            (Shape::Choice(names), Value::Text(text)) => with_nearest(error, text, &names()),
+            (Shape::Choice(names, _), Value::Text(text)) => with_nearest(error, text, &names()),
             (Shape::Color, Value::Text(text)) => {
                 with_nearest(error, text, &color_names().collect::<Vec<_>>())
             }
             (Shape::Or(word, _), Value::Text(text)) => with_nearest(error, text, &[*word]),
-            (Shape::Choice(names), Value::Flag(flag)) if names().contains(&flag.to_string().as_str()) => {
+            (Shape::Choice(names, _), Value::Flag(flag)) if names().contains(&flag.to_string().as_str()) => {
                 error.help("put it in quotes")
             }
             (Shape::Text, Value::Integer(_) | Value::Number(_) | Value::Flag(_) | Value::Date) => {
@@ -231,7 +231,9 @@ fn fits(shape: &Shape, value: &Value) -> bool {
 pub(super) fn plain(shape: &Shape, value: &Value) -> Option<parameter::Value> {
     use parameter::Value::{Integer, Number, Numbers, Word};
     match (shape, value) {
-        (Shape::Choice(names), Value::Text(text)) => names().into_iter().find(|name| name == text).map(Word),
+        (Shape::Choice(names, _), Value::Text(text)) => {
+            names().into_iter().find(|name| name == text).map(Word)
+        }
         (Shape::Integer(low, high), Value::Integer(Some(n))) => {
             i64::try_from(*n).ok().filter(|n| (*low..=*high).contains(n)).map(Integer)
         }

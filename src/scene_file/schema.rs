@@ -44,7 +44,7 @@ fn value(shape: &Shape) -> Value {
         }
         Shape::Color => json!({ "type": "string", "pattern": COLOR }),
         Shape::Flag => json!({ "type": "boolean" }),
-        Shape::Choice(names) => json!({ "enum": names() }),
+        Shape::Choice(names, _) => json!({ "enum": names() }),
         Shape::Integer(low, high) => json!({ "type": "integer", "minimum": low, "maximum": high }),
         Shape::IntegerOf(numbers) => json!({ "enum": numbers }),
         Shape::Integers(count, low, high) => list(value(&Shape::Integer(*low, *high)), *count, *count),
