@@ -133,18 +133,128 @@ fn the_bundle_of_the_clipmap_has_its_sequences_tiles_and_what_is_right() {
     }
     let features = json(&folder, "features.geojson");
     assert_eq!((&features["crs"], &features["plan_space"]), (&Value::Null, &"metres without a CRS".into()));
+    assert_eq!(
+        (&features["drawn_by"], &features["widths"]),
+        (&"clipmap".into(), &"whole: from side to side".into())
+    );
     let lake = &features["features"][0];
     assert_eq!(lake["geometry"]["coordinates"][0][1].to_string(), "[5000300.0,3999600.0]");
     assert_eq!(lake["geometry"]["coordinates"][0].as_array().unwrap().len(), 5, "rings are closed");
     let [lake, road] = [0, 1].map(|k| features["features"][k]["properties"].to_string());
     assert_eq!(
         lake,
-        r##"{"cap":"butt","fill":"#3388ff","fill-opacity":0.6,"fill-rule":"even-odd","join":"round","layer":"lake","number":0,"outline-mode":"inset","stroke":"#113355","stroke-opacity":1.0,"stroke-width-px":2.0}"##
+        r##"{"cap":"butt","drawn-cap":"butt","drawn-join":"algorithm-1","feature":0,"fill":"#3388ff","fill-opacity":0.6,"fill-rule":"even-odd","join":"round","layer":"lake","layer-number":0,"number":0,"outline-mode":"inset","stroke":"#113355","stroke-opacity":1.0,"stroke-width-px":2.0}"##
     );
     assert_eq!(
         road,
-        r##"{"TYPE":"primary","attribute.number":3,"cap":"butt","join":"bevel","layer":"road","number":0,"stroke":"#ff7f00","stroke-opacity":1.0,"stroke-width-m":60.0}"##
+        r##"{"TYPE":"primary","attribute.number":3,"cap":"butt","drawn-cap":"butt","drawn-join":"algorithm-1","feature":0,"join":"bevel","layer":"road","layer-number":1,"number":0,"stroke":"#ff7f00","stroke-opacity":1.0,"stroke-width-m":60.0}"##
     );
+}
+
+#[test]
+fn the_manifest_tells_of_every_file_what_it_was() {
+    let folder = bundle("clipmap", &[]);
+    let manifest = json(&folder, "manifest.json");
+    assert_eq!(
+        (&manifest["schema"], &manifest["kind"], &manifest["technique"]),
+        (&1.into(), &"bundle".into(), &"clipmap".into())
+    );
+    let files = manifest["files"].as_array().unwrap();
+    let names: Vec<&str> = files.iter().map(|file| file["name"].as_str().unwrap()).collect();
+    assert!(
+        names.is_sorted()
+            && names.contains(&"README.md")
+            && names.iter().any(|name| name.starts_with("tiles/"))
+    );
+    for file in files {
+        let bytes = fs::read(folder.path().join(file["name"].as_str().unwrap())).unwrap();
+        assert_eq!(
+            (file["bytes"].as_u64(), &file["blake3"]),
+            (Some(bytes.len() as u64), &blake3::hash(&bytes).to_hex().to_string().into())
+        );
+    }
+    // Of the scene and of the manifest itself nothing is told.
+    let there =
+        fs::read_dir(folder.path()).unwrap().filter(|entry| entry.as_ref().unwrap().path().is_file()).count();
+    assert_eq!(names.iter().filter(|name| !name.contains('/')).count(), there - 2);
+}
+
+#[test]
+fn the_volumes_of_a_bundle_count_what_the_picture_shows() {
+    let folder = bundle("stencil-volume", &IN_METRES);
+    let of = |name: &str| table(&folder, &format!("stencil-volume.{name}.npy"));
+    let (objects, volumes, levels) = (of("objects"), of("volumes"), of("volume-levels"));
+    let (rings, corners) = (of("volume-rings"), of("volume-corners"));
+    assert_eq!(
+        (objects.len() / 8, volumes.len() / 6, levels.len() / 2),
+        (3, 7, 7),
+        "fill, outline, road: 1, 4 and 2 volumes"
+    );
+    let winding = |volume: usize, at: [f64; 2]| -> i32 {
+        let [first, count] = [volumes[6 * volume] as usize, volumes[6 * volume + 1] as usize];
+        let ring = |k: usize| &corners[2 * rings[2 * k] as usize..][..2 * rings[2 * k + 1] as usize];
+        (first..first + count).map(|k| turns(ring(k), at)).sum()
+    };
+    let (plan, stencil, triangle) =
+        (of("plan"), table_u16(&folder, "stencil-volume.stencil.npy"), of("triangle"));
+    let mut counted = 0;
+    for (pixel, count) in stencil.iter().enumerate().filter(|(pixel, _)| triangle[*pixel] < 4e9) {
+        let at = [plan[2 * pixel], plan[2 * pixel + 1]];
+        let of_object = |object: usize| -> i32 {
+            let [first, number] = [objects[8 * object + 3] as usize, objects[8 * object + 4] as usize];
+            (first..first + number).map(|volume| winding(volume, at)).sum()
+        };
+        let last = (0..3).map(of_object).filter(|count| *count != 0).last().unwrap_or(0);
+        assert_eq!(i32::from(*count), last, "pixel {pixel}");
+        counted += u32::from(last != 0);
+    }
+    assert!(counted > 50, "{counted}");
+}
+
+#[test]
+fn the_edges_of_a_bundle_meet_the_quads_that_say_so() {
+    let folder = bundle("inverse-projection", &IN_METRES);
+    let of = |name: &str| table(&folder, &format!("inverse-projection.{name}.npy"));
+    let (areas, edges, edge_areas) = (of("areas"), of("area-edges"), of("edge-areas"));
+    assert_eq!(
+        areas.chunks(8).map(|row| (row[0], row[3])).collect::<Vec<_>>(),
+        [(0.0, 0.0), (1.0, 1.0), (2.0, 1.0)]
+    );
+    // The outline is cut to the inside of the fill's polygon.
+    assert_eq!(areas[8..16], [1.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0, 0.0]);
+    assert_eq!((edges.len() / 4, edge_areas.len()), (4 + 8 + 6, 18));
+    let (quads, met) = (of("quad"), of("edges"));
+    let mut looked_at = 0;
+    for (pixel, quad) in quads.chunks(8).enumerate().filter(|(_, quad)| quad[0].is_finite()) {
+        // Of an edge that ends in the quad's bounds and lies in it, the count must tell.
+        let inside = |at: &[f64]| turns(quad, [at[0], at[1]]) != 0;
+        let ends = edges.chunks(4).filter(|edge| inside(&edge[..2]) || inside(&edge[2..])).count();
+        assert!(met[pixel] >= ends as f64, "pixel {pixel}");
+        looked_at += ends;
+    }
+    assert!(looked_at > 10, "{looked_at}");
+}
+
+/// How often a ring winds around a point, counter-clockwise positive.
+fn turns(ring: &[f64], at: [f64; 2]) -> i32 {
+    let corner = |k: usize| [ring[2 * k % ring.len()] - at[0], ring[(2 * k + 1) % ring.len()] - at[1]];
+    let crossing = |k: usize| {
+        let (a, b) = (corner(k), corner(k + 1));
+        let is_left = a[0] * b[1] - a[1] * b[0] > 0.0;
+        match (a[1] <= 0.0, b[1] <= 0.0) {
+            (true, false) if is_left => 1,
+            (false, true) if !is_left => -1,
+            _ => 0,
+        }
+    };
+    (0..ring.len() / 2).map(crossing).sum()
+}
+
+/// The numbers of a table of 2-byte values.
+fn table_u16(folder: &tempfile::TempDir, name: &str) -> Vec<u16> {
+    let bytes = fs::read(folder.path().join(name)).unwrap();
+    let header = usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
+    bytes[10 + header..].as_chunks().0.iter().map(|v| u16::from_le_bytes(*v)).collect()
 }
 
 #[test]

@@ -184,6 +184,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "scene",
             "space",
             "parameter",
+            "compare",
             "output",
             "buffer",
         ],

@@ -56,7 +56,8 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
         let scene = scene_input::open(&text, &bar)?;
         let attributes = load::attributes(&text.file, &|told| bar.note(told));
         let hash = &text.file.hash;
-        Bundle { stage: &scene.stage, hash, attributes: &attributes, technique, budget }.write(batch, &bar)
+        let stage = &scene.stage;
+        Bundle { stage, hash, attributes: &attributes, technique, budget, allowance: None }.write(batch, &bar)
     };
     let done = parallel::with_threads(arguments.threads, export)?;
     done.map_err(|error| scene_input::blame(&text, error))?;

@@ -1,6 +1,6 @@
 //! The structures as flat arrays whose rows refer to one another by number, as a graphics processor has them in its storage buffers (Fig. 4.2).
 //!
-//! What a column says, and how a shader walks it all, is told in the bundle's `README.md` (`src/export/layout.md`). Where the thesis has one
+//! What a column says, and how a shader walks it all, is told in the bundle's `README.md` (`src/technique/static_decal/client.md`). Where the thesis has one
 //! buffer for each kind of offset, a cell has one row here; a quadtree's leaf keeps the winding number of its corner instead of closing edges.
 
 use super::build::Source;
@@ -9,8 +9,9 @@ use super::cell::{Cell, LineLeaf, Turns};
 use super::contents::RingsAs;
 use super::decals::Decals;
 use super::quadtree::{Kind, LeafEdges, Start};
+use super::settings::REACH_OF_40;
 use super::settings::{Joins, Outlines};
-use super::stroke::{REACH_OF_40, StrokeRules, around};
+use super::stroke::{StrokeRules, around};
 use crate::draw_list::{DrawList, ItemStyle, Role, Side};
 use crate::error::{Error, Result};
 use crate::parallel;

@@ -1,6 +1,7 @@
 //! The parameters of static decals, and what they stand for.
 
 use crate::parameter::{Shape, settings, words};
+use crate::scene::{Join, Line, StrokeForm};
 
 settings! {
     /// Parameters of static decals.
@@ -27,6 +28,23 @@ settings! {
         "Zechmeister Fig. 4.7" overlaps: Overlaps = Overlaps::Once;
         /// When the structures of a cell are built.
         "Zechmeister 4.2" preparation: Preparation = Preparation::Seen;
+    }
+}
+
+/// How far a miter of 40 degrees reaches, in half widths: 1 / sin(20 degrees).
+pub(super) const REACH_OF_40: f64 = 2.923_804_400_163_087_6;
+
+impl Settings {
+    /// What is drawn of a stroke in metres.
+    pub fn stroke_form(&self, line: &Line) -> StrokeForm {
+        let form = StrokeForm::of_style(line);
+        match (self.joins, line.join) {
+            (Joins::Style, _) => form,
+            (Joins::Thesis, Join::Miter { .. }) => {
+                StrokeForm { join: "miter-round", miter_limit: Some(REACH_OF_40), cap: "round" }
+            }
+            (Joins::Thesis, _) => StrokeForm { cap: "round", ..form },
+        }
     }
 }
 

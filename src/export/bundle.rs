@@ -1,9 +1,11 @@
 //! A scene and its pictures as files for a program that draws the same on a graphics processor.
 
+use super::manifest::stage_manifest;
+use super::readme::readme;
 use super::run_files::RunFiles;
 use super::{
-    Buffers, FeatureTable, LAYOUT, Parameters, TilePicture, plan_points, tiles, triangles, vertices,
-    write_features,
+    Allowance, Buffers, FeatureTable, Parameters, TilePicture, plan_points, stage_allowed, tiles, triangles,
+    vertices, write_features,
 };
 use crate::buffer::Buffer;
 use crate::error::Result;
@@ -18,7 +20,7 @@ use crate::truth::Budget;
 use std::path::Path;
 
 /// A bundle to be made: mesh, features, matrices and parameters, a technique's picture with all its buffers, a clipmap's tiles, and the
-/// truth. Its `README.md` ([`LAYOUT`]) tells what is where.
+/// truth. Its `README.md` tells what is where, and how the technique goes.
 ///
 /// ```
 /// use drapery::{Bundle, Opened, Technique};
@@ -41,12 +43,14 @@ pub struct Bundle<'a> {
     pub technique: Kind,
     /// How exact the truth is.
     pub budget: Budget,
+    /// What the technique's picture may be, where that has been worked out.
+    pub allowance: Option<Allowance<'a>>,
 }
 
 impl<'a> Bundle<'a> {
     /// A bundle with the default truth, of a scene that no file says.
     pub fn of(stage: &'a Stage, technique: Kind) -> Self {
-        Self { stage, hash: "", attributes: &[], technique, budget: Budget::default() }
+        Self { stage, hash: "", attributes: &[], technique, budget: Budget::default(), allowance: None }
     }
 
     /// Writes the bundle into a folder, which is made where it is missing; times are not measured.
@@ -85,15 +89,19 @@ impl<'a> Bundle<'a> {
         }
         let mesh = stage.mesh_for(view);
         self.stage_scene(&mesh, &mut batch)?;
-        let settings = (self.technique.name(), run.parameters.clone(), run.device.clone());
-        let parameters = Parameters::new((&stage.scene, &mesh, view), settings).to_json()?;
+        let parameters = Parameters::new((&stage.scene, &mesh, view), self.technique).to_json()?;
+        let readme = readme(stage, self.technique, &run.buffers);
         let (scene, notes) = (view_result(stage, view, self.hash), stage.scene.notes.clone());
         let result =
             RenderResult { schema: RESULT_SCHEMA, scene, notes, runs: vec![truth, run] }.to_json()?;
-        let texts = [("parameters.json", &parameters[..]), ("result.json", &result), ("README.md", LAYOUT)];
+        let texts = [("parameters.json", &parameters[..]), ("result.json", &result), ("README.md", &readme)];
         for (name, text) in texts {
             batch.stage(name, |to| to.write_all(text.as_bytes()))?;
         }
+        if let Some(allowance) = &self.allowance {
+            stage_allowed(allowance, self.technique.name(), &mut batch)?;
+        }
+        stage_manifest(self.technique.name(), &mut batch)?;
         batch.commit()
     }
 
@@ -107,7 +115,15 @@ impl<'a> Bundle<'a> {
         }
         let (layers, list, plan_space) = (&scene.layers[..], draw_list, &scene.plan_space[..]);
         let origin = scene.origin.truncate();
-        let features = FeatureTable { layers, list, attributes: self.attributes, plan_space, origin };
+        let (technique, said) = (self.technique, &scene.technique);
+        let features = FeatureTable {
+            layers,
+            list,
+            attributes: self.attributes,
+            plan_space,
+            origin,
+            drawn_by: (technique, said),
+        };
         batch.stage("features.geojson", |to| write_features(&features, to))?;
         if let GroundColors::Imagery(Imagery { texels, .. }) = &scene.ground.colors {
             let codes = texels.values().iter().map(|color| color.0.map(|v| (v * 255.0 + 0.5) as u8));

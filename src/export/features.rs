@@ -3,8 +3,11 @@
 
 use crate::draw_list::{Chain, DrawList, Item, ItemStyle, NO_FEATURE, Role, Side};
 use crate::parameter::Named;
-use crate::scene::{Attribute, Color, Column, Join, Layer, Line, OutlineMode, Width};
+use crate::scene::{
+    Attribute, Color, Column, Layer, Line, OutlineMode, StrokeForm, TechniqueSettings, Width,
+};
 use crate::space::Plan;
+use crate::technique::Kind;
 use glam::DVec2;
 use serde_json::{Map, Value, json};
 use std::io::{self, Write};
@@ -22,6 +25,8 @@ pub struct FeatureTable<'a> {
     pub plan_space: &'a str,
     /// Absolute plan coordinates of the local zero point.
     pub origin: DVec2,
+    /// Who draws them, and what is said of techniques' parameters: what becomes of corners and ends.
+    pub drawn_by: (Kind, &'a TechniqueSettings),
 }
 
 /// Writes all features that are painted, in draw order, each in a line, in absolute plan coordinates. RFC 7946 knows longitude and latitude
@@ -32,7 +37,11 @@ pub struct FeatureTable<'a> {
 pub fn write_features(table: &FeatureTable, to: &mut dyn Write) -> io::Result<()> {
     let list = table.list;
     let (crs, plan_space) = (crs_member(table.plan_space), Value::from(table.plan_space));
-    write!(to, "{{\"type\":\"FeatureCollection\",\"crs\":{crs},\"plan_space\":{plan_space},\"features\":[")?;
+    let drawn_by = table.drawn_by.0.name();
+    write!(
+        to,
+        "{{\"type\":\"FeatureCollection\",\"crs\":{crs},\"plan_space\":{plan_space},\"widths\":\"{WIDTHS}\",\"drawn_by\":\"{drawn_by}\",\"features\":["
+    )?;
     let mut separator = "\n";
     for items in list.items().chunk_by(|a, b| (a.layer, a.feature) == (b.layer, b.feature)) {
         to.write_all(separator.as_bytes())?;
@@ -44,6 +53,9 @@ pub fn write_features(table: &FeatureTable, to: &mut dyn Write) -> io::Result<()
     }
     write!(to, "\n]}}\n")
 }
+
+/// What widths are, for who reads nothing else.
+const WIDTHS: &str = "whole: from side to side";
 
 /// The plan's CRS as the format's predecessor names it; null where it has no code of EPSG's.
 fn crs_member(plan_space: &str) -> Value {
@@ -76,9 +88,11 @@ fn properties(table: &FeatureTable, items: &[Item]) -> Map<String, Value> {
 }
 
 /// What a style may write.
-const STYLE_KEYS: [&str; 16] = [
+const STYLE_KEYS: [&str; 21] = [
     "layer",
+    "layer-number",
     "number",
+    "feature",
     "layer-opacity",
     "fill",
     "fill-opacity",
@@ -91,6 +105,9 @@ const STYLE_KEYS: [&str; 16] = [
     "join",
     "miter-limit",
     "cap",
+    "drawn-join",
+    "drawn-miter-limit",
+    "drawn-cap",
     "outline-mode",
     "attribute",
 ];
@@ -103,12 +120,17 @@ fn styled(table: &FeatureTable, items: &[Item]) -> Map<String, Value> {
         all.insert("layer".into(), table.layers[item.layer as usize].name.clone().into());
         let number = Some(item.number).filter(|number| *number != NO_FEATURE);
         all.insert("number".into(), number.into());
+        all.insert("layer-number".into(), item.layer.into());
+        all.insert("feature".into(), number.map(|_| item.feature).into());
         let style = &list.styles()[item.style as usize];
         if let Some(group) = style.group {
             all.insert("layer-opacity".into(), group.opacity.into());
         }
         match &style.stroke {
-            Some(line) => put_stroke(style, line, &mut all),
+            Some(line) => {
+                put_stroke(style, line, &mut all);
+                put_drawn(table, style, line, &mut all);
+            }
             None => put_fill(style, &mut all),
         }
     }
@@ -132,16 +154,12 @@ fn put_stroke(style: &ItemStyle, line: &Line, all: &mut Map<String, Value>) {
         Width::Metres(width) => put("stroke-width-m", width.into()),
         Width::Pixels(width) => put("stroke-width-px", width.into()),
     };
-    let (join, limit) = match line.join {
-        Join::Round => ("round", None),
-        Join::Bevel => ("bevel", None),
-        Join::Miter { limit } => ("miter", Some(limit)),
-    };
-    put("join", join.into());
-    if let Some(limit) = limit {
+    let form = StrokeForm::of_style(line);
+    put("join", form.join.into());
+    if let Some(limit) = form.miter_limit {
         put("miter-limit", limit.into());
     }
-    put("cap", line.cap.word().into());
+    put("cap", form.cap.into());
     if style.role == Role::Outline {
         let mode = match style.cut {
             Some(Side::Inside) => OutlineMode::Inset,
@@ -150,6 +168,21 @@ fn put_stroke(style: &ItemStyle, line: &Line, all: &mut Map<String, Value>) {
         };
         put("outline-mode", mode.word().into());
     }
+}
+
+/// What the technique makes of a stroke's corners and ends. Points are discs to all.
+fn put_drawn(table: &FeatureTable, style: &ItemStyle, line: &Line, all: &mut Map<String, Value>) {
+    let (kind, said) = table.drawn_by;
+    let form = if style.role == Role::Point {
+        StrokeForm::ROUND
+    } else {
+        (kind.declaration().stroke_form)(said, line)
+    };
+    all.insert("drawn-join".into(), form.join.into());
+    if let Some(limit) = form.miter_limit {
+        all.insert("drawn-miter-limit".into(), limit.into());
+    }
+    all.insert("drawn-cap".into(), form.cap.into());
 }
 
 /// A colour without its alpha, as the web writes it.
@@ -228,7 +261,7 @@ fn parts(list: &DrawList, items: &[Item]) -> Vec<Chain> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Cap, Feature, Fill, Outline, Rule, Shape, Style};
+    use crate::scene::{Cap, Feature, Fill, Join, Outline, Rule, Shape, Style};
     use crate::space::PlanBox;
 
     fn written(style: Style, shapes: Vec<Shape>) -> Value {
@@ -246,7 +279,8 @@ mod tests {
         let list = DrawList::new(&mut layers, &PlanBox::EMPTY).unwrap();
         let mut text = Vec::new();
         let origin = DVec2::new(100.0, 0.0);
-        let table = FeatureTable { layers: &layers, list: &list, attributes, plan_space, origin };
+        let drawn_by = (Kind::StencilVolume, &TechniqueSettings::default());
+        let table = FeatureTable { layers: &layers, list: &list, attributes, plan_space, origin, drawn_by };
         write_features(&table, &mut text).unwrap();
         serde_json::from_slice(&text).unwrap()
     }
@@ -302,7 +336,8 @@ mod tests {
         let list = DrawList::new(&mut layers, &terrain).unwrap();
         let mut text = Vec::new();
         let (attributes, plan_space, origin) = (&[][..], "", DVec2::ZERO);
-        let table = FeatureTable { layers: &layers, list: &list, attributes, plan_space, origin };
+        let drawn_by = (Kind::StencilVolume, &TechniqueSettings::default());
+        let table = FeatureTable { layers: &layers, list: &list, attributes, plan_space, origin, drawn_by };
         write_features(&table, &mut text).unwrap();
         let written: Value = serde_json::from_slice(&text).unwrap();
         let [outside, outline] = written["features"].as_array().unwrap().as_slice() else {
@@ -344,6 +379,33 @@ mod tests {
                 && local.get("crs").is_some()
                 && local["plan_space"] == "metres without a CRS"
         );
+    }
+
+    #[test]
+    fn a_stroke_says_what_its_technique_makes_of_its_corners_and_ends() {
+        let color = Color([0.0, 0.0, 0.0, 1.0]);
+        let line =
+            Line { color, width: Width::Metres(1.0), join: Join::Miter { limit: 4.0 }, cap: Cap::Round };
+        let drawn = |kind: Kind, said: &TechniqueSettings| {
+            let form = (kind.declaration().stroke_form)(said, &line);
+            (form.join, form.miter_limit, form.cap)
+        };
+        let by_default = |kind| drawn(kind, &TechniqueSettings::default());
+        assert_eq!(by_default(Kind::StencilVolume), ("none", None, "butt"));
+        assert_eq!(by_default(Kind::InverseProjection), ("miter", Some(10.0), "butt"));
+        assert_eq!(by_default(Kind::Clipmap), ("algorithm-1", None, "butt"));
+        assert_eq!(by_default(Kind::GeometryOverlay), ("none", None, "butt"));
+        for kind in [Kind::StaticDecal, Kind::DynamicLine] {
+            let (join, limit, cap) = by_default(kind);
+            assert_eq!((join, cap), ("miter-round", "round"));
+            // A miter of 40 degrees is 1 / sin(20 degrees) half widths long.
+            assert!(limit.is_some_and(|limit| (limit - 2.9238).abs() < 1e-4));
+        }
+        let style = crate::technique::stencil_volume::Settings {
+            joins: crate::technique::stencil_volume::VolumeJoins::Style,
+            ..Default::default()
+        };
+        assert_eq!(drawn(Kind::StencilVolume, &style.into()), ("miter", Some(4.0), "round"));
     }
 
     #[test]

@@ -2,18 +2,22 @@
 //! the same on a graphics processor.
 //!
 //! Input: a stage, the technique, how exact the truth is. Output: pictures, buffers and `result.json`; for a bundle also tables of the
-//! mesh, the features as GeoJSON, the numbers of the view as JSON, the tiles of a texture as pictures. `layout.md` tells a reader of the
-//! bundle what is where. Refuses: what a technique refuses; then nothing is written.
+//! mesh, the features as GeoJSON, the numbers of the view as JSON, the tiles of a texture as pictures. Its `README.md` tells
+//! what is where and how the technique goes, `manifest.json` what each file was. Refuses: what a technique refuses; then nothing is written.
 
+mod allowed;
 mod buffers;
 mod bundle;
 mod features;
+mod manifest;
 mod mesh;
 mod parameters;
 mod pictures;
+mod readme;
 mod run_files;
 mod tiles;
 
+pub use allowed::{Allowance, stage_allowed};
 pub use buffers::Buffers;
 pub use bundle::Bundle;
 pub use features::{FeatureTable, write_features};
@@ -21,6 +25,3 @@ pub use mesh::{plan_points, triangles, vertices};
 pub use parameters::{Camera, Canvas, GroundParameters, Parameters};
 pub use pictures::Pictures;
 pub use tiles::{TilePicture, tiles};
-
-/// What the files of a bundle hold, for people.
-pub const LAYOUT: &str = include_str!("layout.md");

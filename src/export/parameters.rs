@@ -1,22 +1,30 @@
 //! The numbers of a scene's view, as they stand in `parameters.json`.
 
 use crate::error::{Error, Result};
+use crate::measure::device_words;
 use crate::output::ByName;
 use crate::parameter::Named;
 use crate::raster::device;
 use crate::scene::{self, GroundColors, Scene};
 use crate::space::{Lens, PlanBox, ViewFrame};
+use crate::technique::{self, Kind};
 use crate::terrain::Mesh;
+use std::collections::BTreeMap;
 
 /// The whole file. Everything is scene-local but `origin`, which is where the scene's zero point lies.
 #[derive(Debug, serde::Serialize)]
 pub struct Parameters {
     /// The version of the layout.
     pub schema: u32,
+    /// The machine that the technique's pictures are of.
+    pub device: ByName,
     /// The technique whose pictures are in the bundle.
     pub technique: &'static str,
     /// Its parameters, by their names in the scene file.
     pub settings: ByName,
+    /// Those of other techniques that it draws by, too, by their names.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub further_settings: BTreeMap<&'static str, ByName>,
     /// What the plan space is.
     pub plan_space: String,
     /// Absolute plan coordinates of the zero point.
@@ -38,8 +46,6 @@ pub struct Parameters {
     pub compositing_space: &'static str,
     /// How: `over` or `additive`.
     pub compositing_mode: &'static str,
-    /// The machine that is imitated.
-    pub device: ByName,
 }
 
 /// The ellipsoid of a scene on a globe, and where the world's zero is.
@@ -115,11 +121,10 @@ pub enum GroundParameters {
 }
 
 impl Parameters {
-    /// The numbers of a scene; the technique's and the device's as `result.json` has them.
-    pub fn new(
-        (scene, mesh, view): (&Scene, &Mesh, &ViewFrame),
-        (technique, settings, device): (&'static str, ByName, ByName),
-    ) -> Self {
+    /// The numbers of a scene that a technique draws; its own and the device's as `result.json` has them.
+    pub fn new((scene, mesh, view): (&Scene, &Mesh, &ViewFrame), technique: Kind) -> Self {
+        let settings = |of: &technique::Parameters| ByName::from_pairs((of.values)(&scene.technique));
+        let declaration = technique.declaration();
         let light = scene.ground.light.map(|light| light.direction().to_array());
         let ground = match (&scene.ground.colors, light) {
             (GroundColors::Constant(color), None) => GroundParameters::Color { color: color.0 },
@@ -132,8 +137,10 @@ impl Parameters {
         };
         Self {
             schema: 1,
-            technique,
-            settings,
+            device: device_words(&scene.device),
+            technique: technique.name(),
+            settings: settings(&declaration.parameters),
+            further_settings: declaration.further.iter().map(|of| (of.name, settings(of))).collect(),
             plan_space: scene.plan_space.clone(),
             origin: scene.origin.truncate().to_array(),
             origin_height: scene.origin.z,
@@ -152,7 +159,6 @@ impl Parameters {
             ground,
             compositing_space: scene.compositing.space.word(),
             compositing_mode: scene.compositing.mode.word(),
-            device,
         }
     }
 

@@ -1,7 +1,7 @@
 //! Vector layers and their styles.
 
 use super::Color;
-use crate::parameter::words;
+use crate::parameter::{Named, words};
 use crate::space::Plan;
 
 /// Features of one source, drawn together.
@@ -198,6 +198,33 @@ pub enum Join {
     },
     /// The triangle between the strokes' corners.
     Bevel,
+}
+
+/// What is drawn of a stroke's corners and ends, which need not be what its style says.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StrokeForm {
+    /// Between two segments: a word of the style; `miter-round`: a disc where a miter would be longer than its limit; `none`; or a
+    /// technique's own word.
+    pub join: &'static str,
+    /// The longest miter, in half widths.
+    pub miter_limit: Option<f64>,
+    /// At the ends: a word of the style.
+    pub cap: &'static str,
+}
+
+impl StrokeForm {
+    /// A disc everywhere.
+    pub const ROUND: Self = Self { join: "round", miter_limit: None, cap: "round" };
+
+    /// That of a line's style.
+    pub fn of_style(line: &Line) -> Self {
+        let (join, miter_limit) = match line.join {
+            Join::Round => ("round", None),
+            Join::Bevel => ("bevel", None),
+            Join::Miter { limit } => ("miter", Some(limit)),
+        };
+        Self { join, miter_limit, cap: line.cap.word() }
+    }
 }
 
 words! {

@@ -5,7 +5,7 @@ use super::{Kind, Prepared};
 use crate::buffer::PlaneKind;
 use crate::error::Result;
 use crate::parameter::{Settings, TableShape, Value};
-use crate::scene::TechniqueSettings;
+use crate::scene::{Line, StrokeForm, TechniqueSettings};
 use crate::stage::Stage;
 
 /// What is said of a technique: all that others know of it.
@@ -13,6 +13,8 @@ use crate::stage::Stage;
 pub struct Declaration {
     /// Its name and its parameters.
     pub parameters: Parameters,
+    /// Those of other techniques that it draws by, too.
+    pub further: &'static [Parameters],
     /// Its paper.
     pub paper: &'static str,
     /// What it is, in a line.
@@ -22,6 +24,10 @@ pub struct Declaration {
     /// The buffers that can be asked for, in the order of the technique's stages: of two that differ from what they should
     /// be, the first is nearer to the cause.
     pub planes: &'static [PlaneKind],
+    /// How a client draws the same, as a part of a bundle's README: its algorithm, then `## Buffers`, in which each has a row.
+    pub client: &'static str,
+    /// What it makes of the ends and corners of a stroke in a layer's style.
+    pub stroke_form: fn(&TechniqueSettings, &Line) -> StrokeForm,
     /// Which settings a report tries.
     pub sweep: Sweep,
     /// Whether it draws such a scene, or the reason why it does not.

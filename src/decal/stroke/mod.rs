@@ -21,7 +21,7 @@ mod segment;
 mod single;
 
 pub use rules::StrokeRules;
-pub(super) use rules::{REACH_OF_40, around};
+pub(super) use rules::around;
 pub use segment::Segment;
 pub use single::SingleSegment;
 

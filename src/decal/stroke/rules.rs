@@ -12,9 +12,6 @@ use glam::DVec2;
 /// the miter corner is replaced by a round corner" (4.2.1).
 const COS_40: f64 = 0.766_044_443_118_978;
 
-/// How far a miter of 40 degrees reaches, in half widths: 1 / sin(20 degrees).
-pub(in crate::decal) const REACH_OF_40: f64 = 2.923_804_400_163_087_6;
-
 /// How a stroke's segments are made.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StrokeRules {

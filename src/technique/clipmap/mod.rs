@@ -55,6 +55,8 @@ use super::{Declaration, Explanation, Frame, FrameOptions, Parameters, Prepared}
 use crate::buffer::{Look, PlaneKind};
 use crate::error::Result;
 use crate::parallel;
+use crate::parameter::Named;
+use crate::scene::{Line, StrokeForm, TechniqueSettings, Width};
 use crate::space::{Plan, ViewFrame};
 use crate::stage::Stage;
 use cache::TileCache;
@@ -66,6 +68,7 @@ use tile::{TileCounts, TileMaker, Workbench};
 /// The technique, said once.
 pub const DECLARATION: Declaration = Declaration {
     parameters: Parameters::of::<Settings>(),
+    further: &[],
     paper: "Taibo et al. 2014, \"Practical line rasterization for multi-resolution textures\".",
     title: "Clipmap texture (Taibo)",
     contradiction: settings::contradiction,
@@ -82,10 +85,23 @@ pub const DECLARATION: Declaration = Declaration {
         PlaneKind::new("tiles", Look::CodeValues),
         PlaneKind::COLOR,
     ],
+    client: include_str!("client.md"),
+    stroke_form,
     sweep: sweep::SWEEP,
     applies,
     prepare: |stage, _| Ok(Box::new(Prepare::new(stage)?)),
 };
+
+/// Strips as `joints` says, which have no caps; widths in pixels are round where the style counts.
+fn stroke_form(said: &TechniqueSettings, line: &Line) -> StrokeForm {
+    let settings: Settings = said.get();
+    match (settings.solution, settings.joints, line.width) {
+        (Solution::Lines, ..) => StrokeForm { join: "none", miter_limit: None, cap: "butt" },
+        (_, Joints::Style, Width::Pixels(_)) => StrokeForm::ROUND,
+        (_, Joints::Style, Width::Metres(_)) => StrokeForm::of_style(line),
+        (_, joints, _) => StrokeForm { join: joints.word(), miter_limit: None, cap: "butt" },
+    }
+}
 
 /// The technique with its lines and areas in memory.
 #[derive(Debug)]

@@ -43,7 +43,7 @@ use super::{Contradiction, Declaration, Explanation, Frame, FrameOptions, Parame
 use crate::buffer::{Look, PlaneKind};
 use crate::decal::{self, Decals, Edges, LeafPolygons};
 use crate::error::{Error, Result};
-use crate::scene::{Precision, TechniqueSettings, Width};
+use crate::scene::{Line, Precision, StrokeForm, TechniqueSettings, Width};
 use crate::space::ViewFrame;
 use crate::stage::Stage;
 use crate::terrain::Drape;
@@ -52,6 +52,7 @@ use matching::MatchedLines;
 /// The technique, said once.
 pub const DECLARATION: Declaration = Declaration {
     parameters: Parameters::of::<Settings>(),
+    further: &[Parameters::of::<decal::Settings>()],
     paper: "Zechmeister 2020, \"Interactive visualization of vector data on heightfields\".",
     title: "Dynamic lines (Zechmeister)",
     contradiction,
@@ -63,6 +64,8 @@ pub const DECLARATION: Declaration = Declaration {
         PlaneKind::new("list-length", Look::Count),
         PlaneKind::COLOR,
     ],
+    client: include_str!("client.md"),
+    stroke_form,
     sweep: sweep::SWEEP,
     applies,
     prepare: |stage, _| Ok(Box::new(Prepare::new(stage)?)),
@@ -85,6 +88,15 @@ fn contradiction(said: &TechniqueSettings) -> Option<Contradiction> {
         _ => return None,
     };
     Some(Contradiction { parameter: "antialiasing", what: what.into(), help: help.into() })
+}
+
+/// Lines in pixels are round, or as the style says; what is in metres is as decals have it.
+fn stroke_form(said: &TechniqueSettings, line: &Line) -> StrokeForm {
+    match (line.width, said.get::<Settings>().corners) {
+        (Width::Metres(_), _) => said.get::<decal::Settings>().stroke_form(line),
+        (Width::Pixels(_), Corners::Round) => StrokeForm::ROUND,
+        (Width::Pixels(_), Corners::Style) => StrokeForm::of_style(line),
+    }
 }
 
 /// The technique with its lines found.

@@ -37,6 +37,7 @@ use super::{Declaration, Explanation, Frame, FrameOptions, Parameters, Prepared}
 use crate::buffer::{Look, PlaneKind};
 use crate::draw_list::Role;
 use crate::error::{Error, Result};
+use crate::scene::{Line, StrokeForm, TechniqueSettings};
 use crate::space::ViewFrame;
 use crate::stage::Stage;
 use crate::terrain::Mesh;
@@ -46,6 +47,7 @@ use store::Store;
 /// The technique, said once.
 pub const DECLARATION: Declaration = Declaration {
     parameters: Parameters::of::<Settings>(),
+    further: &[],
     paper: "Wartell et al. 2003, \"Rendering vector data over global, multi-resolution 3D terrain\".",
     title: "Geometry overlay (Wartell et al.)",
     contradiction: |_| None,
@@ -64,10 +66,17 @@ pub const DECLARATION: Declaration = Declaration {
         PlaneKind::new("clipping", Look::Number),
         PlaneKind::COLOR,
     ],
+    client: include_str!("client.md"),
+    stroke_form,
     sweep: sweep::SWEEP,
     applies,
     prepare: |stage, _| Ok(Box::new(Prepare::new(stage)?)),
 };
+
+/// Lines of the screen, segment by segment.
+fn stroke_form(_said: &TechniqueSettings, _line: &Line) -> StrokeForm {
+    StrokeForm { join: "none", miter_limit: None, cap: "butt" }
+}
 
 /// The technique with its lines indexed.
 #[derive(Debug)]

@@ -121,6 +121,11 @@ impl<'l> EdgeIndex<'l> {
         Some((AreaId::polygon_of(self.list.area_owner(area.item())), side == Side::Inside))
     }
 
+    /// All edges, area by area.
+    pub fn edges(&self) -> &[Edge] {
+        &self.edges
+    }
+
     /// An edge.
     #[inline(always)]
     pub fn edge(&self, index: u32) -> &Edge {

@@ -63,7 +63,7 @@ pub struct Edge {
 
 /// Where a miter would reach farther than this many half-widths, the corner is cut off (the paper is silent on
 /// lines that turn back, where parallel edges meet far away or nowhere).
-const MITER_LIMIT: f64 = 10.0;
+pub const MITER_LIMIT: f64 = 10.0;
 
 /// The edges of all items, in the order of their areas. A polygon has its edges once: of an outline that is cut to it, only where
 /// it has no fill.

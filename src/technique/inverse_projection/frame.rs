@@ -3,6 +3,7 @@
 use super::edge_index::EdgeIndex;
 use super::pixel::{Counts, GUARD, PixelPainter};
 use super::step::{PixelClass, Step};
+use super::structures;
 use crate::buffer::{Buffer, Plane, Values};
 use crate::canvas::{Frame, FrameOptions, Kept, Pixels, joined, picture_plane, sight_counts, surface_plane};
 use crate::parallel;
@@ -40,11 +41,9 @@ pub fn draw(
     let rows = parallel::map_telling(height, &progress, |y| row(&painter, y, width, options));
     let codes = joined(rows.iter().map(|row| row.pixels.codes()));
     let wanted = ORDER.into_iter().filter(|name| options.wants(name));
-    Frame {
-        image: Buffer::from_values(width, height, codes),
-        planes: wanted.filter_map(|name| plane(name, &painter, &rows, [width, height])).collect(),
-        counts: counts(&painter, index, &rows),
-    }
+    let mut planes = structures::planes(index, stage.draw_list.items(), options);
+    planes.extend(wanted.filter_map(|name| plane(name, &painter, &rows, [width, height])));
+    Frame { image: Buffer::from_values(width, height, codes), planes, counts: counts(&painter, index, &rows) }
 }
 
 /// Decides one pixel of a view as a frame does: its steps and its code values.

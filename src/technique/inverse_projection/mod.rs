@@ -27,6 +27,7 @@ mod pixel;
 mod quadrilateral;
 mod settings;
 mod step;
+mod structures;
 mod sweep;
 
 pub use expansion::AreaId;
@@ -36,6 +37,8 @@ pub use step::{EdgeOf, PixelClass, Refusal, Step};
 use super::{Declaration, Explanation, Frame, FrameOptions, Parameters, Prepared};
 use crate::buffer::{Look, PlaneKind};
 use crate::error::{Error, Result};
+use crate::parameter::Named;
+use crate::scene::{Cap, Line, StrokeForm, TechniqueSettings};
 use crate::space::ViewFrame;
 use crate::stage::Stage;
 use edge_index::EdgeIndex;
@@ -43,10 +46,15 @@ use edge_index::EdgeIndex;
 /// The technique, said once.
 pub const DECLARATION: Declaration = Declaration {
     parameters: Parameters::of::<Settings>(),
+    further: &[],
     paper: "She et al. 2016, \"Rendering 2D lines on 3D terrain model\".",
     title: "Inverse projection (She)",
     contradiction: |_| None,
     planes: &[
+        PlaneKind::structure("areas"),
+        PlaneKind::structure("area-edges").in_plan(),
+        PlaneKind::structure("edge-areas"),
+        PlaneKind::structure("edge-sides"),
         PlaneKind::DEPTH,
         PlaneKind::TRIANGLE,
         PlaneKind::PLAN,
@@ -55,10 +63,18 @@ pub const DECLARATION: Declaration = Declaration {
         PlaneKind::new("edges", Look::Count),
         PlaneKind::COLOR,
     ],
+    client: include_str!("client.md"),
+    stroke_form,
     sweep: sweep::SWEEP,
     applies,
     prepare: |stage, _| Ok(Box::new(Prepare::new(stage)?)),
 };
+
+/// Fig. 4: mitres and flat ends.
+fn stroke_form(_said: &TechniqueSettings, line: &Line) -> StrokeForm {
+    let cap = if line.cap == Cap::Square { line.cap } else { Cap::Butt };
+    StrokeForm { join: "miter", miter_limit: Some(expansion::MITER_LIMIT), cap: cap.word() }
+}
 
 /// The technique with its index built.
 #[derive(Debug)]

@@ -26,13 +26,14 @@ use crate::buffer::{Look, PlaneKind};
 use crate::canvas::SamplePattern;
 use crate::decal::Decals;
 use crate::error::{Error, Result};
-use crate::scene::{Precision, TechniqueSettings};
+use crate::scene::{Line, Precision, StrokeForm, TechniqueSettings};
 use crate::space::ViewFrame;
 use crate::stage::Stage;
 
 /// The technique, said once.
 pub const DECLARATION: Declaration = Declaration {
     parameters: Parameters::of::<Settings>(),
+    further: &[],
     paper: "Zechmeister 2020, \"Interactive visualization of vector data on heightfields\", after Thöny et al. 2017 and Frasson et al. 2018.",
     title: "Static decals (Zechmeister, after Thöny and Frasson)",
     contradiction,
@@ -64,6 +65,8 @@ pub const DECLARATION: Declaration = Declaration {
         PlaneKind::new("nodes", Look::Count),
         PlaneKind::new("tests", Look::Count),
     ],
+    client: include_str!("client.md"),
+    stroke_form,
     sweep: sweep::SWEEP,
     applies,
     prepare: |stage, progress| Ok(Box::new(Prepare::new(stage, progress)?)),
@@ -77,6 +80,11 @@ fn contradiction(said: &TechniqueSettings) -> Option<Contradiction> {
         what: "leaves that are clipped do not know the border that edges = \"analytic\" measures from".into(),
         help: "use leaf_polygons = \"corner\"".into(),
     })
+}
+
+/// As decals have it.
+fn stroke_form(said: &TechniqueSettings, line: &Line) -> StrokeForm {
+    said.get::<Settings>().stroke_form(line)
 }
 
 /// The technique with its structures built, or ready to be built where a frame needs them.

@@ -5,6 +5,7 @@ use super::context::{FrameContext, Way};
 use super::extrusion::Extrusion;
 use super::stencil::{Method, TRACES, Traces};
 use super::step::Step;
+use super::structures;
 use super::tile::{Counts, Tile};
 use super::view::Entry;
 use crate::buffer::{Buffer, Plane, Values};
@@ -63,10 +64,11 @@ pub fn draw((stage, view): (&Stage, &ViewFrame), extrusion: &Extrusion, options:
         draw_tile(&context, tile, bins.of(k), wants_colors)
     });
     let codes = tilings.pixels.assembled([0; 4], tiles.iter().map(|tile| tile.pixels.codes()));
-    let planes = options.buffers.iter().filter_map(|name| plane(name, &context, &tilings, &tiles));
+    let mut planes = structures::planes(&context, options);
+    planes.extend(options.buffers.iter().filter_map(|name| plane(name, &context, &tilings, &tiles)));
     Frame {
         image: Buffer::from_values(view.width(), view.height(), codes),
-        planes: planes.collect(),
+        planes,
         counts: counts(&context, &tiles),
     }
 }

@@ -27,6 +27,7 @@ mod settings;
 mod stencil;
 mod step;
 mod stroke;
+mod structures;
 mod sweep;
 #[cfg(test)]
 mod tests;
@@ -39,7 +40,8 @@ pub use step::Step;
 use super::{Declaration, Explanation, Frame, FrameOptions, Parameters, Prepared};
 use crate::buffer::{Look, PlaneKind};
 use crate::error::{Error, Result};
-use crate::scene::{Layer, OutlineMode};
+use crate::parameter::Named;
+use crate::scene::{Cap, Layer, Line, OutlineMode, StrokeForm, TechniqueSettings};
 use crate::space::ViewFrame;
 use crate::stage::Stage;
 use crate::terrain::Drape;
@@ -51,10 +53,16 @@ const MOST_SAMPLES: usize = 1 << 27;
 /// The technique, said once.
 pub const DECLARATION: Declaration = Declaration {
     parameters: Parameters::of::<Settings>(),
+    further: &[],
     paper: "Schneider & Klein 2007, \"Efficient and accurate rendering of vector data on virtual landscapes\".",
     title: "Stencil volumes (Schneider & Klein)",
     contradiction: |_| None,
     planes: &[
+        PlaneKind::structure("objects"),
+        PlaneKind::structure("volumes"),
+        PlaneKind::structure("volume-levels"),
+        PlaneKind::structure("volume-rings"),
+        PlaneKind::structure("volume-corners").in_plan(),
         PlaneKind::DEPTH,
         PlaneKind::TRIANGLE,
         PlaneKind::PLAN,
@@ -64,10 +72,23 @@ pub const DECLARATION: Declaration = Declaration {
         PlaneKind::new("stencil-back", Look::Count),
         PlaneKind::new("overdraw", Look::Count),
     ],
+    client: include_str!("client.md"),
+    stroke_form,
     sweep: sweep::SWEEP,
     applies,
     prepare: |stage, _| Ok(Box::new(Prepare::new(stage)?)),
 };
+
+/// A box a segment, unless `joins` asks for more; round caps are drawn flat then.
+fn stroke_form(said: &TechniqueSettings, line: &Line) -> StrokeForm {
+    match said.get::<Settings>().joins {
+        VolumeJoins::Style => StrokeForm::of_style(line),
+        VolumeJoins::None => {
+            let cap = if line.cap == Cap::Square { line.cap } else { Cap::Butt };
+            StrokeForm { join: "none", miter_limit: None, cap: cap.word() }
+        }
+    }
+}
 
 /// The technique with its volumes built.
 #[derive(Debug)]
