@@ -118,6 +118,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     (
         "golden",
         &[
+            "allowed",
             "technique",
             "canvas",
             "truth",
@@ -173,6 +174,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     (
         "export",
         &[
+            "allowed",
             "measure",
             "technique",
             "canvas",

@@ -24,7 +24,7 @@ const USUAL_FILTER_BITS: u32 = 8;
 const SINGLE: f64 = 4.0 / 4096.0;
 
 /// Depths of two surfaces are compared, each interpolated and rounded: so many steps they may be off together.
-const DEPTH_STEPS: f64 = 4.0;
+pub(super) const DEPTH_STEPS: f64 = 4.0;
 
 /// Coordinates in single precision may be off by this share: a rounding of the coordinate, and three of what is computed with it.
 pub(super) const COORDINATES: f64 = 4.0 / (1 << 24) as f64;

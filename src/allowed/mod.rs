@@ -18,9 +18,11 @@ pub use envelope::Envelope;
 
 use crate::compare::Allowed;
 use crate::error::{Error, Result};
+use crate::scene::Device;
 use crate::space::ViewFrame;
 use crate::stage::Stage;
 use crate::technique::{self, Kind};
+use envelope::DEPTH_STEPS;
 use model::{Guess, View};
 
 /// What a technique's picture of a view may be. `progress` is told the share that is done (0..=1), from any thread.
@@ -33,16 +35,13 @@ pub fn allowed(
     progress: &(dyn Fn(f64) + Sync),
 ) -> Result<Allowed> {
     technique::applies(kind, stage)?;
-    let guesses: Vec<Guess> = Envelope::of(&stage.scene.device)
-        .into_iter()
-        .map(|envelope| Guess { name: format!("{}-bit-vertices", envelope.subpixel_bits), envelope })
-        .collect();
+    let guesses: Vec<Guess> = Envelope::of(&stage.scene.device).into_iter().map(Guess::of).collect();
     let mut all = Allowed { width: frame.width(), height: frame.height(), ..Allowed::default() };
     let count = guesses.len() as f64;
     for (k, guess) in guesses.iter().enumerate() {
         let progress = |share: f64| progress((k as f64 + share) / count);
         let view = View { stage, frame, progress: &progress };
-        let (hypothesis, stages, features) = match kind {
+        let (mut hypothesis, stages, features) = match kind {
             Kind::StencilVolume => {
                 stencil_volume::sampling(&stage.scene.technique.get()).picture(&view, guess)
             }
@@ -58,9 +57,24 @@ pub fn allowed(
                 .help("judge it by its picture and a tolerance"));
             }
         };
+        hypothesis.says = guess.says();
         all.hypotheses.push(hypothesis);
         // The last envelope is the widest.
         (all.stages, all.features) = (stages, features);
     }
     Ok(all)
+}
+
+/// What is allowed for a device, by name: numbers of the widest envelope.
+pub fn envelope(device: &Device) -> Vec<(&'static str, f64)> {
+    let widest = Envelope::of(device).into_iter().last();
+    let of = |envelope: Envelope| {
+        vec![
+            ("shift_px", envelope.shift()),
+            ("subpixel_bits", f64::from(envelope.subpixel_bits)),
+            ("depth_steps", DEPTH_STEPS),
+            ("filter_bits", f64::from(envelope.filter_bits)),
+        ]
+    };
+    widest.map_or_else(Vec::new, of)
 }

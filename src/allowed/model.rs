@@ -20,3 +20,16 @@ pub(super) struct Guess {
     pub(super) name: String,
     pub(super) envelope: Envelope,
 }
+
+impl Guess {
+    /// By an envelope alone.
+    pub(super) fn of(envelope: Envelope) -> Self {
+        Self { name: format!("{}-bit-vertices", envelope.subpixel_bits), envelope }
+    }
+
+    /// What it assumes, in a sentence.
+    pub(super) fn says(&self) -> String {
+        let Envelope { subpixel_bits, .. } = self.envelope;
+        format!("vertices are snapped to {subpixel_bits} bits behind a pixel's point, or less")
+    }
+}

@@ -16,7 +16,7 @@ const EXAMPLES: &str = "\
 Examples:
   drapery export scene.toml -t clipmap -o bundle
   drapery export scene.toml -t stencil-volume --set image.width=800 -o bundle
-  drapery compare bundle/clipmap.png mine.png --tolerance 1/255
+  drapery compare bundle mine.png
 
 Writes the mesh and vertex sequences as .npy, features as GeoJSON, matrices and parameters as JSON, the technique's picture with all its
 buffers, a clipmap's tiles as z/x/y, and the truth with what each pixel may be. DIR/README.md tells what is where.";
@@ -57,7 +57,7 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
         let attributes = load::attributes(&text.file, &|told| bar.note(told));
         let hash = &text.file.hash;
         let stage = &scene.stage;
-        Bundle { stage, hash, attributes: &attributes, technique, budget, allowance: None }.write(batch, &bar)
+        Bundle { stage, hash, attributes: &attributes, technique, budget }.write(batch, &bar)
     };
     let done = parallel::with_threads(arguments.threads, export)?;
     done.map_err(|error| scene_input::blame(&text, error))?;

@@ -24,6 +24,8 @@ pub struct Allowed {
 pub struct Hypothesis {
     /// Its name in reports and files.
     pub name: String,
+    /// What it assumes, in a sentence.
+    pub says: String,
     /// The least of each pixel's channels, rounded down; rows from the top.
     pub lo: Vec<[u16; 4]>,
     /// The most of each pixel's channels, rounded up.

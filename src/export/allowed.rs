@@ -10,26 +10,18 @@ use serde_json::{Value, json};
 /// What errors call the tables.
 const TABLE: &str = "allowed";
 
-/// What a technique's picture may be, and what is told of how that was found.
-#[derive(Debug, Clone, Copy)]
-pub struct Allowance<'a> {
-    /// What it may be.
-    pub allowed: &'a Allowed,
-    /// What was allowed for, by name.
-    pub envelope: &'a ByName,
-    /// A sentence on each hypothesis, by its name.
-    pub says: fn(&str) -> String,
-}
-
-/// Stages the files of what a technique's picture may be.
+/// Stages the files of what a technique's picture may be; `envelope` is what was allowed for.
 ///
 /// # Errors
 /// When a file cannot be written; internal errors where lists are not as long as the picture is large.
-pub fn stage_allowed(allowance: &Allowance, technique: &str, batch: &mut Batch) -> Result<()> {
-    let Allowance { allowed, envelope, says } = *allowance;
+pub fn stage_allowed(
+    (allowed, envelope): (&Allowed, &ByName),
+    technique: &str,
+    batch: &mut Batch,
+) -> Result<()> {
     let hypotheses = allowed.hypotheses.iter().map(|of| {
         let mut told = stage_hypothesis(of, (allowed.width, allowed.height), batch)?;
-        told["says"] = says(&of.name).into();
+        told["says"] = of.says[..].into();
         Ok(told)
     });
     let hypotheses = hypotheses.collect::<Result<Vec<Value>>>()?;
@@ -131,6 +123,7 @@ mod tests {
             height: 1,
             hypotheses: vec![Hypothesis {
                 name: "as-is".into(),
+                says: "as-is: so it is".into(),
                 lo: vec![[0, 1, 256, 65535], [0; 4]],
                 hi: vec![[9, 10, 300, 65535], [65535; 4]],
                 choices: vec![Choice { pixel: 1, lo: [0; 4], hi: [65535; 4] }],
@@ -156,9 +149,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let mut batch = Batch::into(folder.path()).unwrap();
         let envelope = ByName::from_pairs([("shift_px", 0.00390625)]);
-        let says = |name: &str| format!("{name}: so it is");
-        let allowance = Allowance { allowed: &allowed(), envelope: &envelope, says };
-        stage_allowed(&allowance, "clipmap", &mut batch).unwrap();
+        stage_allowed((&allowed(), &envelope), "clipmap", &mut batch).unwrap();
         batch.commit().unwrap();
         let text = std::fs::read(folder.path().join("allowed.json")).unwrap();
         let told: Value = serde_json::from_slice(&text).unwrap();
@@ -189,8 +180,7 @@ mod tests {
         let mut short = allowed();
         short.hypotheses[0].hi.pop();
         let none = ByName::from_pairs::<f64>([]);
-        let allowance = Allowance { allowed: &short, envelope: &none, says: |_| String::new() };
-        let error = stage_allowed(&allowance, "clipmap", &mut batch).unwrap_err();
+        let error = stage_allowed((&short, &none), "clipmap", &mut batch).unwrap_err();
         assert!(error.is_internal(), "{error}");
     }
 }

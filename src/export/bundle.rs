@@ -4,14 +4,16 @@ use super::manifest::stage_manifest;
 use super::readme::readme;
 use super::run_files::RunFiles;
 use super::{
-    Allowance, Buffers, FeatureTable, Parameters, TilePicture, plan_points, stage_allowed, tiles, triangles,
-    vertices, write_features,
+    Buffers, FeatureTable, Parameters, TilePicture, plan_points, stage_allowed, tiles, triangles, vertices,
+    write_features,
 };
+use crate::allowed;
 use crate::buffer::Buffer;
 use crate::error::Result;
 use crate::measure::{Certified, Unwatched, Watch, view_result};
-use crate::output::{Batch, Npy, RESULT_SCHEMA, RenderResult, write_png};
+use crate::output::{Batch, ByName, Npy, RESULT_SCHEMA, RenderResult, write_png};
 use crate::scene::{Column, GroundColors, Imagery};
+use crate::space::ViewFrame;
 use crate::stage::Stage;
 use crate::technique::clipmap::{self, TILE_TEXELS};
 use crate::technique::{self, Frame, Kind};
@@ -43,14 +45,12 @@ pub struct Bundle<'a> {
     pub technique: Kind,
     /// How exact the truth is.
     pub budget: Budget,
-    /// What the technique's picture may be, where that has been worked out.
-    pub allowance: Option<Allowance<'a>>,
 }
 
 impl<'a> Bundle<'a> {
     /// A bundle with the default truth, of a scene that no file says.
     pub fn of(stage: &'a Stage, technique: Kind) -> Self {
-        Self { stage, hash: "", attributes: &[], technique, budget: Budget::default(), allowance: None }
+        Self { stage, hash: "", attributes: &[], technique, budget: Budget::default() }
     }
 
     /// Writes the bundle into a folder, which is made where it is missing; times are not measured.
@@ -98,11 +98,25 @@ impl<'a> Bundle<'a> {
         for (name, text) in texts {
             batch.stage(name, |to| to.write_all(text.as_bytes()))?;
         }
-        if let Some(allowance) = &self.allowance {
-            stage_allowed(allowance, self.technique.name(), &mut batch)?;
-        }
+        self.stage_allowed(view, &mut batch, watch)?;
         stage_manifest(self.technique.name(), &mut batch)?;
         batch.commit()
+    }
+
+    /// What the technique's picture may be; where nobody knows, a word about it.
+    fn stage_allowed(&self, view: &ViewFrame, batch: &mut Batch, watch: &dyn Watch) -> Result<()> {
+        watch.start("what is allowed");
+        match allowed::allowed(self.technique, (self.stage, view), &|share| watch.done(share)) {
+            Ok(all) => {
+                let envelope = ByName::from_pairs(allowed::envelope(&self.stage.scene.device));
+                stage_allowed((&all, &envelope), self.technique.name(), batch)
+            }
+            Err(error) if error.is_internal() => Err(error),
+            Err(error) => {
+                watch.note(&format!("the bundle does not say what is allowed: {}", error.what()));
+                Ok(())
+            }
+        }
     }
 
     /// What is drawn: mesh, features, imagery.

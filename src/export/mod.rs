@@ -17,7 +17,7 @@ mod readme;
 mod run_files;
 mod tiles;
 
-pub use allowed::{Allowance, stage_allowed};
+pub use allowed::stage_allowed;
 pub use buffers::Buffers;
 pub use bundle::Bundle;
 pub use features::{FeatureTable, write_features};

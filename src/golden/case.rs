@@ -18,6 +18,8 @@ pub struct Case {
     pub scene: PathBuf,
     /// What is changed for the golden.
     pub set: Vec<Override>,
+    /// Whether what right programs may draw of it is golden, too: its pictures have to be allowed, and what is allowed stays as it is.
+    pub is_judged: bool,
     /// Changes that must not change its buffers.
     pub variants: Vec<Variant>,
 }
@@ -40,6 +42,7 @@ pub struct Variant {
 #[serde(default, deny_unknown_fields)]
 struct Settings {
     set: Vec<String>,
+    judged: bool,
     variant: Vec<VariantSettings>,
 }
 
@@ -110,6 +113,7 @@ fn case(folder: &Path, name: &str) -> Result<Case> {
         name: name.to_owned(),
         scene: folder.join(format!("{name}.toml")),
         set: overrides(settings.set)?,
+        is_judged: settings.judged,
         variants: settings.variant.into_iter().map(variant).collect::<Result<_>>()?,
     })
 }

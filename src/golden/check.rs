@@ -120,14 +120,15 @@ fn fault_of(folder: &Path, entry: Option<&Entry>, case: &Case, replay: &Replay) 
         }
         (None, None) => Some(Fault::NoPicture),
         (None, Some(Err(error))) => Some(Fault::Refused(error)),
-        (None, Some(Ok(verdict))) if verdict.passed() => None,
+        (None, Some(Ok(verdict))) if verdict.passed() => {
+            let ruling = replay.refusal.clone()?;
+            Some(Fault::NotAllowed { ruling })
+        }
         (None, Some(Ok(verdict))) => Some(Fault::OtherPicture { verdict: Box::new(verdict) }),
     }
 }
 
 /// The verdict on a replay by the stored picture: no pixel may differ.
-///
-/// The interval of what conforming machines may draw comes to stand here, between two stored pictures.
 fn on_stored(path: &Path, replay: &Replay) -> Result<Verdict> {
     let expected = Expected::exactly(Image::read(path)?);
     Ok(Verdict::on(&Image::from_rgba8(&replay.image)?, &expected, Limits::default()))

@@ -51,6 +51,11 @@ pub enum Fault {
         /// The picture as it is drawn now.
         actual: Buffer<[u8; 4]>,
     },
+    /// A picture that the judge does not allow.
+    NotAllowed {
+        /// What it says.
+        ruling: String,
+    },
     /// A change that must not change a buffer does.
     Variant {
         /// The variant's name.
@@ -72,6 +77,7 @@ impl Fault {
             Self::Refused(_) => "refused",
             Self::Size { .. } => "another-size",
             Self::Differs { .. } => "differs",
+            Self::NotAllowed { .. } => "not-allowed",
             Self::Variant { .. } => "variant-differs",
         }
     }
@@ -110,6 +116,7 @@ impl fmt::Display for Fault {
                     None => Ok(()),
                 }
             }
+            Self::NotAllowed { ruling } => write!(f, "the judge does not allow it: {ruling}"),
             Self::Variant { variant, buffer } => {
                 write!(f, "`{variant}` must change nothing, and changes `{buffer}`")
             }

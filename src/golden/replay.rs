@@ -2,7 +2,9 @@
 
 use super::case::Case;
 use super::manifest::{BufferHash, Entry};
+use crate::allowed;
 use crate::buffer::{Buffer, Plane};
+use crate::compare::{Gates, Image, Judgement, Submitted};
 use crate::error::Result;
 use crate::scene_file::{Override, SceneFile};
 use crate::source::load;
@@ -11,6 +13,7 @@ use crate::stage::Stage;
 use crate::technique::{self, FrameOptions, Kind};
 use crate::truth::{self, Budget, Truth};
 use crate::visibility::TILE;
+use std::path::PathBuf;
 
 /// The picture's name among the buffers.
 pub const IMAGE: &str = "image";
@@ -22,8 +25,10 @@ pub struct Replay {
     pub technique: &'static str,
     /// The picture.
     pub image: Buffer<[u8; 4]>,
-    /// The hashes of the buffers, from the first stage to the last, the picture.
+    /// The hashes of the buffers, from the first stage to the last, the picture; of a case that is judged those of what is allowed, too.
     pub hashes: Vec<BufferHash>,
+    /// What the judge says of the picture, where it is not allowed.
+    pub refusal: Option<String>,
 }
 
 impl Replay {
@@ -57,7 +62,13 @@ pub(super) fn replay(case: &Case, more: &[Override], cut: Cut) -> Result<Vec<Rep
     let mut replays = vec![certified(&stage, &view)];
     for kind in Kind::ALL {
         match technique::applies(kind, &stage) {
-            Ok(()) => replays.push(draw(kind, (&stage, &view), cut)?),
+            Ok(()) => {
+                let mut replay = draw(kind, (&stage, &view), cut)?;
+                if case.is_judged {
+                    judge(kind, (&stage, &view), &mut replay)?;
+                }
+                replays.push(replay);
+            }
             Err(error) if error.is_internal() => return Err(error),
             Err(_) => {}
         }
@@ -73,7 +84,7 @@ fn certified(stage: &Stage, view: &ViewFrame) -> Replay {
         planes.map(|plane| BufferHash { buffer: plane.name.to_owned(), blake3: plane.hash() }).collect();
     let image = truth.image();
     hashes.push(BufferHash { buffer: IMAGE.to_owned(), blake3: image.hash() });
-    Replay { technique: truth::NAME, image, hashes }
+    Replay { technique: truth::NAME, image, hashes, refusal: None }
 }
 
 fn draw(kind: Kind, (stage, view): (&Stage, &ViewFrame), cut: Cut) -> Result<Replay> {
@@ -89,7 +100,27 @@ fn draw(kind: Kind, (stage, view): (&Stage, &ViewFrame), cut: Cut) -> Result<Rep
     let hash = |plane: &Plane| BufferHash { buffer: plane.name.to_owned(), blake3: plane.hash() };
     let mut hashes: Vec<BufferHash> = names.iter().filter_map(plane).map(hash).collect();
     hashes.push(BufferHash { buffer: IMAGE.to_owned(), blake3: frame.image.hash() });
-    Ok(Replay { technique: kind.name(), image: frame.image, hashes })
+    Ok(Replay { technique: kind.name(), image: frame.image, hashes, refusal: None })
+}
+
+/// Adds what right programs may draw, and what the judge says of the picture; nothing for a technique that nobody can judge.
+fn judge(kind: Kind, (stage, view): (&Stage, &ViewFrame), replay: &mut Replay) -> Result<()> {
+    let all = match allowed::allowed(kind, (stage, view), &|_| {}) {
+        Ok(all) => all,
+        Err(error) if error.is_internal() => return Err(error),
+        Err(_) => return Ok(()),
+    };
+    for hypothesis in &all.hypotheses {
+        for (end, codes) in [("lo", &hypothesis.lo), ("hi", &hypothesis.hi)] {
+            let codes = Buffer::from_values(all.width, all.height, codes.clone());
+            let buffer = format!("allowed-{}-{end}", hypothesis.name);
+            replay.hashes.push(BufferHash { buffer, blake3: codes.hash() });
+        }
+    }
+    let picture = Submitted::picture(Image::from_rgba8(&replay.image)?, PathBuf::new());
+    let judgement = Judgement::on(&all, &picture, Gates::default());
+    replay.refusal = (!judgement.passed()).then(|| judgement.to_string());
+    Ok(())
 }
 
 /// The first buffer in which two replays or entries differ, of those that are `wanted`: one that only one of them has

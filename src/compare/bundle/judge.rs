@@ -29,7 +29,6 @@ pub struct Judge {
     allowed: Allowed,
     technique: String,
     picture: String,
-    says: Vec<String>,
 }
 
 impl Judge {
@@ -56,8 +55,7 @@ impl Judge {
         let stages = document.stages.iter().map(|files| reader.stage(files, &path)).collect::<Result<_>>()?;
         let features = reader.table(&document.features, table::runs)?;
         let allowed = Allowed { width: size.width, height: size.height, hypotheses, stages, features };
-        let says = document.hypotheses.into_iter().map(|files| files.says).collect();
-        Ok(Self { allowed, technique: document.technique, picture: document.picture, says, manifest })
+        Ok(Self { allowed, technique: document.technique, picture: document.picture, manifest })
     }
 
     /// What it allows.
@@ -68,11 +66,6 @@ impl Judge {
     /// The technique.
     pub fn technique(&self) -> &str {
         &self.technique
-    }
-
-    /// What a hypothesis assumes, in a sentence.
-    pub fn says(&self, hypothesis: usize) -> &str {
-        &self.says[hypothesis]
     }
 
     /// The reference's own picture.
@@ -128,7 +121,7 @@ impl Reader<'_> {
     }
 
     fn hypothesis(&self, files: &HypothesisFiles) -> Result<Hypothesis> {
-        let HypothesisFiles { name, lo, hi, choices, extremes, .. } = files;
+        let HypothesisFiles { name, lo, hi, choices, extremes, says } = files;
         let (low, high) = (self.table(lo, picture)?, self.table(hi, picture)?);
         let is_upright = |pair: (&[u16; 4], &[u16; 4])| pair.0.iter().zip(pair.1).all(|(lo, hi)| lo <= hi);
         if let Some(pixel) = low.iter().zip(&high).position(|pair| !is_upright(pair)) {
@@ -137,7 +130,7 @@ impl Reader<'_> {
         }
         let choices = self.table(choices, table::choices)?;
         let extremes = self.table(extremes, table::extremes)?;
-        Ok(Hypothesis { name: name.clone(), lo: low, hi: high, choices, extremes })
+        Ok(Hypothesis { name: name.clone(), says: says.clone(), lo: low, hi: high, choices, extremes })
     }
 
     fn stage(&self, files: &StageFiles, document: &Path) -> Result<Stage> {

@@ -72,7 +72,7 @@ impl JudgementReport<'_> {
             ("technique", self.judge.technique().to_owned()),
         ];
         let Ok(fitted) = &self.judgement.outcome else { return rows };
-        let says = self.judge.says(fitted.best);
+        let says = &self.judge.allowed().hypotheses[fitted.best].says;
         rows.push(("hypothesis", format!("{}: {says}", fitted.tried[fitted.best].name)));
         let others = fitted.tried.iter().enumerate().filter(|(at, _)| *at != fitted.best);
         let others: Vec<String> =
@@ -138,7 +138,7 @@ impl JudgementReport<'_> {
     fn tell(&self, fitted: &Fitted, features: &[(String, usize)], document: &mut Value) {
         let tried = fitted.tried.iter().enumerate();
         let hypotheses: Vec<Value> = tried
-            .map(|(at, tried)| json!({ "name": tried.name, "says": self.judge.says(at), "failing": tried.failing }))
+            .map(|(at, tried)| json!({ "name": tried.name, "says": self.judge.allowed().hypotheses[at].says, "failing": tried.failing }))
             .collect();
         let features = fitted.features.iter().zip(features);
         let features: Vec<Value> = features
