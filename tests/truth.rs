@@ -318,6 +318,48 @@ fn case_41_red_over_blue_is_composed_in_layer_order() {
     }
 }
 
+/// The work of 8 x 8 pixels that see a metre between so many long oblique lines.
+fn work_beside_lines(count: u32) -> u64 {
+    let beside = |k: u32| f64::from(k) * 4.0 - f64::from(count) * 2.0;
+    let lines = (0..count)
+        .map(|k| vec![Plan::new(-4000.0, beside(k) - 4002.0), Plan::new(4000.0, beside(k) + 3998.0)])
+        .collect();
+    let style = Style { line: Some(stroke(0.01)), ..Style::default() };
+    let mut scene = map(8, vec![layer(Shape::Line(lines), style)]);
+    scene.camera.projection = Projection::Orthographic { height_m: 1.0 };
+    truth(&scene, posts(9, 1000.0, |_, _| 0.0), 1.0 / 510.0).tally.pieces
+}
+
+#[test]
+fn long_lines_that_pass_what_is_seen_cost_no_pieces() {
+    assert_eq!([100, 200, 400].map(work_beside_lines), [work_beside_lines(0); 3]);
+}
+
+#[test]
+fn a_pixel_of_thirty_thousand_triangles_is_the_mean_of_the_pixels_that_it_would_be() {
+    let layers = vec![
+        polygon(&[&[(-900.0, -800.0), (700.0, -300.0), (100.0, 900.0)]], Rule::EvenOdd, BLACK),
+        line(
+            &[(-900.0, 700.0), (800.0, -900.0)],
+            Line { color: Color([1.0, 0.0, 0.0, 0.5]), ..stroke(90.0) },
+        ),
+    ];
+    let hills = || posts(129, 16.0, |i, j| 150.0 * math::sin(i / 7.0) * math::cos(j / 11.0));
+    let from_the_south =
+        camera([200.0, -2600.0, 1500.0], [0.0; 3], Projection::Perspective { fov_y_deg: 40.0 });
+    let of_side = |side: usize| {
+        let scene = scene((side, side), from_the_south, layers.clone());
+        truth(&scene, hills(), 1.0 / 510.0)
+    };
+    let (one, many) = (of_side(1), of_side(16));
+    for c in 0..4 {
+        let mean = |colors: &Buffer<[f64; 4]>| colors.values().iter().map(|v| v[c]).sum::<f64>() / 256.0;
+        let (low, high) = (one.low.at(0, 0)[c], one.high.at(0, 0)[c]);
+        assert!(low <= mean(&many.high) && high >= mean(&many.low), "{c}: {low} {high}");
+        assert!(high - low < 0.02, "{c}: {low} {high}");
+    }
+}
+
 #[test]
 fn the_coverage_of_each_feature_is_known_below_an_opaque_one_too() {
     let square = |half: f64| [(-half, -half), (half, -half), (half, half), (-half, half)];

@@ -108,6 +108,15 @@ impl PaintMean {
         self.add(paint, -area);
     }
 
+    /// Adds the pieces of another sum.
+    pub fn join(&mut self, other: &Self) {
+        for c in 0..4 {
+            self.sum.low[c] += other.sum.low[c];
+            self.sum.high[c] += other.sum.high[c];
+            self.open[c] += other.open[c];
+        }
+    }
+
     /// How much of the widest channel is open.
     pub fn open(&self) -> f64 {
         self.open.iter().fold(0.0, |most, v| crate::math::max(*v, most))

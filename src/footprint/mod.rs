@@ -119,7 +119,8 @@ impl<'l> Footprints<'l> {
         };
         let seen = with_area().map(|item| (item, bounds(item))).filter(|(_, plan)| is_seen(plan));
         let (area_items, area_boxes): (Vec<u32>, Vec<PlanBox>) = seen.unzip();
-        let (parts, part_boxes) = Parts { list, pixel: &pixel, strokes, is_seen }.all();
+        let long = Long::of(list);
+        let (parts, part_boxes) = Parts { list, pixel: &pixel, strokes, long, is_seen }.all();
         let (area_boxes, part_boxes) = (BoxTree::new(&area_boxes), BoxTree::new(&part_boxes));
         Self { list, pixel, strokes, areas, area_of, area_items, area_boxes, parts, part_boxes }
     }
@@ -188,6 +189,13 @@ impl<'l> Footprints<'l> {
         }
     }
 
+    /// Whether a part surely has nothing to do with a box that meets its own: none of its points are there. `room` is used.
+    pub fn misses(&self, part: BorderPart, plan: &PlanBox, room: &mut Vec<Primitive>) -> bool {
+        room.clear();
+        self.primitives(part, room);
+        room.iter().all(|primitive| primitive.misses(plan))
+    }
+
     /// Whether an item's polygon lies on the left of a segment of its outline, rather than on the right; `None`: on both, or on neither.
     fn has_polygon_on_the_left(&self, item: u32, segment: &stroke::Segment) -> Option<bool> {
         let along = segment.to - segment.from;
@@ -244,6 +252,7 @@ struct Parts<'a> {
     list: &'a DrawList,
     pixel: &'a PixelSize,
     strokes: Strokes,
+    long: Long,
     is_seen: &'a IsSeen<'a>,
 }
 
@@ -280,8 +289,8 @@ impl Parts<'_> {
     /// Those of the chain at a place among an item's.
     fn of_chain(&self, item: u32, place: u32, found: &mut Vec<(BorderPart, PlanBox)>) {
         let vertices = self.list.vertices();
-        let mut add = |vertex: u32, plan: PlanBox| {
-            if !plan.is_empty() && (self.is_seen)(&plan) {
+        let mut add = |vertex: u32, ends: [Plan; 2], reach: f64| {
+            for plan in self.long.boxes(ends, reach).filter(|plan| !plan.is_empty() && (self.is_seen)(plan)) {
                 found.push((BorderPart { item, chain: place, vertex }, plan));
             }
         };
@@ -289,7 +298,8 @@ impl Parts<'_> {
             // A dot is a part too.
             for vertex in chain.first..chain.first + chain.segments().max(1) {
                 let segment = segment_of(vertices, chain, vertex as usize);
-                add(vertex, stroke::bounds(&segment, line, (self.pixel, self.strokes)));
+                let reach = stroke::reach(&segment, line, (self.pixel, self.strokes));
+                add(vertex, [segment.from, segment.to], reach);
             }
             return;
         }
@@ -297,9 +307,52 @@ impl Parts<'_> {
         for vertex in border.first..border.first + border.count {
             let (from, to) = (vertices[vertex as usize], vertices[vertex as usize + 1]);
             if from != to {
-                add(vertex, PlanBox::around([from, to]));
+                add(vertex, [from, to], 0.0);
             }
         }
+    }
+}
+
+/// Which segments are long: a box around all of such a one would hold much that it is far from, so it has several along it.
+#[derive(Debug, Clone, Copy)]
+struct Long {
+    /// Shorter ones have one box.
+    least: f64,
+    /// The most boxes of one.
+    most: f64,
+}
+
+impl Long {
+    /// A segment of this share of all that is drawn is long.
+    const SHARE: f64 = 1.0 / 256.0;
+    /// The most boxes of a segment, and about the most of all beyond one each.
+    const BOXES: (usize, usize) = (64, 1 << 20);
+
+    fn of(list: &DrawList) -> Self {
+        let all = PlanBox::around(list.vertices().iter().copied());
+        let size = if all.is_empty() { 0.0 } else { (all.max - all.min).max_element() };
+        let most = (Self::BOXES.1 / list.vertices().len().max(1)).clamp(1, Self::BOXES.0);
+        Self { least: size * Self::SHARE, most: most as f64 }
+    }
+
+    /// Boxes along a segment, with all within `reach` of it in each coordinate.
+    fn boxes(self, [from, to]: [Plan; 2], reach: f64) -> impl Iterator<Item = PlanBox> {
+        let along = to - from;
+        let (wide, tall) = (along.x.abs(), along.y.abs());
+        let narrow = crate::math::min(wide, tall);
+        let is_long = along.length() > self.least && self.most > 1.0 && narrow.is_finite();
+        // One along an axis, or one that is hardly longer than wide, is as well in one box.
+        let wished = narrow / (4.0 * reach + (wide + tall) / self.most);
+        let count = if is_long { crate::math::min(wished.ceil(), self.most) as usize } else { 1 };
+        let at = move |k: usize| match k {
+            0 => from,
+            _ if k == count.max(1) => to,
+            _ => from + along * (k as f64 / count as f64),
+        };
+        // What is between two places is rounded by far less than this.
+        let size = from.to_vec().abs().max_element() + to.to_vec().abs().max_element();
+        let slack = if count > 1 { 16.0 * f64::EPSILON * size } else { 0.0 };
+        (0..count.max(1)).map(move |k| PlanBox::around([at(k), at(k + 1)]).grown(reach + slack))
     }
 }
 

@@ -72,6 +72,18 @@ impl Convex {
     }
 }
 
+/// Whether all of a box is surely farther from a segment than `reach`.
+fn is_beyond(from: Plan, to: Plan, reach: f64, plan: &PlanBox) -> bool {
+    let middle = plan.min.to_vec() / 2.0 + plan.max.to_vec() / 2.0;
+    let half = plan.max.to_vec() / 2.0 - plan.min.to_vec() / 2.0;
+    let (along, to_middle) = (to - from, middle - from.to_vec());
+    let squared = along.length_squared();
+    let share = if squared > 0.0 { (to_middle.dot(along) / squared).clamp(0.0, 1.0) } else { 0.0 };
+    let size =
+        middle.abs().max_element() + half.max_element() + from.to_vec().abs().max_element() + along.length();
+    (to_middle - along * share).length() > reach + half.length() + 64.0 * f64::EPSILON * (size + reach)
+}
+
 /// A piece of an item's boundary, or of its inside.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Primitive {
@@ -120,7 +132,8 @@ impl Primitive {
             Self::Convex(shape) | Self::Perhaps(shape) => {
                 shape.sides().iter().any(|side| side.excludes(plan))
             }
-            Self::Near { .. } => false,
+            // One that grows reaches as far as it grows.
+            Self::Near { from, to, reach, growth } => *growth == 0.0 && is_beyond(*from, *to, *reach, plan),
         }
     }
 }

@@ -6,7 +6,7 @@ use crate::interval::Ball;
 use crate::math;
 use crate::predicate::orient2d;
 use crate::scene::{Cap, Join, Line, Width};
-use crate::space::{DISC_CORNERS, Plan, PlanBox, disc_corners};
+use crate::space::{DISC_CORNERS, Plan, disc_corners};
 
 /// What strokes are made of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -60,9 +60,8 @@ fn half_width(line: &Line, pixel: &PixelSize) -> (f64, f64) {
     }
 }
 
-/// A box around all that [`primitives`] gives.
-pub(super) fn bounds(segment: &Segment, line: &Line, (pixel, strokes): (&PixelSize, Strokes)) -> PlanBox {
-    let bare = PlanBox::around([segment.from, segment.to]);
+/// How far from the bare segment all that [`primitives`] gives may lie, in each coordinate.
+pub(super) fn reach(segment: &Segment, line: &Line, (pixel, strokes): (&PixelSize, Strokes)) -> f64 {
     let (half, growth) = half_width(line, pixel);
     let reach = match (line.join, line.width) {
         (_, Width::Pixels(_)) if grows_with_distance(line, pixel) => dynamic_reach(segment, growth, pixel),
@@ -71,7 +70,7 @@ pub(super) fn bounds(segment: &Segment, line: &Line, (pixel, strokes): (&PixelSi
         _ => half * std::f64::consts::SQRT_2,
     };
     // The rounding of these few operations is far below this share.
-    bare.grown(reach * (1.0 + 1e-9) + 1e-9)
+    reach * (1.0 + 1e-9) + 1e-9
 }
 
 /// How far a stroke reaches whose half width is `growth` times the distance r of the surface point from the eye.

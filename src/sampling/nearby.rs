@@ -82,6 +82,7 @@ impl Nearby {
         numbers.sort_unstable();
         numbers.dedup();
         self.parts.sort_unstable();
+        self.parts.dedup();
         let mut parts = self.parts.iter().peekable();
         for number in numbers {
             let (start, mut has_edge) = (self.strokes.len(), false);

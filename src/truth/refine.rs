@@ -14,7 +14,7 @@ use super::{ItemCoverage, PixelCoverage};
 use crate::certainty::{Known, PaintMean, PaintRange};
 use crate::footprint::{BorderPart, Primitive};
 use crate::math;
-use crate::resolve::{Paint, Stack};
+use crate::resolve::{Compositor, Paint, Stack};
 use crate::space::{PlanBox, World};
 use crate::terrain::SKY;
 use std::cmp::Ordering;
@@ -45,6 +45,34 @@ pub(super) struct Refinery {
     pub(super) pieces: u64,
     /// Pieces of this pixel.
     count: u64,
+    /// The share of the pixel's area that is refined: its part of the budget.
+    share: f64,
+}
+
+/// What parts of a pixel come to.
+#[derive(Debug)]
+pub(super) struct PartSum {
+    mean: PaintMean,
+    slop: f64,
+    coverage: PixelCoverage,
+}
+
+impl Default for PartSum {
+    fn default() -> Self {
+        Self { mean: PaintMean::NOTHING, slop: 0.0, coverage: PixelCoverage::default() }
+    }
+}
+
+impl PartSum {
+    /// The pixel's colour: lower bounds, upper bounds, estimate.
+    pub(super) fn colors(&self, compositor: &Compositor) -> [[f64; 4]; 3] {
+        self.mean.colors(compositor, self.slop)
+    }
+
+    /// How much each item covers of the pixel.
+    pub(super) fn coverage(self) -> PixelCoverage {
+        self.coverage.joined()
+    }
 }
 
 /// A convex piece of a pixel that sees one triangle.
@@ -97,7 +125,31 @@ impl Eq for FragmentPiece {}
 impl Refinery {
     /// The colour of a pixel that sees this: lower bounds, upper bounds, estimate.
     pub(super) fn refine(&mut self, pixel: &Pixel, pieces: &mut Pieces, sight: &Sight) -> [[f64; 4]; 3] {
+        let mean = self.mean_of(pixel, pieces, sight, 1.0);
+        mean.colors(&pixel.setting.compositor, self.slop)
+    }
+
+    /// Adds what a part of a pixel that sees this, so much of its area, comes to.
+    pub(super) fn refine_part(
+        &mut self,
+        pixel: &Pixel,
+        (pieces, share): (&mut Pieces, f64),
+        sight: &Sight,
+        sum: &mut PartSum,
+    ) {
+        let mean = self.mean_of(pixel, pieces, sight, share);
+        sum.mean.join(&mean);
+        sum.slop += self.slop + ROUNDING;
+        if pixel.setting.budget.coverage {
+            let PixelCoverage { items, others } = self.counted();
+            sum.coverage.items.extend(items);
+            sum.coverage.others += others;
+        }
+    }
+
+    fn mean_of(&mut self, pixel: &Pixel, pieces: &mut Pieces, sight: &Sight, share: f64) -> PaintMean {
         self.clear(sight.slop);
+        self.share = share;
         let mut mean = PaintMean::NOTHING;
         for sky in &sight.sky {
             let area = pieces.area(*sky);
@@ -108,24 +160,28 @@ impl Refinery {
         for fragment in &sight.fragments {
             self.look(pixel, pieces, FragmentPiece::new(fragment, pieces.area(fragment.shape)), &mut mean);
         }
-        let most = 1u64 << pixel.setting.budget.depth;
+        let most = (f64::from(1u32 << pixel.setting.budget.depth) * share).ceil() as u64;
         while !self.is_enough(pixel.setting, &mean) && self.count < most {
             let Some(piece) = self.heap.pop() else { break };
             self.open_area -= if piece.is_open { piece.area } else { 0.0 };
             self.halve(pixel, pieces, piece, &mut mean);
         }
         self.pieces += self.count;
-        mean.colors(&pixel.setting.compositor, self.slop)
+        mean
     }
 
     /// Whether what is open of the pixel is within the budget.
     fn is_enough(&self, setting: &Setting, mean: &PaintMean) -> bool {
-        let width = setting.budget.width;
+        let width = setting.budget.width * self.share;
         let doubt = 2.0 * self.slop;
         // Where the doubt alone is over the budget, the rest is still brought down to it.
         let target = if doubt < width { width - doubt } else { width };
         if mean.open() > target || self.open_area > target {
             return false;
+        }
+        if self.share < 1.0 {
+            // A part has no colour of its own.
+            return true;
         }
         let [low, high, _] = mean.colors(&setting.compositor, self.slop);
         doubt >= width || (0..4).all(|c| high[c] - low[c] <= width)
@@ -133,6 +189,11 @@ impl Refinery {
 
     /// How much each item covers of the pixel refined last; asked for by the budget.
     pub(super) fn coverage(&self) -> PixelCoverage {
+        self.counted().joined()
+    }
+
+    /// The same piece by piece.
+    fn counted(&self) -> PixelCoverage {
         let mut all = PixelCoverage { items: Vec::new(), others: self.slop };
         for piece in self.closed.iter().chain(&self.heap) {
             let Some((first, count)) = piece.states else {
@@ -144,7 +205,7 @@ impl Refinery {
                 all.items.push(ItemCoverage { item: state.item, low, high: piece.area });
             }
         }
-        all.joined()
+        all
     }
 
     /// What may be seen and held in a square, however small, that sees this.
@@ -235,12 +296,25 @@ impl Refinery {
         let mut parts = std::mem::take(&mut self.parts);
         parts.clear();
         let most = MOST_PARTS << piece.level.min(MOST_LEVEL);
-        let is_all = pixel.setting.footprints.parts_near(&plan, |part| {
+        let footprints = pixel.setting.footprints;
+        let mut is_all = footprints.parts_near(&plan, |part| {
             parts.push(part);
             parts.len() <= most
         });
+        if !is_all {
+            // Boxes of long parts meet much that they are far from.
+            parts.clear();
+            let primitives = &mut self.primitives;
+            is_all = footprints.parts_near(&plan, |part| {
+                if !footprints.misses(part, &plan, primitives) {
+                    parts.push(part);
+                }
+                parts.len() <= most
+            });
+        }
         if is_all {
             parts.sort_unstable();
+            parts.dedup();
             let states = self.first_states(pixel, (&ground, points), &plan, &parts);
             self.settle(pixel, pieces, piece, states, mean);
         } else {

@@ -4,7 +4,7 @@ use super::facet::{Facet, Hit};
 use super::knowledge::Pixel;
 use super::outcome::Sample;
 use super::polygon::{self, Pieces};
-use super::refine::Refinery;
+use super::refine::{PartSum, Refinery};
 use super::setting::Setting;
 use super::tile_rays::TileRays;
 use super::visible::Sight;
@@ -142,6 +142,13 @@ struct Leaf {
     facets: Option<Range<u32>>,
 }
 
+/// A pixel's parts together.
+#[derive(Debug, Default)]
+struct Whole {
+    sum: PartSum,
+    centre: Option<Centre>,
+}
+
 /// A tile at work.
 struct Work<'a> {
     setting: &'a Setting<'a>,
@@ -157,6 +164,8 @@ struct Work<'a> {
     pieces: Pieces,
     sight: Sight,
     refinery: Refinery,
+    /// A square this small is not quartered any more, pixels.
+    smallest: f64,
     /// `None`: whole pixels are certified.
     probes: Option<Probes<'a>>,
     out: TileTruth,
@@ -178,7 +187,7 @@ pub(super) fn certify_tile(
         }
     }
     work.out.tally.pieces = work.refinery.pieces;
-    work.out.tally.triangles = work.facets.len() as u64;
+    work.out.tally.triangles += work.facets.len() as u64;
     work.out
 }
 
@@ -234,6 +243,15 @@ const BLOCK: usize = 8;
 
 /// Triangles that a block's first look takes; each further look takes twice as many.
 const FIRST_LOOK: usize = 512;
+
+/// When a block has looked at so many and is not done, its pixels are done in parts, each with triangles of its own.
+const MOST_OF_A_BLOCK: usize = 8192;
+
+/// Triangles that a part looks at before it is quartered.
+const MOST_OF_A_PART: usize = 8192;
+
+/// No part is smaller than this, pixels.
+const LEAST_PART: f64 = 1.0 / 4096.0;
 
 /// A box of a tile: west, north, east, south.
 #[derive(Debug, Clone, Copy)]
@@ -342,7 +360,21 @@ impl<'a> Work<'a> {
         };
         let (pieces, sight, refinery) = (Pieces::default(), Sight::default(), Refinery::default());
         let (facets, boxes) = (Vec::new(), Vec::new());
-        Self { setting, mesh, rays, leaves, facets, boxes, size, pieces, sight, refinery, probes, out }
+        Self {
+            setting,
+            mesh,
+            rays,
+            leaves,
+            facets,
+            boxes,
+            size,
+            pieces,
+            sight,
+            refinery,
+            smallest: SMALLEST,
+            probes,
+            out,
+        }
     }
 
     /// Does the pixels of a block: opens leaves, nearest first, until each pixel is covered before the next one.
@@ -362,6 +394,9 @@ impl<'a> Work<'a> {
             if rest.is_empty() {
                 return;
             }
+            if look >= MOST_OF_A_BLOCK && self.probes.is_none() {
+                return self.in_parts([x, y], &open, &near);
+            }
             look *= 2;
         }
     }
@@ -372,11 +407,20 @@ impl<'a> Work<'a> {
             return facets.clone();
         }
         let first = self.facets.len() as u32;
-        let (start, span) = self.grown([0.0, 0.0], TILE as f64);
+        let square = self.grown([0.0, 0.0], TILE as f64);
+        self.open_leaf(leaf, square);
+        let facets = first..self.facets.len() as u32;
+        self.leaves[leaf].facets = Some(facets.clone());
+        facets
+    }
+
+    /// Appends the facets of a leaf that may cover some of a square.
+    fn open_leaf(&mut self, leaf: usize, (corner, side): ([f64; 2], f64)) {
+        let first = self.facets.len();
         let (mesh, rays, out) = (self.mesh, &self.rays, &mut self.facets);
         let mut offer = |id: u32| {
             let facet = mesh.surface_triangle(id).and_then(|triangle| Facet::new(rays, id, &triangle));
-            out.extend(facet.filter(|facet| may_cover(facet, start, span)));
+            out.extend(facet.filter(|facet| may_cover(facet, corner, side)));
         };
         let node = self.leaves[leaf].node;
         match mesh.leaf(node) {
@@ -390,11 +434,8 @@ impl<'a> Work<'a> {
             }
             terrain::Leaf::Triangles(ids) => ids.for_each(offer),
         }
-        let fresh = &self.facets[first as usize..];
+        let fresh = &self.facets[first..];
         self.boxes.extend(fresh.iter().map(|facet| Reach::of(&facet.corners, &self.rays)));
-        let facets = first..self.facets.len() as u32;
-        self.leaves[leaf].facets = Some(facets.clone());
-        facets
     }
 
     /// Does those open pixels of a square of a block that these facets cover.
@@ -539,9 +580,90 @@ impl<'a> Work<'a> {
         Some(Centre { triangle: facet.id, world, plan })
     }
 
+    /// Does the open pixels of a block, whose first pixel this is, in parts.
+    fn in_parts(&mut self, [x, y]: [usize; 2], open: &[[bool; BLOCK]; BLOCK], leaves: &[usize]) {
+        for (k, _) in open.as_flattened().iter().enumerate().filter(|(_, is_open)| **is_open) {
+            let at = [x + k % BLOCK, y + k / BLOCK];
+            if at[0] < self.size[0] && at[1] < self.size[1] {
+                self.pixel_in_parts(at, leaves);
+            }
+        }
+    }
+
+    /// Does a pixel that sees more triangles than are looked at together. Its parts share no triangles' data, so that memory does not grow
+    /// with what a pixel sees.
+    fn pixel_in_parts(&mut self, [x, y]: [usize; 2], leaves: &[usize]) {
+        let pixel = [x as f64, y as f64];
+        let kept = (std::mem::take(&mut self.facets), std::mem::take(&mut self.boxes));
+        let mut whole = Whole::default();
+        self.part(pixel, ([0.0, 0.0], 1.0), leaves, &mut whole);
+        (self.facets, self.boxes) = kept;
+        self.smallest = SMALLEST;
+        let index = y * self.size[0] + x;
+        self.out.colors[index] = whole.sum.colors(&self.setting.compositor);
+        self.out.centres[index] = whole.centre;
+        if self.setting.budget.coverage {
+            self.out.coverage[index] = whole.sum.coverage();
+        }
+    }
+
+    /// Does a square of a pixel, or its quarters. `leaves`: those that it may see, and others, nearest first.
+    fn part(
+        &mut self,
+        pixel: [f64; 2],
+        (corner, side): ([f64; 2], f64),
+        leaves: &[usize],
+        whole: &mut Whole,
+    ) {
+        let at = [pixel[0] + corner[0], pixel[1] + corner[1]];
+        let near: Vec<usize> = leaves.iter().copied().filter(|&k| self.leaves[k].meets(at, side)).collect();
+        if !self.see_part(pixel, (corner, side), &near) {
+            let half = side / 2.0;
+            for (dx, dy) in [(0.0, 0.0), (half, 0.0), (0.0, half), (half, half)] {
+                self.part(pixel, ([corner[0] + dx, corner[1] + dy], half), &near, whole);
+            }
+            return;
+        }
+        let has_centre = (0..2).all(|axis| (corner[axis]..corner[axis] + side).contains(&0.5));
+        if has_centre {
+            whole.centre = self.centre(pixel);
+        }
+        self.out.tally.fragments += self.sight.fragments.len() as u64;
+        self.out.tally.triangles += self.facets.len() as u64;
+        let pixel = Pixel { setting: self.setting, rays: &self.rays, facets: &self.facets, corner: pixel };
+        self.refinery.refine_part(&pixel, (&mut self.pieces, side * side), &self.sight, &mut whole.sum);
+    }
+
+    /// Finds what a square of a pixel sees with triangles of its own; false: they are too many, and it is not the smallest.
+    fn see_part(&mut self, pixel: [f64; 2], (corner, side): ([f64; 2], f64), near: &[usize]) -> bool {
+        let at = [pixel[0] + corner[0], pixel[1] + corner[1]];
+        self.facets.clear();
+        self.boxes.clear();
+        self.smallest = side / 32.0;
+        let mut seen = 0;
+        loop {
+            while seen < near.len() && self.facets.len() < MOST_OF_A_PART {
+                self.open_leaf(near[seen], (at, side));
+                seen += 1;
+            }
+            if seen < near.len() && side <= LEAST_PART {
+                near[seen..].iter().for_each(|leaf| self.open_leaf(*leaf, (at, side)));
+                seen = near.len();
+            }
+            let all: Vec<u32> = (0..self.facets.len() as u32).collect();
+            let few = narrowed((&self.facets, &self.boxes), &all, at, side);
+            if self.see(pixel, (corner, side), &few, &near[seen..]) {
+                return true;
+            }
+            if self.facets.len() >= MOST_OF_A_PART {
+                return false;
+            }
+        }
+    }
+
     /// Finds what a square of a pixel sees.
     fn square(&mut self, pixel: [f64; 2], corner: [f64; 2], side: f64, near: &[u32]) {
-        if near.len() <= MOST_TRIANGLES || side <= SMALLEST {
+        if near.len() <= MOST_TRIANGLES || side <= self.smallest {
             return self.sight.see(&mut self.pieces, &self.facets, near, (pixel, corner, side));
         }
         let half = side / 2.0;
