@@ -90,7 +90,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "buffer",
         ],
     ),
-    ("compare", &["buffer"]),
+    ("compare", &["output", "buffer"]),
     // Of techniques their settings and what they refuse, never how they decide; of `canvas` the places of samples.
     (
         "allowed",

@@ -25,6 +25,7 @@ mod heat_map;
 mod image;
 mod judgement;
 mod metrics;
+mod page;
 mod read;
 mod report;
 mod submitted;
@@ -40,6 +41,7 @@ pub use judgement::{
     Tried,
 };
 pub use metrics::{Metrics, WINDOW, Window};
+pub use page::{Shown, page};
 pub use read::same_file;
 pub use report::{COMPARE_SCHEMA, Case, Cases, Failure, JudgementReport, Report};
 pub use submitted::Submitted;

@@ -5,6 +5,7 @@
 //! Refuses: values that are not a number and planes whose values do not fill them (bugs of ours), and places that
 //! cannot be written.
 
+mod base64;
 mod batch;
 mod look;
 mod npy;
@@ -13,6 +14,7 @@ mod picture;
 mod result;
 mod whole;
 
+pub use base64::base64;
 pub use batch::{Batch, StagedFile};
 pub use look::look;
 pub use npy::{Npy, absolute};

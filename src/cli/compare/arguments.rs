@@ -68,6 +68,22 @@ pub(in crate::cli) struct Arguments {
     /// this folder.
     #[arg(long, value_name = "FILE")]
     pub heatmap: Option<PathBuf>,
+    /// Write JUnit's XML, a case each, with lines that name the frame, the heat map and the page as attachments.
+    #[arg(long, value_name = "FILE")]
+    pub junit: Option<PathBuf>,
+    /// Write one page with both pictures under a slider, where they differ, the windows and features that fail; needs no network.
+    #[arg(long, value_name = "FILE")]
+    pub html: Option<PathBuf>,
+    /// Print annotations for GitHub's pages (`::error ...`), and add a summary to the file that GITHUB_STEP_SUMMARY names.
+    #[arg(long)]
+    pub github: bool,
+}
+
+impl Arguments {
+    /// Whether pictures are written.
+    pub(super) fn shows(&self) -> bool {
+        self.heatmap.is_some() || self.html.is_some()
+    }
 }
 
 /// How many pixels may fail.

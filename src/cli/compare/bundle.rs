@@ -67,6 +67,10 @@ pub(super) fn judged_frame(
     let judgement = judge.judge(&frame, gates);
     let (expected, actual) = (folder.display().to_string(), frame.path.display().to_string());
     let report = JudgementReport { expected: &expected, actual: &actual, judge, judgement: &judgement };
-    let both = Some((Image::read(&judge.picture())?, frame.picture));
-    Ok(Judged { case: report.case()?, pictures: Pictures { heat: judgement.heat_map(), both } })
+    let mut pictures = Pictures::default();
+    if arguments.shows() {
+        pictures.heat = judgement.heat_map();
+        pictures.both = Some((Image::read(&judge.picture())?, frame.picture));
+    }
+    Ok(Judged { case: report.case()?, pictures })
 }

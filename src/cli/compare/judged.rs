@@ -10,7 +10,7 @@ pub(super) struct Judged {
     pub pictures: Pictures,
 }
 
-/// The pictures of a case, as far as there are any.
+/// The pictures of a case, where any are to be shown.
 #[derive(Default)]
 pub(super) struct Pictures {
     /// Where and how far the two differ; `None` where that cannot be measured.

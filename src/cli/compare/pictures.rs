@@ -28,7 +28,10 @@ pub(super) fn judged(arguments: &Arguments) -> Result<Call> {
     };
     let name = ends.iter().map(|end| end.display().to_string()).collect::<Vec<_>>().join(" to ");
     let report = Report { expected: &name, actual: &actual.display().to_string(), verdict: &verdict };
-    let pictures = Pictures { heat: verdict.heat_map(), both: Some((shown, picture.clone())) };
+    let mut pictures = Pictures::default();
+    if arguments.shows() {
+        pictures = Pictures { heat: verdict.heat_map(), both: Some((shown, picture)) };
+    }
     let judged = Judged { case: report.case(), pictures };
     let inputs = ends.into_iter().chain([actual]).chain(ignore).cloned().collect();
     Ok(Call::of(vec![judged], None, inputs))

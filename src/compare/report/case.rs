@@ -35,7 +35,7 @@ pub struct Case {
     pub windows: Vec<Window>,
     /// The features that have a say in failing pixels, and in how many, most first.
     pub features: Vec<(String, usize)>,
-    pub(super) rows: Vec<Row>,
+    pub(in crate::compare) rows: Vec<Row>,
     pub(super) document: Value,
 }
 

@@ -87,7 +87,7 @@ impl Cases {
 }
 
 /// A verdict as people read it.
-pub(super) fn called(ruling: Ruling) -> &'static str {
+pub(in crate::compare) fn called(ruling: Ruling) -> &'static str {
     match ruling {
         Ruling::Pass => "PASS",
         Ruling::Weak => "WEAK PASS",

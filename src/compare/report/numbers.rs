@@ -5,7 +5,7 @@ use crate::compare::metrics::{Metrics, Window};
 use serde_json::{Value, json};
 
 /// A row of a report: what it tells, and what there is.
-pub(super) type Row = (&'static str, String);
+pub(in crate::compare) type Row = (&'static str, String);
 
 /// The channels' names in their order.
 pub(super) fn channel_names(difference: &Difference) -> Vec<String> {

@@ -1,12 +1,11 @@
 //! `report.html`: one page that needs no network.
 
-mod base64;
 mod rows;
 
 use super::plot::{self, View};
 use super::{Exhibit, Metric, Report, SceneReport, exhibit};
 use crate::error::Result;
-use base64::base64;
+use crate::output::base64;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 pub(super) use rows::size;
 use rows::table;
