@@ -30,7 +30,7 @@
 //!    ([`space`]);
 //! 2. [`stage`] is a scene with its terrain, ready to be drawn;
 //! 3. [`technique`] draws it, each beside its paper; [`truth`] certifies it;
-//! 4. [`compare`] says how far a picture is from what is expected; [`golden`] replays what is known;
+//! 4. [`compare`] says how far a picture is from what is expected, and judges a frame by what a bundle allows; [`golden`] replays what is known;
 //! 5. [`measure`] times; [`report`] sets error against time; [`export`] makes folders of pictures, and bundles for a program on a graphics
 //!    processor;
 //! 6. [`buffer`] holds images, [`output`] writes files, [`parallel`] says how many threads there are.
@@ -120,7 +120,7 @@ pub mod tutorial;
 #[cfg(feature = "render")]
 pub mod visibility;
 
-pub use compare::{Expected, Image, Limits, Verdict};
+pub use compare::{Expected, Gates, Image, Judge, Limits, Verdict};
 pub use error::{Error, ErrorKind, Position, Result};
 #[cfg(feature = "render")]
 pub use {

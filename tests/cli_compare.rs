@@ -206,3 +206,96 @@ fn a_picture_on_stdin_is_judged() {
     let stdin = std::fs::File::open(folder.path().join("equal.png")).unwrap();
     judged(command.stdin(stdin).output().unwrap(), 0);
 }
+
+#[test]
+fn a_share_of_the_pixels_is_allowed() {
+    let folder = pictures();
+    judged(called_in(folder.path(), &["a.png", "off.png", "--allow", "0.2%"]), 0);
+    judged(called_in(folder.path(), &["a.png", "off.png", "--allow", "0.1%"]), 1);
+    let said =
+        judged(called_in(folder.path(), &["a.png", "off.png", "--allow", "0.2%", "--densest", "0"]), 1);
+    assert!(said.starts_with("FAIL: 1 pixels over the tolerance lie in one window (0 allowed)"), "{said}");
+    assert!(
+        refused(called_in(folder.path(), &["a.png", "off.png", "--allow", "200%"])).contains("0% to 100%")
+    );
+}
+
+#[test]
+fn ignored_regions_are_not_compared_and_a_mask_has_the_pictures_size() {
+    let folder = pictures();
+    let black = |v: &mut [[u8; 4]]| v.iter_mut().for_each(|pixel| *pixel = [0, 0, 0, 255]);
+    let mask = |name: &str, white: &[usize]| {
+        let marked = picture(|v| {
+            black(v);
+            white.iter().for_each(|at| v[*at] = [255; 4]);
+        });
+        write(folder.path(), name, &marked);
+    };
+    mask("both.png", &[41, 29 * 40 + 39]);
+    mask("one.png", &[41]);
+    mask("all.png", &(0..1200).collect::<Vec<_>>());
+    judged(called_in(folder.path(), &["a.png", "off.png", "--ignore", "both.png"]), 0);
+    let said = judged(called_in(folder.path(), &["a.png", "off.png", "--ignore", "one.png"]), 1);
+    assert!(said.starts_with("FAIL: 1 of 1200 pixels"), "{said}");
+    write(folder.path(), "small.png", &Buffer::from_values(2, 2, vec![[0; 4]; 4]));
+    let said = refused(called_in(folder.path(), &["a.png", "off.png", "--ignore", "small.png"]));
+    assert!(said.contains("this mask has 2 x 2 pixels, and 40 x 30 are expected"), "{said}");
+    let said = refused(called_in(folder.path(), &["a.png", "off.png", "--ignore", "all.png"]));
+    assert!(said.contains("leaves no pixel to judge"), "{said}");
+    let said = judged(called_in(folder.path(), &["a.png", "small.png", "--ignore", "both.png"]), 1);
+    assert!(said.starts_with("FAIL: another size"), "{said}");
+}
+
+#[test]
+fn depth_is_judged_relative_to_what_is_expected() {
+    let folder = pictures();
+    write_npy(folder.path(), "depth.npy", vec![1000.0, 10.0, f32::INFINITY, 1.0]);
+    write_npy(folder.path(), "off.npy", vec![1000.5, 10.005, f32::INFINITY, 1.0005]);
+    judged(called_in(folder.path(), &["depth.npy", "off.npy", "--tolerance", "0.01"]), 1);
+    judged(called_in(folder.path(), &["depth.npy", "off.npy", "--relative", "0.001"]), 0);
+    let said = judged(called_in(folder.path(), &["depth.npy", "off.npy", "--relative", "0.0004"]), 1);
+    assert!(
+        said.starts_with("FAIL: 3 of 4 pixels are over the tolerance 0 and 0.0004 of what is expected"),
+        "{said}"
+    );
+    assert!(
+        refused(called_in(folder.path(), &["depth.npy", "off.npy", "--relative=-1"])).contains("relative")
+    );
+}
+
+#[test]
+fn two_pictures_of_any_program_are_the_ends_of_what_is_allowed() {
+    let folder = pictures();
+    write(folder.path(), "lo.png", &picture(|v| v[41][1] = 3));
+    write(folder.path(), "hi.png", &picture(|v| v[41][1] = 8));
+    let ends = ["--lo", "lo.png", "--hi", "hi.png"];
+    let called = |actual: &[&str]| called_in(folder.path(), &[&ends[..], actual].concat());
+    judged(called(&["a.png"]), 0);
+    let said = judged(called(&["off.png"]), 1);
+    assert!(
+        said.starts_with("FAIL: 1 of 1200 pixels") && said.contains("expected  lo.png to hi.png"),
+        "{said}"
+    );
+    assert!(refused(called(&["lo.png"])).contains("the same file twice"));
+    assert!(
+        refused(called_in(folder.path(), &["--lo", "hi.png", "--hi", "lo.png", "a.png"]))
+            .contains("upside down")
+    );
+    assert!(refused(called_in(folder.path(), &["--lo", "lo.png", "a.png"])).contains("--hi"));
+    refused(called(&["a.png", "off.png"]));
+    assert!(refused(called_in(folder.path(), &["a.png"])).contains("required"));
+}
+
+#[test]
+fn pictures_have_the_reports_of_bundles_too() {
+    let folder = pictures();
+    let call = ["a.png", "off.png", "--junit", "j.xml", "--html", "p.html", "--heatmap", "h.png", "--github"];
+    let said = judged(called_in(folder.path(), &call), 1);
+    assert!(said.contains("::error file=a.png,title=drapery compare%3A off.png::FAIL: 2 of 1200"), "{said}");
+    let xml = std::fs::read_to_string(folder.path().join("j.xml")).unwrap();
+    for file in ["off.png", "h.png", "p.html"] {
+        assert!(xml.contains(&format!("[[ATTACHMENT|{file}]]")), "{xml}");
+    }
+    let page = std::fs::read_to_string(folder.path().join("p.html")).unwrap();
+    assert_eq!(page.matches("data-window=").count(), 2);
+}

@@ -35,6 +35,7 @@ Examples:
   drapery render scene.toml -t truth -t clipmap --set image.width=600
   drapery report scene.toml                        speed against error, as a page in report/
   drapery compare expected.png actual.png --tolerance 1/255
+  drapery compare bundle my-frames                 is what my program drew from the bundle right?
   drapery export scene.toml -t clipmap -o bundle   mesh, features, matrices, pictures for a GPU client
   drapery golden check
   drapery schema > scene.schema.json               for completion in an editor
@@ -66,7 +67,7 @@ enum Command {
     New(new::Arguments),
     /// Write a scene and its pictures for a program on a graphics processor that is to draw the same.
     Export(export::Arguments),
-    /// Judge a picture by another.
+    /// Judge a frame by a bundle, or a picture by another.
     Compare(compare::Arguments),
     /// Replay goldens: small scenes whose every buffer is known.
     Golden(golden::Arguments),

@@ -167,3 +167,21 @@ impl fmt::Display for Mismatch {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compare::{Limits, Verdict};
+
+    #[test]
+    fn ignored_pixels_may_be_anything() {
+        let image = |values: [f64; 4]| Image::new(2, 1, 2, values.to_vec()).unwrap();
+        let expected = Expected::exactly(image([0.0, 0.5, 0.25, 1.0]));
+        let ignored = [true, false];
+        let judged = |values| {
+            Verdict::on(&image(values).without(&ignored), &expected.ignoring(&ignored), Limits::default())
+        };
+        assert!(judged([f64::NAN, f64::INFINITY, 0.25, 1.0]).passed());
+        assert!(!judged([0.0, 0.5, 0.25, 0.9]).passed());
+    }
+}

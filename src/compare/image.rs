@@ -170,6 +170,20 @@ mod tests {
     }
 
     #[test]
+    fn a_mask_marks_what_is_neither_black_nor_transparent() {
+        let marked = |channels: usize, values: &[f64]| {
+            Image::new(values.len() / channels, 1, channels, values.to_vec()).unwrap().marked()
+        };
+        assert_eq!(marked(1, &[0.0, 0.1]), [false, true]);
+        assert_eq!(marked(2, &[0.0, 1.0, 0.1, 1.0, 1.0, 0.0]), [false, true, false]);
+        assert_eq!(marked(3, &[0.0, 0.0, 0.0, 0.0, 0.0, 0.1]), [false, true]);
+        assert_eq!(
+            marked(4, &[0.0, 0.0, 0.0, 1.0, 0.0, 0.1, 0.0, 0.5, 1.0, 1.0, 1.0, 0.0]),
+            [false, true, false]
+        );
+    }
+
+    #[test]
     fn values_that_do_not_fill_a_picture_are_refused() {
         let refused = |w, h, c, n| Image::new(w, h, c, vec![0.0; n]).unwrap_err().what().to_owned();
         assert_eq!(refused(2, 3, 4, 23), "a picture of 2 x 3 pixels of 4 channels cannot have 23 values");

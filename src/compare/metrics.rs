@@ -49,20 +49,39 @@ pub struct Window {
 }
 
 impl Metrics {
-    /// Those of a picture that is as expected.
-    pub(super) fn of_no_distance(channels: usize) -> Self {
-        let channel_max = vec![0.0; channels];
-        let (max, mean, rmse, p99, over_one_code_value) = (0.0, 0.0, 0.0, 0.0, 0.0);
+    /// Those of a picture whose failing pixels are known, by their distances: all others are as expected. `pixels` is how many there are,
+    /// `width` how many in a row, `densest` where most fail.
+    pub(super) fn of_few<const N: usize>(
+        failing: &[(usize, [f64; N])],
+        (pixels, width): (usize, usize),
+        densest: Option<Window>,
+    ) -> Self {
+        let mut channel_max = vec![0.0; N];
+        let (mut max, mut worst, mut over_one) = (0.0, None, 0);
+        for (pixel, distances) in failing {
+            let mut largest = 0.0;
+            for (channel, distance) in distances.iter().copied().enumerate() {
+                if distance > max {
+                    max = distance;
+                    worst = Some(ValuePlace { x: pixel % width, y: pixel / width, channel });
+                }
+                channel_max[channel] = math::max(channel_max[channel], distance);
+                largest = math::max(largest, distance);
+            }
+            over_one += usize::from(is_over(largest, ONE_CODE_VALUE));
+        }
+        let values = || failing.iter().flat_map(|(_, distances)| distances).copied();
+        let n = pixels * N;
         Self {
             max,
-            worst: None,
-            mean,
-            rmse,
-            p99,
+            worst,
+            mean: values().sum::<f64>() / n as f64,
+            rmse: (values().map(|d| d * d).sum::<f64>() / n as f64).sqrt(),
+            p99: p99(values().filter(|d| *d > 0.0).collect(), n),
             channel_max,
-            over_one_code_value,
-            failing: 0,
-            densest: None,
+            over_one_code_value: over_one as f64 / pixels as f64,
+            failing: failing.len(),
+            densest,
         }
     }
 }
@@ -84,7 +103,7 @@ impl Difference {
             worst: worst.filter(|_| max > 0.0),
             mean: values.iter().sum::<f64>() / n,
             rmse: (values.iter().map(|d| d * d).sum::<f64>() / n).sqrt(),
-            p99: p99(values),
+            p99: p99(values.iter().copied().filter(|d| *d > 0.0).collect(), values.len()),
             channel_max,
             over_one_code_value: over_one as f64 / pixels as f64,
             failing: failing.iter().filter(|f| **f).count(),
@@ -94,21 +113,25 @@ impl Difference {
 }
 
 impl Difference {
-    /// The windows with most failing pixels, none of which shares a failing pixel with another; most first, a few at most.
-    pub fn windows(&self, tolerance: f64) -> Vec<Window> {
-        const MOST: usize = 8;
-        let (width, height) = (self.distances().width(), self.distances().height());
-        let mut failing: Vec<bool> = self.of_pixels().map(|d| is_over(d, tolerance)).collect();
-        let mut windows = Vec::new();
-        while windows.len() < MOST {
-            let Some(window) = densest(&failing, width, height) else { break };
-            for y in window.y..window.y + window.height {
-                failing[y * width + window.x..][..window.width].fill(false);
-            }
-            windows.push(window);
-        }
-        windows
+    /// The windows with most failing pixels ([`windows`]).
+    pub(super) fn windows(&self, tolerance: f64) -> Vec<Window> {
+        let failing = self.of_pixels().map(|d| is_over(d, tolerance)).collect();
+        windows(failing, self.distances().width(), self.distances().height())
     }
+}
+
+/// The windows with most failing pixels, none of which counts a pixel of another; most first, a few at most.
+pub(super) fn windows(mut failing: Vec<bool>, width: usize, height: usize) -> Vec<Window> {
+    const MOST: usize = 8;
+    let mut windows = Vec::new();
+    while windows.len() < MOST {
+        let Some(window) = densest(&failing, width, height) else { break };
+        for y in window.y..window.y + window.height {
+            failing[y * width + window.x..][..window.width].fill(false);
+        }
+        windows.push(window);
+    }
+    windows
 }
 
 fn channel_max(values: &[f64], channels: usize) -> Vec<f64> {
@@ -119,11 +142,10 @@ fn channel_max(values: &[f64], channels: usize) -> Vec<f64> {
     most
 }
 
-/// The smallest value that at least 99 of 100 values do not exceed.
-fn p99(values: &[f64]) -> f64 {
-    let rank = (values.len() * 99).div_ceil(100);
-    let mut off: Vec<f64> = values.iter().copied().filter(|d| *d > 0.0).collect();
-    match rank.checked_sub(values.len() - off.len() + 1) {
+/// The smallest value that at least 99 of 100 of `n` values do not exceed; `off` are those that are not 0.
+fn p99(mut off: Vec<f64>, n: usize) -> f64 {
+    let rank = (n * 99).div_ceil(100);
+    match rank.checked_sub(n - off.len() + 1) {
         Some(among_off) => *off.select_nth_unstable_by(among_off, f64::total_cmp).1,
         None => 0.0,
     }
@@ -191,12 +213,11 @@ mod tests {
     #[test]
     fn the_99th_percentile_is_what_one_value_of_a_hundred_exceeds() {
         let values = |n: usize| (1..=n).map(|v| v as f64).collect::<Vec<_>>();
-        assert_eq!(p99(&values(100)), 99.0);
-        assert_eq!(p99(&values(1000)), 990.0);
-        assert_eq!(p99(&values(101)), 100.0);
-        assert_eq!(p99(&values(1)), 1.0);
-        let off = |n: usize| [vec![0.0; 100 - n], vec![0.5; n]].concat();
-        assert_eq!((p99(&off(1)), p99(&off(2))), (0.0, 0.5));
+        assert_eq!(p99(values(100), 100), 99.0);
+        assert_eq!(p99(values(1000), 1000), 990.0);
+        assert_eq!(p99(values(101), 101), 100.0);
+        assert_eq!(p99(values(1), 1), 1.0);
+        assert_eq!((p99(vec![0.5; 1], 100), p99(vec![0.5; 2], 100)), (0.0, 0.5));
     }
 
     #[test]

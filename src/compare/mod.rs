@@ -5,6 +5,9 @@
 //! [`Metrics`] and its heat map; a [`Verdict`] by stated [`Limits`], and its [`Report`]. Refuses, each by its own name
 //! ([`Mismatch`]): another size, other channels, a value that is not a number.
 //!
+//! Or input: what a technique's picture may be ([`Allowed`]), read from a bundle by a [`Judge`], and a frame ([`Submitted`]). Output: a
+//! [`Judgement`] within stated [`Gates`]. All are told alike ([`Cases`]): as text, JSON, JUnit's XML, annotations, one page.
+//!
 //! ```
 //! use drapery::compare::{Difference, Expected, Image};
 //! let lo = Image::new(2, 1, 1, vec![0.25, 0.5])?;

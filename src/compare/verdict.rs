@@ -206,9 +206,38 @@ mod tests {
     }
 
     #[test]
+    fn a_relative_tolerance_is_of_what_is_expected_and_comes_on_top() {
+        let image = |values: [f64; 4]| Image::new(4, 1, 1, values.to_vec()).unwrap();
+        let expected = Expected::exactly(image([1000.0, -1000.0, 0.0, f64::INFINITY]));
+        let failing = |values, limits: Limits| {
+            let verdict = Verdict::on(&image(values), &expected, limits);
+            verdict.outcome.unwrap().metrics.failing
+        };
+        let relative = Limits::default().with_relative(0.001).unwrap();
+        assert_eq!(failing([1001.0, -1001.0, 0.0, f64::INFINITY], relative), 0);
+        assert_eq!(failing([1001.5, -998.5, 0.5, 1e300], relative), 4);
+        let both = Limits::new(0.5, 0).unwrap().with_relative(0.001).unwrap();
+        assert_eq!(failing([1001.5, -998.5, 0.5, f64::INFINITY], both), 0);
+        for wrong in [-0.5, f64::NAN, f64::INFINITY] {
+            assert!(Limits::default().with_relative(wrong).is_err());
+        }
+    }
+
+    #[test]
+    fn a_dense_window_is_a_failure_of_its_own() {
+        let limits = Limits::new(0.125, 2).unwrap();
+        let values = [0.5, 0.0, 0.5, 0.0];
+        assert_eq!(verdict(&values, limits.with_densest(2)).failure(), None);
+        let failed = verdict(&values, limits.with_densest(1));
+        assert_eq!((failed.passed(), failed.failure()), (false, Some("dense")));
+        assert_eq!(failed.to_string(), "FAIL: 2 pixels over the tolerance lie in one window (1 allowed)");
+    }
+
+    #[test]
     fn limits_are_told_as_they_were_set() {
         let limits = Limits::new(0.125, 7).unwrap();
         assert_eq!((limits.tolerance(), limits.allow()), (0.125, 7));
+        assert_eq!((limits.with_densest(3).densest(), limits.densest()), (Some(3), None));
         assert_eq!(Limits::new(0.0, 0).unwrap(), Limits::default());
     }
 

@@ -47,7 +47,7 @@ pub(super) fn check_own(judge: &Judge, actual: &Path) -> Result<()> {
 /// What was handed in.
 fn frame(judge: &Judge, actual: &Path) -> Result<Submitted> {
     match actual.is_dir() {
-        true => Submitted::read(actual, judge.technique()),
+        true => judge.frame(actual),
         false => Ok(Submitted::picture(read(actual)?, actual.into())),
     }
 }

@@ -44,7 +44,7 @@ fn judged_case(
     inputs.extend(judge.files());
     let submitted = found.and_then(|(frame, picture)| {
         inputs.push(picture.clone());
-        Ok((Submitted::read(&frame, judge.technique())?, picture))
+        Ok((judge.frame(&frame)?, picture))
     });
     let mut judged = match submitted {
         Ok((submitted, picture)) => {

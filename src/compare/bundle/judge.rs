@@ -73,6 +73,14 @@ impl Judge {
         self.manifest.path(&self.picture)
     }
 
+    /// Reads a frame of its technique: a picture, or a folder with the picture and buffers ([`Submitted::read`]).
+    ///
+    /// # Errors
+    /// When it is missing or cannot be read.
+    pub fn frame(&self, path: &Path) -> Result<Submitted> {
+        Submitted::read(path, &self.technique)
+    }
+
     /// Judges a frame.
     pub fn judge(&self, frame: &Submitted, gates: Gates) -> Judgement {
         Judgement::on(&self.allowed, frame, gates)

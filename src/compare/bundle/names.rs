@@ -54,3 +54,26 @@ fn name(properties: &Map<String, Value>, place: (u32, u32)) -> String {
         None => format!("{layer} feature {number}"),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn features_are_found_by_their_order_or_by_the_place_that_they_tell() {
+        let file = r#"{"type":"FeatureCollection","features":[
+            {"type":"Feature","properties":{"layer":"roads","number":4,"name":"High Street"},"geometry":null},
+            {"type":"Feature","properties":{"layer":"roads","number":null},"geometry":{"type":"Point","coordinates":[0,0]}},
+            {"type":"Feature","properties":{"layer":"lakes"},"geometry":null},
+            {"type":"Feature","id":"7/9","properties":{"layer":"fields"},"geometry":null}]}"#;
+        let found: Vec<((u32, u32), String)> = names(file.as_bytes()).into_iter().collect();
+        let wanted = [
+            ((0, 0), "`roads` feature 4 (High Street)"),
+            ((0, 1), "`roads` feature 1"),
+            ((1, 0), "`lakes` feature 0"),
+            ((7, 9), "`fields` feature 9"),
+        ];
+        assert_eq!(found, wanted.map(|(place, name)| (place, name.to_owned())));
+        assert!(names(b"{}").is_empty());
+    }
+}

@@ -16,6 +16,9 @@ pub struct Involved {
 
 /// The features that are involved, most first.
 pub(super) fn involved(runs: &[FeatureRun], fails: &[bool], width: usize) -> Vec<Involved> {
+    if runs.is_empty() || !fails.contains(&true) {
+        return Vec::new();
+    }
     // How many fail before each pixel.
     let mut before = Vec::with_capacity(fails.len() + 1);
     let mut sum = 0;
@@ -36,4 +39,19 @@ pub(super) fn involved(runs: &[FeatureRun], fails: &[bool], width: usize) -> Vec
     let mut found: Vec<Involved> = found.collect();
     found.sort_by_key(|involved| std::cmp::Reverse(involved.pixels));
     found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn features_are_counted_over_their_runs_most_first() {
+        let run = |row, first, last, feature| FeatureRun { row, first, last, layer: 0, feature };
+        let runs = [run(0, 0, 0, 3), run(0, 0, 2, 1), run(1, 1, 2, 1), run(1, 0, 0, 2)];
+        let fails = [true, false, true, false, false, true];
+        let found: Vec<(u32, usize)> =
+            involved(&runs, &fails, 3).iter().map(|f| (f.feature, f.pixels)).collect();
+        assert_eq!(found, [(1, 3), (3, 1)]);
+    }
 }

@@ -10,7 +10,7 @@ use crate::compare::allowed::Allowed;
 use crate::compare::difference::Difference;
 use crate::compare::expected::{Mismatch, Side};
 use crate::compare::image::Image;
-use crate::compare::metrics::{Metrics, densest};
+use crate::compare::metrics::{Metrics, Window, densest, windows};
 use crate::compare::submitted::Submitted;
 use std::fmt;
 
@@ -41,6 +41,8 @@ pub struct Fitted {
     pub stages: Vec<StageFound>,
     /// The features that have a say in failing pixels, most first.
     pub features: Vec<Involved>,
+    /// Of each pixel, whether it fails.
+    fails: Vec<bool>,
 }
 
 /// A hypothesis that was tried.
@@ -154,6 +156,12 @@ impl Fitted {
         self.metrics.densest.map_or(0, |window| window.failing)
     }
 
+    /// The windows with most failing pixels, none of which counts a pixel of another; most first, a few at most.
+    pub fn windows(&self) -> Vec<Window> {
+        let picture = self.difference.distances();
+        windows(self.fails.clone(), picture.width(), picture.height())
+    }
+
     /// The first stage whose buffer differs.
     pub fn first_stage(&self) -> Option<&StageFound> {
         self.stages.iter().find(|stage| stage.differs())
@@ -171,6 +179,10 @@ fn mismatch(allowed: &Allowed, frame: &Submitted) -> Option<Mismatch> {
         return Some(Mismatch::Channels { expected: 4, actual: picture.channels() });
     }
     let counts = |pixel: usize| frame.ignored.as_ref().is_none_or(|ignored| !ignored[pixel]);
+    // As a rule there is none, and this is quick to see.
+    if !picture.values().iter().fold(false, |any, value| any | value.is_nan()) {
+        return None;
+    }
     let is_wrong = |(index, value): (usize, &f64)| value.is_nan() && counts(index / picture.channels());
     let index = picture.values().iter().enumerate().position(is_wrong)?;
     Some(Mismatch::NotANumber { side: Side::Actual, place: picture.place(index) })
@@ -180,6 +192,7 @@ fn mismatch(allowed: &Allowed, frame: &Submitted) -> Option<Mismatch> {
 struct Candidate {
     at: usize,
     fit: Fit,
+    densest: Option<Window>,
     lean: Lean,
     /// Less is better: passed, passed but leaning, failed; then by failing pixels where it failed.
     rank: (Ruling, usize),
@@ -189,11 +202,9 @@ impl Candidate {
     fn of(allowed: &Allowed, at: usize, picture: &Picture, gates: Gates) -> Self {
         let hypothesis = &allowed.hypotheses[at];
         let fit = Fit::of(hypothesis, picture);
-        let in_window = match fit.failing > gates.densest {
-            true => densest(&fit.fails, allowed.width, allowed.height).map_or(0, |window| window.failing),
-            false => fit.failing,
-        };
+        let densest = (fit.failing > 0).then(|| densest(&fit.fails, allowed.width, allowed.height)).flatten();
         let lean = Lean::of(hypothesis, picture, &fit);
+        let in_window = densest.map_or(0, |window| window.failing);
         let rank = if fit.failing > gates.allow || in_window > gates.densest {
             (Ruling::Fail, fit.failing)
         } else if lean.lopsided().is_some() {
@@ -201,7 +212,7 @@ impl Candidate {
         } else {
             (Ruling::Pass, 0)
         };
-        Self { at, fit, lean, rank }
+        Self { at, fit, densest, lean, rank }
     }
 }
 
@@ -209,26 +220,112 @@ fn fitted(allowed: &Allowed, frame: &Submitted, gates: Gates) -> Fitted {
     let ignored = frame.ignored.as_deref();
     let picture = Picture::of(&frame.picture, ignored);
     let (width, height) = (allowed.width, allowed.height);
-    let mut tried = vec![];
     let mut best = Candidate::of(allowed, 0, &picture, gates);
-    for (at, hypothesis) in allowed.hypotheses.iter().enumerate() {
-        let candidate = (at > 0).then(|| Candidate::of(allowed, at, &picture, gates));
-        let failing = candidate.as_ref().unwrap_or(&best).fit.failing;
-        tried.push(Tried { name: hypothesis.name.clone(), failing });
-        if let Some(better) = candidate.filter(|candidate| candidate.rank < best.rank) {
-            best = better;
+    let mut failing = vec![best.fit.failing];
+    for at in 1..allowed.hypotheses.len() {
+        let candidate = Candidate::of(allowed, at, &picture, gates);
+        failing.push(candidate.fit.failing);
+        if candidate.rank < best.rank {
+            best = candidate;
         }
     }
     let distances = best.fit.distances(&allowed.hypotheses[best.at], &picture);
-    let difference = Difference::known(Image::filled(width, height, 4, distances));
-    let metrics = if best.fit.failing == 0 { Metrics::of_no_distance(4) } else { difference.metrics(0.0) };
+    let tried = allowed.hypotheses.iter().zip(failing);
     Fitted {
-        tried,
+        tried: tried.map(|(hypothesis, failing)| Tried { name: hypothesis.name.clone(), failing }).collect(),
         best: best.at,
-        difference,
-        metrics,
+        metrics: Metrics::of_few(&distances, (width * height, width), best.densest),
+        difference: difference(&distances, (width, height)),
         lean: best.lean,
         stages: stages(&allowed.stages, (width, height), &frame.buffers, ignored),
         features: involved(&allowed.features, &best.fit.fails, width),
+        fails: best.fit.fails,
+    }
+}
+
+/// A picture of the distances of failing pixels.
+fn difference(distances: &[(usize, [f64; 4])], (width, height): (usize, usize)) -> Difference {
+    let mut values = vec![0.0; 4 * width * height];
+    for (pixel, distances) in distances {
+        values[4 * pixel..4 * pixel + 4].copy_from_slice(distances);
+    }
+    Difference::known(Image::filled(width, height, 4, values))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compare::allowed::{Extremes, Hypothesis};
+
+    const WHITE: [u16; 4] = [u16::MAX; 4];
+
+    /// A hypothesis that allows one grey in all pixels.
+    fn grey(name: &str, codes: [u16; 2], pixels: usize) -> Hypothesis {
+        let [lo, hi] = codes.map(|code| vec![[code, code, code, u16::MAX]; pixels]);
+        Hypothesis { name: name.into(), lo, hi, ..Hypothesis::default() }
+    }
+
+    fn allowed(width: usize, hypotheses: Vec<Hypothesis>) -> Allowed {
+        Allowed { width, height: 1, hypotheses, ..Allowed::default() }
+    }
+
+    fn frame(codes: &[u16]) -> Submitted {
+        let values =
+            codes.iter().flat_map(|code| [*code, *code, *code].map(|code| f64::from(code) / 65535.0));
+        Submitted::picture(Image::new(codes.len(), 1, 3, values.collect()).unwrap(), "frame.png".into())
+    }
+
+    fn best(judgement: &Judgement) -> (&str, Ruling) {
+        let fitted = judgement.outcome.as_ref().unwrap();
+        (&fitted.tried[fitted.best].name, judgement.ruling())
+    }
+
+    #[test]
+    fn the_first_hypothesis_that_passes_is_named_else_the_one_with_the_fewest_failing_pixels() {
+        let three = ["a", "b", "c"].iter().zip([[0, 10], [20, 30], [25, 40]]);
+        let all = allowed(4, three.map(|(name, codes)| grey(name, codes, 4)).collect());
+        let on = |codes: &[u16]| Judgement::on(&all, &frame(codes), Gates::default());
+        assert_eq!(best(&on(&[25, 27, 30, 28])), ("b", Ruling::Pass));
+        assert_eq!(best(&on(&[21, 5, 35, 36])), ("c", Ruling::Fail));
+        let failing: Vec<usize> =
+            on(&[21, 5, 35, 36]).outcome.unwrap().tried.iter().map(|t| t.failing).collect();
+        assert_eq!(failing, [3, 3, 2]);
+    }
+
+    #[test]
+    fn a_hypothesis_that_passes_is_before_one_that_passes_weakly() {
+        let extremes = |pixel| Extremes { pixel, least: [0; 4], most: WHITE };
+        let leaning = Hypothesis { extremes: (0..40).map(extremes).collect(), ..grey("a", [0, 10], 40) };
+        let on = |others: &[Hypothesis]| {
+            let all = allowed(40, [&[leaning.clone()], others].concat());
+            Judgement::on(&all, &frame(&[5; 40]), Gates::default())
+        };
+        assert_eq!(best(&on(&[])), ("a", Ruling::Weak));
+        assert_eq!(best(&on(&[grey("b", [0, 10], 40)])), ("b", Ruling::Pass));
+        let strict = Gates { strict: true, ..Gates::default() };
+        let judgement = Judgement::on(&allowed(40, vec![leaning.clone()]), &frame(&[5; 40]), strict);
+        assert_eq!((judgement.ruling(), judgement.failure()), (Ruling::Fail, Some("lopsided")));
+    }
+
+    #[test]
+    fn the_numbers_of_few_failing_pixels_are_those_of_the_whole_picture() {
+        let all = allowed(300, vec![grey("a", [1000, 2000], 300)]);
+        let codes: Vec<u16> = (0..300).map(|k| if k % 7 == 3 { 2000 + 100 * k } else { 1500 }).collect();
+        let judged = Judgement::on(&all, &frame(&codes), Gates { allow: 300, densest: 300, strict: false });
+        assert!(judged.passed() && judged.heat_map().unwrap().width() == 300);
+        let fitted = judged.outcome.unwrap();
+        assert_eq!(fitted.metrics, fitted.difference.metrics(0.0));
+        assert_eq!(fitted.windows(), fitted.difference.windows(0.0));
+        assert!(fitted.metrics.failing == 43 && fitted.metrics.p99 > 0.0);
+    }
+
+    #[test]
+    fn a_nan_counts_only_where_one_looks() {
+        let all = allowed(2, vec![grey("a", [0, 10], 2)]);
+        let mut wrong = frame(&[5, 5]);
+        wrong.picture = Image::new(2, 1, 3, vec![0.0, 0.0, 0.0, 0.0, f64::NAN, 0.0]).unwrap();
+        assert_eq!(Judgement::on(&all, &wrong, Gates::default()).failure(), Some("not-a-number"));
+        wrong.ignored = Some(vec![false, true]);
+        assert_eq!(Judgement::on(&all, &wrong, Gates::default()).failure(), None);
     }
 }

@@ -103,3 +103,48 @@ fn outcome(
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn found(range: StageRange, buffer: Image, ignored: Option<&[bool]>) -> StageOutcome {
+        let stage = Stage { buffer: "depth".into(), range };
+        let given = BTreeMap::from([("depth".to_owned(), buffer)]);
+        stages(&[stage], (2, 2), &given, ignored).remove(0).outcome
+    }
+
+    fn buffer(channels: usize, values: &[f64]) -> Image {
+        Image::new(2, 2, channels, values.to_vec()).unwrap()
+    }
+
+    fn between(components: usize, lo: f64, hi: f64) -> StageRange {
+        StageRange::Between { components, lo: vec![lo; 4 * components], hi: vec![hi; 4 * components] }
+    }
+
+    #[test]
+    fn values_lie_between_two_ends_and_what_is_no_number_does_not() {
+        let of = |values: [f64; 4]| found(between(1, 1.0, f64::INFINITY), buffer(1, &values), None);
+        assert_eq!(of([1.0, 2.0, 3.0, f64::INFINITY]), StageOutcome::Fits);
+        assert_eq!(of([1.0, 2.0, 0.5, f64::NAN]), StageOutcome::Differs { pixels: 2, first: (0, 1) });
+        let pairs = found(between(2, 0.0, 1.0), buffer(2, &[0.0, 1.0, 0.0, 2.0, 3.0, 4.0, 0.0, 0.0]), None);
+        assert_eq!(pairs, StageOutcome::Differs { pixels: 2, first: (1, 0) });
+    }
+
+    #[test]
+    fn a_value_is_one_of_its_pixels_and_anything_where_there_are_none() {
+        let rows = || StageRange::OneOf(vec![(1, 7.0), (1, 8.0), (2, 9.0)]);
+        assert_eq!(found(rows(), buffer(1, &[5.0, 8.0, 9.0, f64::NAN]), None), StageOutcome::Fits);
+        let wrong = buffer(1, &[5.0, 6.0, 6.0, 5.0]);
+        assert_eq!(found(rows(), wrong.clone(), None), StageOutcome::Differs { pixels: 2, first: (1, 0) });
+        let ignored = [false, true, false, false];
+        assert_eq!(found(rows(), wrong, Some(&ignored)), StageOutcome::Differs { pixels: 1, first: (0, 1) });
+    }
+
+    #[test]
+    fn another_size_is_told() {
+        let wide = Image::new(4, 1, 1, vec![0.0; 4]).unwrap();
+        let outcome = found(between(1, 0.0, 1.0), wide, None);
+        assert_eq!(outcome, StageOutcome::AnotherSize { expected: [2, 2, 1], actual: [4, 1, 1] });
+    }
+}

@@ -1,7 +1,7 @@
 //! A case's part of the page.
 
 use super::shown::Shown;
-use super::whole::sign;
+use super::sign::sign;
 use crate::compare::judgement::Ruling;
 use crate::compare::metrics::Window;
 use crate::compare::report::{Case, called, escaped};

@@ -2,6 +2,7 @@
 
 mod case;
 mod shown;
+mod sign;
 mod whole;
 
 pub use shown::Shown;

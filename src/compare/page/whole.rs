@@ -2,7 +2,7 @@
 
 use super::case::section;
 use super::shown::Shown;
-use crate::compare::judgement::Ruling;
+use super::sign::sign;
 use crate::compare::report::{Case, Cases, called, escaped};
 
 const STYLE: &str = include_str!("style.css");
@@ -41,16 +41,6 @@ pub fn page(cases: &Cases, shown: &[Option<Shown>]) -> String {
          <body>\n<header>\n<h1>{} {title}</h1>\n</header>\n<main>\n{table}{sections}</main>\n<script>{SCRIPT}</script>\n</body>\n</html>\n",
         sign(ruling)
     )
-}
-
-/// A verdict's sign, by its shape as well as its colour.
-pub(super) fn sign(ruling: Ruling) -> String {
-    let (class, sign) = match ruling {
-        Ruling::Pass => ("pass", "\u{2713}"),
-        Ruling::Weak => ("weak", "~"),
-        Ruling::Fail => ("fail", "\u{2715}"),
-    };
-    format!("<span class=\"sign {class}\" aria-hidden=\"true\">{sign}</span>")
 }
 
 /// The cases of a set.

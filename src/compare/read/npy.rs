@@ -190,6 +190,33 @@ mod tests {
     }
 
     #[test]
+    fn a_table_has_as_many_columns_as_one_reads_and_may_have_no_rows() {
+        let table = |shape: &str, data: &[u32]| {
+            let bytes: Vec<u8> = data.iter().flat_map(|value| value.to_le_bytes()).collect();
+            let file = file(&head("<u4", shape), &bytes);
+            Array::of(&file)
+                .and_then(|array| array.whole_rows::<2>())
+                .map_err(|error| error.what().to_owned())
+        };
+        assert_eq!(table("(2, 2)", &[1, 2, 3, 4]), Ok(vec![[1, 2], [3, 4]]));
+        assert_eq!(table("(0, 2)", &[]), Ok(vec![]));
+        for (shape, data) in
+            [("(2, 2)", &[1, 2][..]), ("(1, 2)", &[1, 2, 3]), ("(1, 4)", &[1, 2, 3, 4]), ("(2,)", &[1, 2])]
+        {
+            assert!(table(shape, data).unwrap_err().contains("no table of 2 columns"), "{shape}");
+        }
+        let real = file(&head("<f8", "(1, 2)"), &[0; 16]);
+        assert!(Array::of(&real).unwrap().whole_rows::<2>().unwrap_err().what().contains("not `<u4`"));
+        assert_eq!(Array::of(&real).unwrap().real_rows::<2>().unwrap(), [[0.0, 0.0]]);
+    }
+
+    #[test]
+    fn a_buffers_codes_are_no_fractions() {
+        let file = file(&head("|u1", "(1, 2)"), &[7, 255]);
+        assert_eq!(Array::of(&file).unwrap().plane().unwrap().values(), [7.0, 255.0]);
+    }
+
+    #[test]
     fn what_is_no_picture_is_refused_with_a_hint() {
         let refused = |file: &[u8]| decode(file).unwrap_err().to_string();
         let fortran = head("|u1", "(1, 1)").replace("False", "True");

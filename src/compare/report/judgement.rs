@@ -43,7 +43,7 @@ impl JudgementReport<'_> {
             document: self.document(failure.as_ref(), &features),
             failing: fitted.map(|fitted| fitted.metrics.failing),
             hypothesis: fitted.map(|fitted| fitted.tried[fitted.best].name.clone()),
-            windows: fitted.map(|fitted| fitted.difference.windows(0.0)).unwrap_or_default(),
+            windows: fitted.map(Fitted::windows).unwrap_or_default(),
             rows: self.rows(&features),
             features,
             failure,

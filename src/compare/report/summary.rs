@@ -64,3 +64,30 @@ fn cell(text: &str) -> String {
     }
     safe
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::error::Error;
+
+    #[test]
+    fn a_summary_that_is_too_long_leaves_whole_parts_out_and_counts_them() {
+        let case = |k: usize| Case::unread("set/a", &format!("frames/{k}"), &Error::new("no frame"));
+        let cases =
+            Cases { set: Some(("set".into(), "frames".into())), cases: (0..1000).map(case).collect() };
+        let whole = cases.summary(usize::MAX);
+        assert!(
+            whole.contains("| frames/999 | FAIL | - | - | - |") && !whole.contains("left out"),
+            "{whole}"
+        );
+        let short = cases.summary(4000);
+        assert!(short.len() <= 4000 && short.len() > 3000);
+        assert!(short.ends_with("parts are left out: there is no room for them here.\n"), "{short}");
+        assert_eq!(cases.summary(10), "");
+    }
+
+    #[test]
+    fn names_are_no_markup() {
+        assert_eq!(cell("a|b<c>`d`\n"), "a\\|b&lt;c>\\`d\\` ");
+    }
+}
