@@ -180,6 +180,9 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "canvas",
             "truth",
             "raster",
+            // The conformance set is scene files.
+            "open",
+            "scene_file",
             "stage",
             "draw_list",
             "terrain",

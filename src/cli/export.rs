@@ -1,25 +1,32 @@
-//! `drapery export [SCENE]`
+//! `drapery export [SCENE]`, `drapery export --conformance`
 
 use super::bar::Bar;
 use super::render::techniques::{self, Name};
 use super::scene_input;
 use super::stop::{Outcome, Status};
 use super::truth_arguments::TruthArguments;
-use drapery::export::Bundle;
+use drapery::export::{Bundle, Conformance};
 use drapery::measure::Watch;
 use drapery::output::Batch;
+use drapery::scene_file::Override;
 use drapery::source::load;
-use drapery::{Error, parallel};
+use drapery::technique::Kind;
+use drapery::truth::Budget;
+use drapery::{Error, Result, parallel};
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
 Examples:
   drapery export scene.toml -t clipmap -o bundle
   drapery export scene.toml -t stencil-volume --set image.width=800 -o bundle
+  drapery export --conformance -t stencil-volume -o set
   drapery compare bundle mine.png
 
 Writes the mesh and vertex sequences as .npy, features as GeoJSON, matrices and parameters as JSON, the technique's picture with all its
-buffers, a clipmap's tiles as z/x/y, and the truth with what each pixel may be. DIR/README.md tells what is where.";
+buffers, a clipmap's tiles as z/x/y, and the truth with what each pixel may be. DIR/README.md tells what is where, and how the technique goes.
+
+--conformance writes small scenes that expose what clients get wrong (missing caps, joins, draw order, coordinates in single
+precision, ...), each as DIR/CASE/TECHNIQUE/, and DIR/conformance.json.";
 
 #[derive(Debug, clap::Args)]
 #[command(after_long_help = EXAMPLES)]
@@ -27,8 +34,11 @@ pub(super) struct Arguments {
     /// The scene file, `-` for stdin; without it, a built-in generated scene.
     scene: Option<PathBuf>,
     /// What the client draws by.
-    #[arg(short, long, value_name = "T")]
-    technique: Name,
+    #[arg(short, long, value_name = "T", required_unless_present = "conformance")]
+    technique: Option<Name>,
+    /// Write the conformance set: of the technique, or of all.
+    #[arg(long, conflicts_with = "scene")]
+    conformance: bool,
     /// Change the scene: a dotted path and a TOML value; may be repeated. No value removes the key.
     #[arg(long = "set", value_name = "PATH=VALUE")]
     overrides: Vec<String>,
@@ -44,11 +54,33 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments) -> Outcome {
     let budget = arguments.truth.budget()?;
-    if arguments.technique == Name::Truth {
+    if arguments.technique == Some(Name::Truth) {
         let refusal = Error::usage("a client cannot draw by `truth`: it is in every bundle, to judge by");
         return Err(refusal.help("name a technique, such as -t clipmap").into());
     }
-    let technique = techniques::built(arguments.technique)?;
+    let technique = arguments.technique.map(techniques::built).transpose()?;
+    match technique {
+        Some(technique) if !arguments.conformance => bundle(arguments, technique, budget),
+        _ => conformance(arguments, technique, budget),
+    }
+}
+
+/// Writes the conformance set.
+fn conformance(arguments: &Arguments, technique: Option<Kind>, budget: Budget) -> Outcome {
+    let changes = arguments.overrides.iter().map(|text| Override::parse(text));
+    let changes = changes.collect::<Result<Vec<Override>>>()?;
+    let (batch, bar) = (Batch::into(&arguments.output)?, Bar::new());
+    let set = Conformance { technique, changes: &changes, budget };
+    let count = parallel::with_threads(arguments.threads, || set.write(batch, &bar))??;
+    bar.say(&format!(
+        "{count} bundles; what they expose: {}",
+        arguments.output.join("conformance.json").display()
+    ));
+    Ok(Status::Passed)
+}
+
+/// Writes a scene's bundle.
+fn bundle(arguments: &Arguments, technique: Kind, budget: Budget) -> Outcome {
     let text = scene_input::read(arguments.scene.as_deref(), &arguments.overrides)?;
     let batch = Batch::into(&arguments.output)?;
     let bar = Bar::new();

@@ -66,6 +66,15 @@ impl<'a> Bundle<'a> {
     /// # Errors
     /// When the technique does not draw such a scene, or a file cannot be written: then no file is.
     pub fn write(&self, mut batch: Batch, watch: &dyn Watch) -> Result<()> {
+        self.stage_into(&mut batch, watch)?;
+        batch.commit()
+    }
+
+    /// Stages the bundle's files in the folder that a batch has entered.
+    ///
+    /// # Errors
+    /// As [`Bundle::write`].
+    pub fn stage_into(&self, batch: &mut Batch, watch: &dyn Watch) -> Result<()> {
         let stage = self.stage;
         let view = stage.view()?;
         technique::applies(self.technique, stage)?;
@@ -78,7 +87,7 @@ impl<'a> Bundle<'a> {
             buffers,
             // They are in the pyramid of tiles.
             is_elsewhere: &|name| name == "tiles",
-            batch: &mut batch,
+            batch,
             watch,
         };
         let truth = files.truth(&certified)?;
@@ -88,7 +97,7 @@ impl<'a> Bundle<'a> {
             batch.stage(&format!("tiles/{name}.png"), |to| write_png(&picture, to))?;
         }
         let mesh = stage.mesh_for(view);
-        self.stage_scene(&mesh, &mut batch)?;
+        self.stage_scene(&mesh, batch)?;
         let parameters = Parameters::new((&stage.scene, &mesh, view), self.technique).to_json()?;
         let readme = readme(stage, self.technique, &run.buffers);
         let (scene, notes) = (view_result(stage, view, self.hash), stage.scene.notes.clone());
@@ -98,9 +107,8 @@ impl<'a> Bundle<'a> {
         for (name, text) in texts {
             batch.stage(name, |to| to.write_all(text.as_bytes()))?;
         }
-        self.stage_allowed(view, &mut batch, watch)?;
-        stage_manifest(self.technique.name(), &mut batch)?;
-        batch.commit()
+        self.stage_allowed(view, batch, watch)?;
+        stage_manifest(self.technique.name(), batch)
     }
 
     /// What the technique's picture may be; where nobody knows, a word about it.

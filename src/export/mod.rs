@@ -8,6 +8,7 @@
 mod allowed;
 mod buffers;
 mod bundle;
+pub mod conformance;
 mod features;
 mod manifest;
 mod mesh;
@@ -20,6 +21,7 @@ mod tiles;
 pub use allowed::stage_allowed;
 pub use buffers::Buffers;
 pub use bundle::Bundle;
+pub use conformance::Conformance;
 pub use features::{FeatureTable, write_features};
 pub use mesh::{plan_points, triangles, vertices};
 pub use parameters::{Camera, Canvas, GroundParameters, Parameters};
