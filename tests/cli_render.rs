@@ -162,10 +162,12 @@ fn the_result_has_every_field_of_the_contract_and_no_path_of_the_machine() {
         let device = serde_json::json!({
             "precision": "f64",
             "subpixel_bits": 0,
+            "interpolation": "snapped",
             "depth": "f32-reversed",
             "stencil_bits": 8,
             "max_line_width_px": 10.0,
-            "filter_bits": 0
+            "filter_bits": 0,
+            "level_bits": 0
         });
         assert_eq!(run["device"], device);
         assert_eq!((&run["image"]["width"], &run["image"]["height"]), (&96.into(), &64.into()));

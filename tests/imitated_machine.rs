@@ -4,7 +4,7 @@
 use drapery::parallel;
 use drapery::raster::device::{Pipeline, Real, Window};
 use drapery::raster::{Lattice, Samples};
-use drapery::scene::{DepthFormat, Device, Diagonal, Posts, Precision, Surface};
+use drapery::scene::{DepthFormat, Device, Diagonal, Interpolation, Posts, Precision, Surface};
 use drapery::space::{Plan, Screen, View, ViewFrame, Viewpoint, World};
 use drapery::terrain::{Mesh, SKY, SurfaceVertex};
 use drapery::visibility::{Hit, Machine, Sight, Visible};
@@ -16,7 +16,16 @@ const FORMATS: [DepthFormat; 4] =
 const DOUBLE: Device = device(Precision::F64, 0, DepthFormat::F32Reversed);
 
 const fn device(precision: Precision, subpixel_bits: u32, depth: DepthFormat) -> Device {
-    Device { precision, subpixel_bits, depth, stencil_bits: 8, max_line_width_px: 10.0, filter_bits: 0 }
+    Device {
+        precision,
+        subpixel_bits,
+        interpolation: Interpolation::Snapped,
+        depth,
+        stencil_bits: 8,
+        max_line_width_px: 10.0,
+        filter_bits: 0,
+        level_bits: 0,
+    }
 }
 
 /// Every precision, snapping and depth buffer.

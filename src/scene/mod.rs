@@ -20,7 +20,7 @@ pub use layer::{
     Cap, Feature, Fill, Group, Join, Layer, Line, Outline, OutlineMode, Rule, Shape, StrokeForm, Style, Width,
 };
 pub use settings::{
-    BlendMode, BlendSpace, Color, Compositing, DepthFormat, Device, ImageSettings, Precision,
+    BlendMode, BlendSpace, Color, Compositing, DepthFormat, Device, ImageSettings, Interpolation, Precision,
     TechniqueSettings,
 };
 

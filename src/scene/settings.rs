@@ -69,6 +69,8 @@ settings! {
         precision: Precision = Precision::F64;
         /// Fractional bits of vertex positions on the screen; 0: no snapping.
         subpixel_bits: u32 = 0, Shape::IntegerOf(&[0, 4, 8]);
+        /// From which corners depth is interpolated where positions are snapped.
+        interpolation: Interpolation = Interpolation::Snapped;
         /// What the depth buffer holds.
         depth: DepthFormat = DepthFormat::F32Reversed;
         /// Bits of the stencil buffer.
@@ -77,6 +79,8 @@ settings! {
         max_line_width_px: f64 = 10.0, Shape::Number(Range::Positive);
         /// Fractional bits of a texture filter's weights, 8 on most; 0: exact.
         filter_bits: u32 = 0, Shape::Integer(0, 16);
+        /// Fractional bits of the weight between two levels of a texture; 0: those of other weights.
+        level_bits: u32 = 0, Shape::Integer(0, 16);
     }
 }
 
@@ -97,6 +101,16 @@ words! {
         F64 = "f64",
         /// IEEE single.
         F32 = "f32",
+    }
+}
+
+words! {
+    /// From which corners depth is interpolated.
+    pub enum Interpolation {
+        /// As they are after snapping: depth moves with them (SwiftShader).
+        Snapped = "snapped",
+        /// As they were before: snapping moves only what is covered (lavapipe).
+        Unsnapped = "unsnapped",
     }
 }
 

@@ -112,6 +112,8 @@ depth = "unorm24"
 stencil_bits = 4
 max_line_width_px = 7.5
 filter_bits = 8
+level_bits = 8
+interpolation = "unsnapped"
 "##,
     r#"
 schema = 1

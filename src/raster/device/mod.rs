@@ -10,7 +10,8 @@
 //!   numbers stay in range; the crossing of a shared edge is the same for both of its triangles;
 //! - vertices are snapped in *pixels of the screen*, to the nearest multiple of 2^-bits, ties to even, whatever the lattice:
 //!   a finer lattice is more samples of the same picture; a sample lies at the nearest multiple of 2^-12 pixels;
-//! - depth is a mean of the corners' weighted by the edge functions, so that it never leaves their range; plan points, where a
+//! - depth is a mean of the corners' weighted by the edge functions, so that it never leaves their range (with `interpolation = "unsnapped"` of the
+//!   depths that the plane through the unsnapped corners has at the snapped ones); plan points, where a
 //!   mesh has its own, are means by the edge functions of corners that have not been snapped.
 //!
 //! Refuses: nothing; a triangle whose numbers leave the range of the device's arithmetic is not drawn, so that neither
@@ -33,7 +34,7 @@ pub use scan::{Primitive, Window};
 pub use surface::SurfaceDepth;
 
 use super::{Lattice, Samples};
-use crate::scene::Device;
+use crate::scene::{Device, Interpolation};
 use crate::space::{Clip, Lens, Plan, Screen, ViewFrame, World};
 use crate::terrain::Mesh;
 use clip::Volume;
@@ -52,6 +53,7 @@ pub struct Pipeline<T> {
     half: [T; 2],
     depth: DepthBuffer,
     subpixel_bits: u32,
+    interpolation: Interpolation,
     is_parallel: bool,
     offset: Option<PolygonOffset>,
 }
@@ -74,6 +76,7 @@ impl<T: Real> Pipeline<T> {
             half: [frame.width(), frame.height()].map(|size| T::of(size as f64 / 2.0)),
             depth,
             subpixel_bits: device.subpixel_bits.min(GRID_BITS),
+            interpolation: device.interpolation,
             is_parallel: matches!(frame.lens(), Lens::Parallel { .. }),
             offset: None,
         }
@@ -95,7 +98,8 @@ impl<T: Real> Pipeline<T> {
             };
             let corners = corners.map(|p| self.clip(p));
             self.volume.clip(&corners, false, |triangle| {
-                let primitive = Primitive { id, corners: triangle.map(|c| self.screen_from_clip(c)) };
+                let corners = triangle.map(|c| self.screen_from_clip(c));
+                let primitive = Primitive { id, corners: self.on_plane(&triangle, corners) };
                 if primitive.window(lattice).is_some() {
                     out.push(self.offset.map_or(primitive, |offset| offset.applied(&primitive, self.depth)));
                 }
@@ -120,7 +124,7 @@ impl<T: Real> Pipeline<T> {
                 let [x, y, _] = self.screen_from_clip(corner);
                 [x, y, corner.z / corner.w]
             });
-            let primitive = Primitive { id: 0, corners };
+            let primitive = Primitive { id: 0, corners: self.on_plane(&triangle, corners) };
             let mut store = |at, facing, depth| visit(at, facing, self.depth.store(depth));
             if self.subpixel_bits > 0 {
                 scan::visit::<T, i128>(&primitive, (lattice, window), &mut store);
@@ -150,13 +154,34 @@ impl<T: Real> Pipeline<T> {
     }
 
     /// Perspective division, viewport transform and snapping; depth stays as the division left it, within 0..=1.
-    fn screen_from_clip(&self, Clip { x, y, z, w }: Clip<T>) -> [T; 3] {
+    fn screen_from_clip(&self, corner: Clip<T>) -> [T; 3] {
+        let [x, y] = self.place(corner).map(|pixels| self.snapped(pixels));
+        [x, y, number::clamp_to_unit(corner.z / corner.w)]
+    }
+
+    /// Snapped corners with the depths that the plane through the unsnapped ones has there, where the machine interpolates from those.
+    fn on_plane(&self, triangle: &[Clip<T>; 3], corners: [[T; 3]; 3]) -> [[T; 3]; 3] {
+        if self.subpixel_bits == 0 || self.interpolation == Interpolation::Snapped {
+            return corners;
+        }
+        let places = triangle.map(|corner| self.place(corner));
+        let from_first = |k: usize| [places[k][0] - places[0][0], places[k][1] - places[0][1]];
+        let ([x1, y1], [x2, y2]) = (from_first(1), from_first(2));
+        let (z1, z2) = (corners[1][2] - corners[0][2], corners[2][2] - corners[0][2]);
+        let area = x1 * y2 - x2 * y1;
+        let (along_x, along_y) = ((z1 * y2 - z2 * y1) / area, (z2 * x1 - z1 * x2) / area);
+        std::array::from_fn(|k| {
+            let [x, y, z] = corners[k];
+            let moved = z + along_x * (x - places[k][0]) + along_y * (y - places[k][1]);
+            // A triangle without area has no plane.
+            [x, y, if moved.get().is_finite() { moved } else { z }]
+        })
+    }
+
+    /// Perspective division and viewport transform.
+    fn place(&self, Clip { x, y, w, .. }: Clip<T>) -> [T; 2] {
         let [half_width, half_height] = self.half;
-        [
-            self.snapped(half_width + x / w * half_width),
-            self.snapped(half_height - y / w * half_height),
-            number::clamp_to_unit(z / w),
-        ]
+        [half_width + x / w * half_width, half_height - y / w * half_height]
     }
 
     fn snapped(&self, pixels: T) -> T {

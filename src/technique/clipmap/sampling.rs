@@ -26,6 +26,8 @@ pub(super) struct Sampler {
     bias: f64,
     /// Steps of a weight; 0: any weight.
     steps: f64,
+    /// Steps of the weight between two levels; 0: any weight.
+    level_steps: f64,
 }
 
 /// Where a pixel reads the texture.
@@ -69,14 +71,16 @@ impl Sampler {
         settings: &Settings,
         device: &Device,
     ) -> Self {
-        let bits = device.filter_bits;
+        let steps = |bits: u32| if bits > 0 { power_of_two(bits) } else { 0.0 };
+        let level_bits = if device.level_bits > 0 { device.level_bits } else { device.filter_bits };
         Self {
             texture,
             windows: (0..texture.levels()).map(|level| region.window(&texture, level)).collect(),
             filter: settings.filter,
             anisotropy: settings.anisotropy,
             bias: settings.level_bias,
-            steps: if bits > 0 { power_of_two(bits) } else { 0.0 },
+            steps: steps(device.filter_bits),
+            level_steps: steps(level_bits),
         }
     }
 
@@ -128,7 +132,8 @@ impl Sampler {
         let fine = level as u32;
         let square = self.square(at, fine, weight);
         // Where only a coarser level is at hand, the level is that at least (Tanner et al. 1998).
-        let share = if square.level > fine { 0.0 } else { self.rounded(level - f64::from(fine)) };
+        let between = || rounded(level - f64::from(fine), self.level_steps);
+        let share = if square.level > fine { 0.0 } else { between() };
         let keep = 1.0 - share;
         if keep > 0.0 {
             visit(Quad { weight: weight * keep, ..square });
@@ -136,11 +141,6 @@ impl Sampler {
         if share > 0.0 {
             visit(self.square(at, fine + 1, weight * share));
         }
-    }
-
-    /// A weight as the device stores it.
-    fn rounded(&self, share: f64) -> f64 {
-        if self.steps > 0.0 { (share * self.steps + 0.5).floor() / self.steps } else { share }
     }
 
     /// The nearest texel of the finest level that is at hand, from one on.
@@ -164,7 +164,8 @@ impl Sampler {
             let (x, y) = (at.x * scale - 0.5, at.y * scale - 0.5);
             let place = (floor(x), floor(y));
             if self.is_at_hand(level, place, (1, 1)) || level + 1 >= self.texture.levels() {
-                let shares = (self.rounded(x - place.0 as f64), self.rounded(y - place.1 as f64));
+                let share = |share: f64| rounded(share, self.steps);
+                let shares = (share(x - place.0 as f64), share(y - place.1 as f64));
                 return Quad { level, at: place, shares: Some(shares), weight, is_fallback: level > asked };
             }
             level += 1;
@@ -201,6 +202,11 @@ impl Sampler {
         let key = TileKey { level, row: (row / TILE) as u32, column: (column / TILE) as u32 };
         (key, (column % TILE, row % TILE))
     }
+}
+
+/// A weight as a device stores it that has so many steps of it; 0: any weight.
+fn rounded(share: f64, steps: f64) -> f64 {
+    if steps > 0.0 { (share * steps + 0.5).floor() / steps } else { share }
 }
 
 /// The floor of a place in the texture, without a call for each texel.
@@ -349,6 +355,19 @@ mod tests {
         for quad in quads(&sampler, &probes) {
             let (x, y) = quad.shares.unwrap();
             assert!([x, y, quad.weight * f64::from(probes.count)].iter().all(|v| (v * 16.0).fract() == 0.0));
+        }
+    }
+
+    #[test]
+    fn the_weight_between_levels_may_have_fewer_bits_than_others() {
+        let device = Device { filter_bits: 8, level_bits: 2, ..Device::default() };
+        let own = sampler(&settings(TextureFilter::Trilinear), 0);
+        let region = ClipRegion::new(&own.texture, MIDDLE, 4096);
+        let sampler = Sampler::new(own.texture, &region, &settings(TextureFilter::Trilinear), &device);
+        let at = Plan::new(123.456, 654.321);
+        for quad in quads(&sampler, &sampler.probes(at, Some(&footprint(0.3, 0.0, 0.0, 0.3)))) {
+            let (x, y) = quad.shares.unwrap();
+            assert!([x, y].iter().all(|v| (v * 256.0).fract() == 0.0) && (quad.weight * 4.0).fract() == 0.0);
         }
     }
 
