@@ -6,6 +6,7 @@
 //! ([`crate::truth::probe`]) over the technique's footprints. Refuses: techniques without a model.
 
 mod envelope;
+mod inverse_projection;
 mod model;
 mod picture;
 mod pixel;
@@ -48,6 +49,9 @@ pub fn allowed(
             Kind::StaticDecal => {
                 let settings = stage.scene.technique.get();
                 static_decal::sampling(&settings, &stage.draw_list)?.picture(&view, guess)
+            }
+            Kind::InverseProjection => {
+                inverse_projection::picture(&stage.scene.technique.get(), &view, guess)
             }
             _ => {
                 return Err(Error::unsupported(format!(

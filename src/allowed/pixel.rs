@@ -1,6 +1,7 @@
 //! What a pixel may be, from what its samples may see.
 
 use crate::certainty::{PaintMean, PaintRange};
+use crate::math;
 use crate::resolve::Compositor;
 use crate::truth::{Outcome, Sample};
 
@@ -38,16 +39,21 @@ pub(super) enum Blending {
 impl PixelRange {
     /// The mean of samples.
     pub(super) fn of_samples(samples: &[Sample], compositor: &Compositor, blending: Blending) -> Self {
+        let slack = match blending {
+            Blending::Shader => ROUNDING,
+            Blending::Target => ROUNDING * blends(samples),
+        };
+        Self::of_means(samples, compositor, slack)
+    }
+
+    /// The mean of samples, with what rounding may do to each channel.
+    pub(super) fn of_means(samples: &[Sample], compositor: &Compositor, slack: f64) -> Self {
         let share = 1.0 / samples.len() as f64;
         let color = |paints: &mut dyn Iterator<Item = PaintRange>| {
             let mut mean = PaintMean::NOTHING;
             paints.for_each(|paint| mean.add(&paint, share));
             let [low, high, _] = mean.colors(compositor, 1e-12);
             [low, high]
-        };
-        let slack = match blending {
-            Blending::Shader => ROUNDING,
-            Blending::Target => ROUNDING * blends(samples),
         };
         let mut range = Self {
             all: widened(color(&mut samples.iter().map(Sample::paint)), slack),
@@ -76,6 +82,33 @@ impl PixelRange {
             range.extremes = Some([at(0), at(1)]);
         }
         range
+    }
+
+    /// Any of some, at least one.
+    pub(super) fn any_of(mut ranges: Vec<Self>) -> Self {
+        if ranges.len() == 1 {
+            return ranges.swap_remove(0);
+        }
+        let mut any = Self { all: [[1.0; 4], [0.0; 4]], ..Self::default() };
+        for range in ranges {
+            for c in 0..4 {
+                any.all[0][c] = math::min(range.all[0][c], any.all[0][c]);
+                any.all[1][c] = math::max(range.all[1][c], any.all[1][c]);
+            }
+            let own = if range.choices.is_empty() { vec![range.all] } else { range.choices };
+            own.into_iter().for_each(|choice| {
+                if !any.choices.contains(&choice) {
+                    any.choices.push(choice);
+                }
+            });
+            any.items.extend(range.items);
+        }
+        if any.choices.len() > MOST_CHOICES || any.choices.len() == 1 {
+            any.choices.clear();
+        }
+        any.items.sort_unstable();
+        any.items.dedup();
+        any
     }
 }
 

@@ -167,6 +167,12 @@ impl ViewFrame {
     pub fn height(&self) -> usize {
         self.height as usize
     }
+    /// The frame of a picture with so many more pixels at each border, which sees the same in the others.
+    #[must_use]
+    pub fn with_border(&self, pixels: usize) -> Self {
+        let more = 2.0 * pixels as f64;
+        Self { width: self.width + more, height: self.height + more, ..*self }
+    }
     /// View depth of [`Ray::through`] from [`Ray::from`], metres.
     pub fn reach(&self) -> f64 {
         self.reach

@@ -37,7 +37,7 @@ mod tile_rays;
 mod visible;
 
 pub use outcome::{Outcome, Sample};
-pub use probe::{Probe, probe};
+pub use probe::{Probe, probe, probe_around};
 
 use crate::buffer::{Buffer, Look, Plane, PlaneKind, Values};
 use crate::error::{Error, Result};

@@ -48,7 +48,20 @@ pub fn probe<R: Send + Clone>(
     judge: &(dyn Fn([usize; 2], &[Sample]) -> R + Sync),
     progress: &(dyn Fn(f64) + Sync),
 ) -> Buffer<R> {
+    probe_around((stage, view), 0, of, judge, progress)
+}
+
+/// As [`probe`] of a picture with `border` more pixels on each side: the pixel in its upper left corner is number 0, 0.
+pub fn probe_around<R: Send + Clone>(
+    (stage, view): (&Stage, &ViewFrame),
+    border: usize,
+    of: &Probe,
+    judge: &(dyn Fn([usize; 2], &[Sample]) -> R + Sync),
+    progress: &(dyn Fn(f64) + Sync),
+) -> Buffer<R> {
+    // The terrain is the picture's own.
     let mesh = &*stage.mesh_for(view);
+    let view = &view.with_border(border);
     let size = PixelSize::of(view, mesh);
     let seen = SeenPlan::new(mesh, view);
     let footprints = Footprints::stroked(of.list, size, of.strokes, &|plan| seen.meets(plan));
