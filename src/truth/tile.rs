@@ -506,10 +506,11 @@ impl<'a> Work<'a> {
         let corner = [x as f64, y as f64];
         let mut samples = Vec::with_capacity(probes.spots.len());
         if probes.spots.len() >= ALIKE_FROM {
-            if !self.see(corner, ([-MOST_SHIFT; 2], 1.0 + 2.0 * MOST_SHIFT), near, rest) {
+            let square = ([-MOST_SHIFT; 2], 1.0 + 2.0 * MOST_SHIFT);
+            if !self.see(corner, square, near, rest) {
                 return false;
             }
-            let all = self.outcomes(corner);
+            let all = self.outcomes(corner, square, near);
             if all.has_one_paint() {
                 samples = vec![all; probes.spots.len()];
             }
@@ -524,17 +525,50 @@ impl<'a> Work<'a> {
                 if reach > probes.shift && !self.see(corner, square(reach), near, rest) {
                     return false;
                 }
-                samples.push(self.outcomes(corner));
+                samples.push(self.outcomes(corner, square(math::max(reach, probes.shift)), near));
             }
         }
         self.out.samples[y * self.size[0] + x] = samples;
         true
     }
 
-    /// What may be seen and held in the square of a pixel that was looked at last.
-    fn outcomes(&mut self, pixel: [f64; 2]) -> Sample {
-        let pixel = Pixel { setting: self.setting, rays: &self.rays, facets: &self.facets, corner: pixel };
-        self.refinery.outcomes(&pixel, &mut self.pieces, &self.sight)
+    /// What may be seen and held in the square of a pixel that was looked at last, of these facets.
+    fn outcomes(
+        &mut self,
+        pixel: [f64; 2],
+        (corner, side): ([f64; 2], f64),
+        near: &[u32],
+    ) -> Sample {
+        let hidden = self.nearly_seen([pixel[0] + corner[0], pixel[1] + corner[1]], side, near);
+        let of = Pixel { setting: self.setting, rays: &self.rays, facets: &self.facets, corner: pixel };
+        let mut sample = self.refinery.outcomes(&of, &mut self.pieces, &self.sight);
+        for facet in hidden {
+            self.pieces.clear();
+            self.sight.clear();
+            self.sight.see(&mut self.pieces, &self.facets, &[facet], (pixel, corner, side));
+            self.sight.sky.clear();
+            let of_facet = self.refinery.outcomes(&of, &mut self.pieces, &self.sight);
+            of_facet.outcomes.into_iter().for_each(|outcome| sample.add(outcome));
+        }
+        sample
+    }
+
+    /// The facets in a square that are hidden wherever one looks, but not behind everything that is seen in it: where vertices stray, some of
+    /// them may come forth, such as the far side of a ridge.
+    fn nearly_seen(&self, corner: [f64; 2], side: f64, near: &[u32]) -> Vec<u32> {
+        let floor = match self.sight.sky.is_empty() {
+            true => self.sight.farthest(),
+            false => f64::NEG_INFINITY,
+        };
+        let square = Reach::of_square(corner, side);
+        let is_hidden = |k: u32| {
+            let facet = &self.facets[k as usize];
+            self.boxes[k as usize].meets(&square)
+                && may_cover(facet, corner, side)
+                && facet.nearness_range(corner, side).1 >= floor
+                && !self.sight.fragments.iter().any(|fragment| fragment.facet == k)
+        };
+        near.iter().copied().filter(|k| is_hidden(*k)).collect()
     }
 
     /// How far a spot's sample may be shifted for what it seems to see to be all that it may, pixels. What is seen may lie elsewhere along the

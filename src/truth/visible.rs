@@ -98,6 +98,12 @@ impl Sight {
         self.sky.is_empty() && self.fragments.iter().all(|fragment| fragment.farthest > nearest)
     }
 
+    /// No point of what is seen of the terrain is farther.
+    pub(super) fn farthest(&self) -> f64 {
+        let farthest = self.fragments.iter().map(|fragment| fragment.farthest);
+        farthest.fold(f64::INFINITY, |least, v| if v < least { v } else { least })
+    }
+
     /// Gives a triangle what it hides of fragments already laid down.
     fn hide(&mut self, pieces: &mut Pieces, offered: &Offered) {
         let mut k = self.first_fragment;
