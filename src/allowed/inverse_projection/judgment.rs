@@ -233,7 +233,7 @@ fn corners_of(place: &Place) -> Vec<Plan> {
     }
     let of = |patch: &super::place::Patch| {
         let corners = patch.corners.unwrap_or_else(|| boxed(&patch.plan));
-        corners.into_iter().chain(patch.ray.into_iter().flatten()).collect::<Vec<_>>()
+        corners.into_iter().chain(patch.others.iter().copied()).collect::<Vec<_>>()
     };
     place.0.iter().flat_map(of).collect()
 }

@@ -3,6 +3,7 @@
 //! What rays may end in (`sight`) makes a pixel's quadrilateral a set of such (`place`); edges of the outlines of lines and polygons
 //! (`outlines`) then hold each sample, do not, or may (`judgment`), and a pixel is the mean of what its samples may be (`pixel`).
 
+mod ground;
 mod judgment;
 mod outlines;
 mod pixel;
@@ -24,6 +25,7 @@ use crate::space::{Screen, ViewFrame};
 use crate::technique::inverse_projection::{Corners, Settings};
 use crate::terrain::Mesh;
 use crate::truth::{Probe, probe_around};
+use ground::Ground;
 use judgment::Judge;
 use outlines::Outlines;
 use pixel::{Judged, Painter, Rays};
@@ -56,10 +58,12 @@ pub(super) fn picture(
     let mesh = &*stage.mesh_for(frame);
     let slack = SINGLE * reach(mesh, frame);
     let along = |depth: f64| guess.envelope.along(frame, depth);
-    let eye = Eye { view: frame, mesh, shift: guess.envelope.shift(), along: &along, slack };
+    let compositor = Compositor::new(stage.scene.compositing);
+    let ground = Ground::new(&stage.scene.ground, mesh, compositor);
+    let shift = guess.envelope.shift();
+    let eye = Eye { view: frame, mesh, shift, along: &along, ground: &ground, slack };
     let probed = probed(settings, view, &eye);
     let outlines = Outlines::new(&stage.draw_list, &mesh.plan_bounds());
-    let compositor = Compositor::new(stage.scene.compositing);
     let styles = stage.draw_list.styles().iter();
     let painter = Painter {
         judge: Judge { outlines: &outlines, rule: settings.point_in_polygon, slack },

@@ -2,6 +2,7 @@
 
 use super::judgment::{Held, Judge};
 use super::outlines::{Area, Part};
+use super::place::Place;
 use super::sight::{Eye, Sight, Spread};
 use crate::allowed::pixel::PixelRange;
 use crate::certainty::{Known, PaintRange};
@@ -166,7 +167,7 @@ impl Findings<'_> {
         let states: Vec<(Area, Vec<Known>)> = holding.iter().map(|(area, k)| (*area, vec![*k])).collect();
         self.add_whole_classes(holding);
         self.add_held(centre, &states, 1);
-        let bounds = centre.place.bounds();
+        let bounds = self.painter.bounds(&centre.place);
         self.include([0, 1, 2, 3].map(|_| axes(&bounds)).concat().try_into().unwrap_or_default());
         self.edges[0] = 0;
     }
@@ -189,7 +190,7 @@ impl Findings<'_> {
             }
             _ => self.add_held(centre, &areas, (samples * samples) as usize),
         }
-        let bounds = quad.map(|place| axes(&place.bounds()));
+        let bounds = quad.map(|place| axes(&self.painter.bounds(place)));
         self.include(bounds.concat().try_into().unwrap_or_default());
         self.edges = [self.edges[0].min(edges[0]), self.edges[1].max(edges[1])];
     }
@@ -264,6 +265,11 @@ fn items_of(painter: &Painter, areas: &[(Area, Vec<Known>)], count: usize) -> Ve
 }
 
 impl Painter<'_> {
+    /// A box around a place, with what rounding may do.
+    fn bounds(&self, place: &Place) -> PlanBox {
+        place.bounds().grown(self.judge.slack)
+    }
+
     /// What a sample over a ground may be that items hold so.
     fn sample(&self, ground: PaintRange, triangle: u32, held: &[(u32, Known)]) -> Sample {
         let held: Vec<(u32, Known)> = held.iter().copied().filter(|(_, k)| *k != Known::Out).collect();

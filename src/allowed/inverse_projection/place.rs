@@ -14,14 +14,14 @@ pub(super) fn around(a: Range, b: Range) -> Range {
     [math::min(a[0], b[0]), math::max(a[1], b[1])]
 }
 
-/// A piece of a [`Place`]: what is in the box and, if they are known, in the hull of these points; and a line beside.
+/// A piece of a [`Place`]: the hull of some points, and of what is in the box and, if they are known, between corners.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Patch {
     pub(super) plan: PlanBox,
     /// Corners around it; none: the box's.
     pub(super) corners: Option<[Plan; 4]>,
-    /// The ends of the part of a ray that it may lie on instead.
-    pub(super) ray: Option<[Plan; 2]>,
+    /// Places of it that may lie beyond.
+    pub(super) others: Vec<Plan>,
 }
 
 impl Patch {
@@ -38,13 +38,13 @@ impl Patch {
         });
         // Both hold all of it: only rounding leaves nothing.
         let within = if within[0] <= within[1] { within } else { boxed };
-        self.ray.map_or(within, |ray| around(within, of(&ray)))
+        around(within, of(&self.others))
     }
 
     /// A box around it.
     pub(super) fn bounds(&self) -> PlanBox {
         let mut all = self.plan;
-        self.ray.iter().flatten().for_each(|p| all.include(*p));
+        self.others.iter().for_each(|p| all.include(*p));
         all
     }
 }
@@ -62,15 +62,8 @@ impl Place {
     /// A point of it.
     pub(super) fn point(&self) -> Plan {
         let Some(patch) = self.0.first() else { return Plan::default() };
-        let middle = |points: &[Plan]| {
-            let mean = |sum: DVec2, p: &Plan| sum + p.to_vec() / points.len() as f64;
-            Plan::default() + points.iter().fold(DVec2::ZERO, mean)
-        };
-        match (&patch.ray, &patch.corners) {
-            (Some(ray), _) => middle(ray),
-            (_, Some(corners)) => middle(corners),
-            _ => middle(&[patch.plan.min, patch.plan.max]),
-        }
+        let PlanBox { min, max } = patch.plan;
+        patch.others.first().copied().unwrap_or_else(|| min + (max - min) * 0.5)
     }
 
     /// A box around it.
@@ -105,7 +98,7 @@ mod tests {
     #[test]
     fn a_slanted_patch_is_narrower_across_than_its_box() {
         let corners = [(0.0, 0.0), (0.1, -0.1), (2.1, 1.9), (2.0, 2.0)].map(|(x, y)| Plan::new(x, y));
-        let patch = Patch { plan: PlanBox::around(corners), corners: Some(corners), ray: None };
+        let patch = Patch { plan: PlanBox::around(corners), corners: Some(corners), others: Vec::new() };
         let across = DVec2::new(1.0, -1.0).normalize();
         let [low, high] = Place(vec![patch]).along(Plan::default(), across);
         assert!(low.abs() < 1e-12 && (high - 0.2 / 2f64.sqrt()).abs() < 1e-12, "{low} {high}");

@@ -1,5 +1,6 @@
 //! What rays through pixels' centres and corners may end in.
 
+use super::ground::Ground;
 use super::place::{Patch, Place, Range, around, distances};
 use crate::certainty::{Known, PaintRange};
 use crate::predicate::TrianglePlane;
@@ -15,6 +16,7 @@ pub(super) struct Eye<'a> {
     pub(super) shift: f64,
     /// How far along its ray a point of a view depth may seem to lie elsewhere, metres.
     pub(super) along: &'a (dyn Fn(f64) -> f64 + Sync),
+    pub(super) ground: &'a Ground<'a>,
     /// How far rounding may move plan points, metres.
     pub(super) slack: f64,
 }
@@ -54,20 +56,17 @@ impl Sight {
                 continue;
             }
             let patch = eye.patch(outcome, at);
-            sight.add(patch, outcome, eye.slack);
+            let bounds = patch.bounds().grown(eye.slack);
+            let paints = eye.ground.paints(outcome.triangle, &bounds);
+            let spread = Spread { place: Place(vec![patch]), triangles: vec![outcome.triangle], paints };
+            sight.add(spread, &bounds);
         }
         sight
     }
 
-    /// Adds a patch, and makes one of the spreads that it connects.
-    fn add(&mut self, patch: Patch, outcome: &Outcome, slack: f64) {
-        let bounds = patch.bounds().grown(slack);
-        let mut all = Spread {
-            place: Place(vec![patch]),
-            triangles: vec![outcome.triangle],
-            paints: vec![outcome.paint],
-        };
-        let is_apart = |spread: &Spread| !spread.place.0.iter().any(|p| p.bounds().meets(&bounds));
+    /// Adds a spread within a box, and makes one of those that it connects.
+    fn add(&mut self, mut all: Spread, bounds: &PlanBox) {
+        let is_apart = |spread: &Spread| !spread.place.0.iter().any(|p| p.bounds().meets(bounds));
         let (apart, touched): (Vec<Spread>, Vec<Spread>) =
             std::mem::take(&mut self.spreads).into_iter().partition(is_apart);
         touched.into_iter().for_each(|spread| all.take(spread));
@@ -118,14 +117,20 @@ impl Eye<'_> {
             }
             Some(corners)
         });
+        // Attributes of a triangle that a sample just misses are taken beyond its sides; depths are of other places, and rounded.
+        let ray = self.view.ray(at);
+        let on_plane = triangle.as_ref().and_then(|triangle| self.hit(triangle, &ray));
         let is_vertical = triangle.is_some_and(|t| matches!(t.drape, TriangleDrape::Vertical));
-        let ray = is_vertical.then(|| {
-            let ray = self.view.ray(at);
+        let on_ray = is_vertical.then(|| {
             let (near, far) = outcome.depth;
             let depths = [near - (self.along)(near), far + (self.along)(far)];
             depths.map(|depth| (ray.from + (ray.through - ray.from) * (depth / self.view.reach())).plan())
         });
-        Patch { plan: outcome.plan, corners, ray }
+        Patch {
+            plan: outcome.plan,
+            corners,
+            others: on_plane.into_iter().chain(on_ray.into_iter().flatten()).collect(),
+        }
     }
 
     /// The plan point in which a ray meets a triangle's plane before the eye.
