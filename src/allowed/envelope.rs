@@ -45,6 +45,11 @@ impl Envelope {
         0.5 / f64::from(1u32 << self.subpixel_bits) + SINGLE
     }
 
+    /// How far what is not snapped may stray on the screen: the rounding of single precision, pixels.
+    pub fn single(&self) -> f64 {
+        SINGLE
+    }
+
     /// How far along its ray a point of a view depth (metres) may seem to lie elsewhere because depths are rounded, metres.
     pub fn along(&self, view: &ViewFrame, depth: f64) -> f64 {
         let (near, far) = (view.near(), view.far());

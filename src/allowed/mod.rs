@@ -5,6 +5,8 @@
 //! technique's own code decides: what may be seen and held within a sample's square is found with the truth's certified pieces
 //! ([`crate::truth::probe`]) over the technique's footprints. Refuses: techniques without a model.
 
+mod composition;
+mod dynamic_line;
 mod envelope;
 mod inverse_projection;
 mod model;
@@ -14,6 +16,7 @@ mod sampled;
 mod stages;
 mod static_decal;
 mod stencil_volume;
+mod surface;
 
 pub use envelope::Envelope;
 
@@ -46,6 +49,7 @@ pub fn allowed(
             Kind::StencilVolume => {
                 stencil_volume::sampling(&stage.scene.technique.get()).picture(&view, guess)
             }
+            Kind::DynamicLine => dynamic_line::picture(&view, guess)?,
             Kind::StaticDecal => {
                 let settings = stage.scene.technique.get();
                 static_decal::sampling(&settings, &stage.draw_list)?.picture(&view, guess)

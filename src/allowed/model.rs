@@ -1,6 +1,7 @@
 //! What all techniques' models are asked.
 
 use super::envelope::Envelope;
+use crate::compare::{FeatureRun, Hypothesis, Stage as Buffers};
 use crate::space::ViewFrame;
 use crate::stage::Stage;
 
@@ -12,6 +13,9 @@ pub(super) struct View<'a> {
     /// Is told the share that is done (0..=1), from any thread.
     pub(super) progress: &'a (dyn Fn(f64) + Sync),
 }
+
+/// A picture by one guess, the buffers behind it, and which features have a say where.
+pub(super) type Judged = (Hypothesis, Vec<Buffers>, Vec<FeatureRun>);
 
 /// A set of choices that a machine makes the same way everywhere.
 #[derive(Debug, Clone, PartialEq)]

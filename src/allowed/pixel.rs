@@ -25,7 +25,7 @@ pub(super) struct PixelRange {
 const MOST_CHOICES: usize = 8;
 
 /// A rounding to code values: half of one, and a hair for arithmetic in single precision.
-const ROUNDING: f64 = 0.51 / 255.0;
+pub(super) const BLEND: f64 = 0.51 / 255.0;
 
 /// Where colours are composed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,8 +40,8 @@ impl PixelRange {
     /// The mean of samples.
     pub(super) fn of_samples(samples: &[Sample], compositor: &Compositor, blending: Blending) -> Self {
         let slack = match blending {
-            Blending::Shader => ROUNDING,
-            Blending::Target => ROUNDING * blends(samples),
+            Blending::Shader => BLEND,
+            Blending::Target => BLEND * blends(samples),
         };
         Self::of_means(samples, compositor, slack)
     }

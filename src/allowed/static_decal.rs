@@ -25,11 +25,24 @@ pub(super) fn sampling(settings: &Settings, list: &DrawList) -> Result<Sampling>
         let instead = "technique.static-decal.overlaps = \"once\"";
         return Err(unknown("overlaps = \"double\" of translucent lines", instead));
     }
-    let strokes = Strokes::Decals {
-        is_round_below_40: settings.joins == Joins::Thesis,
-        is_cut_by_side: settings.outlines == Outlines::Side,
-    };
+    let strokes = strokes(settings, false);
     let spots = SamplePattern::of(settings.samples).map_or_else(Vec::new, SamplePattern::places);
     // A plan point is that of the terrain's depth along the pixel's ray, or interpolated.
     Ok(Sampling { spots, strokes, depths_of_shifts: 1.0, blending: Blending::Shader })
+}
+
+/// The strokes of the static decals among dynamic lines, whose samples are pixels' centres: those whose widths are in metres.
+///
+/// # Errors
+/// As [`sampling`].
+pub(super) fn strokes_in_metres(settings: &Settings, list: &DrawList) -> Result<Strokes> {
+    sampling(settings, list).map(|_| strokes(settings, true))
+}
+
+fn strokes(settings: &Settings, in_metres_alone: bool) -> Strokes {
+    Strokes::Decals {
+        is_round_below_40: settings.joins == Joins::Thesis,
+        is_cut_by_side: settings.outlines == Outlines::Side,
+        in_metres_alone,
+    }
 }

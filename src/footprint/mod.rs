@@ -298,8 +298,9 @@ impl Parts<'_> {
             // A dot is a part too.
             for vertex in chain.first..chain.first + chain.segments().max(1) {
                 let segment = segment_of(vertices, chain, vertex as usize);
-                let reach = stroke::reach(&segment, line, (self.pixel, self.strokes));
-                add(vertex, [segment.from, segment.to], reach);
+                if let Some(reach) = stroke::reach(&segment, line, (self.pixel, self.strokes)) {
+                    add(vertex, [segment.from, segment.to], reach);
+                }
             }
             return;
         }

@@ -24,12 +24,19 @@ pub enum Strokes {
         is_round_below_40: bool,
         /// Outlines are cut to their polygon by the side of each segment (Fig. 4.8); else by the polygon.
         is_cut_by_side: bool,
+        /// Those whose widths are in pixels are left out: they are no static lines (3.4.1).
+        in_metres_alone: bool,
     },
 }
 
 impl Strokes {
     fn is_round_below_40(self) -> bool {
         matches!(self, Self::Decals { is_round_below_40: true, .. })
+    }
+
+    /// Whether a stroke is left out.
+    fn leaves_out(self, line: &Line) -> bool {
+        matches!((self, line.width), (Self::Decals { in_metres_alone: true, .. }, Width::Pixels(_)))
     }
 
     /// Whether outlines are cut by the sides of segments.
@@ -60,8 +67,15 @@ fn half_width(line: &Line, pixel: &PixelSize) -> (f64, f64) {
     }
 }
 
-/// How far from the bare segment all that [`primitives`] gives may lie, in each coordinate.
-pub(super) fn reach(segment: &Segment, line: &Line, (pixel, strokes): (&PixelSize, Strokes)) -> f64 {
+/// How far from the bare segment all that [`primitives`] gives may lie, in each coordinate; `None`: there is nothing.
+pub(super) fn reach(
+    segment: &Segment,
+    line: &Line,
+    (pixel, strokes): (&PixelSize, Strokes),
+) -> Option<f64> {
+    if strokes.leaves_out(line) {
+        return None;
+    }
     let (half, growth) = half_width(line, pixel);
     let reach = match (line.join, line.width) {
         (_, Width::Pixels(_)) if grows_with_distance(line, pixel) => dynamic_reach(segment, growth, pixel),
@@ -70,7 +84,7 @@ pub(super) fn reach(segment: &Segment, line: &Line, (pixel, strokes): (&PixelSiz
         _ => half * std::f64::consts::SQRT_2,
     };
     // The rounding of these few operations is far below this share.
-    reach * (1.0 + 1e-9) + 1e-9
+    Some(reach * (1.0 + 1e-9) + 1e-9)
 }
 
 /// How far a stroke reaches whose half width is `growth` times the distance r of the surface point from the eye.

@@ -1,0 +1,431 @@
+//! A picture of dynamic lines: what centres see, which lines hold them, the filter over it.
+
+use super::filter::{Candidates, Filtered, Picture};
+use super::lines::{Held, Lines, Place};
+use super::patch::Patch;
+use crate::allowed::composition::{Composed, Composer, Laid};
+use crate::allowed::model::{Guess, Judged, View};
+use crate::allowed::pixel::{BLEND, ColorRange, PixelRange};
+use crate::allowed::stages::stages;
+use crate::allowed::surface::{Surface, Surfaces, surfaces};
+use crate::allowed::{picture, static_decal};
+use crate::buffer::Buffer;
+use crate::certainty::{Known, PaintMean, PaintRange};
+use crate::error::{Error, Result};
+use crate::math;
+use crate::parallel;
+use crate::scene::Width;
+use crate::space::{Plan, World};
+use crate::technique::dynamic_line::{
+    Antialiasing, Corners, LineOverlaps, Settings, Simplification, Sorting, ThinLines,
+};
+use crate::technique::static_decal as decals;
+use crate::terrain::{Mesh, SKY};
+
+/// What a picture may be.
+///
+/// # Errors
+/// When nobody knows what some setting draws.
+pub(in crate::allowed) fn picture(view: &View, guess: &Guess) -> Result<Judged> {
+    let stage = view.stage;
+    let settings: Settings = stage.scene.technique.get();
+    supported(&settings)?;
+    let list = &stage.draw_list;
+    let is_static = |item: u32| !matches!(list.style_of(item).stroke.map(|line| line.width), Some(Width::Pixels(_)));
+    let has_statics = list.numbered().any(|(item, _)| is_static(item));
+    let strokes = match has_statics {
+        true => {
+            let of_decals: decals::Settings = stage.scene.technique.get();
+            Some(static_decal::strokes_in_metres(&of_decals, list)?)
+        }
+        false => None,
+    };
+    let surfaces = surfaces(view, guess, (strokes, 1.0));
+    let thin = Thin::of(&settings, view);
+    let frame = Frame {
+        view,
+        guess,
+        mesh: &stage.mesh_for(view.frame),
+        lines: Lines::new(view, guess, &settings, thin != Thin::Nothing),
+        composer: Composer::new(&stage.scene, list),
+        settings,
+        thin,
+        surfaces,
+    };
+    Ok(frame.judged())
+}
+
+fn supported(settings: &Settings) -> Result<()> {
+    let unknown = |setting: &str, instead: &str| {
+        Err(Error::unsupported(format!("nobody knows what dynamic-line's picture may be with {setting}"))
+            .help(format!("use technique.dynamic-line.{instead}, or judge it by its picture and a tolerance")))
+    };
+    if settings.simplification == Simplification::ScreenError {
+        return unknown("simplification = \"screen-error\"", "simplification = \"same-pixel\"");
+    }
+    if settings.corners == Corners::Style {
+        return unknown("corners = \"style\"", "corners = \"round\"");
+    }
+    if settings.antialiasing == Antialiasing::Analytic {
+        return unknown("antialiasing = \"analytic\"", "antialiasing = \"fxaa\"");
+    }
+    Ok(())
+}
+
+/// What is done about thin lines.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Thin {
+    Nothing,
+    /// Pixels near a segment's picture are in the line.
+    Near,
+    /// Those of them that do not hide the segment.
+    NearAndSeen,
+}
+
+/// The cosine of ten degrees: how far from straight down a view is top-down.
+const TOP_DOWN: f64 = 0.984_807_753_012_208;
+
+impl Thin {
+    fn of(settings: &Settings, view: &View) -> Self {
+        match settings.thin_lines {
+            ThinLines::Correction if view.frame.forward().z <= -TOP_DOWN => Self::Near,
+            ThinLines::SecondDepth => Self::NearAndSeen,
+            ThinLines::Correction | ThinLines::None => Self::Nothing,
+        }
+    }
+}
+
+/// A picture at work.
+struct Frame<'a> {
+    view: &'a View<'a>,
+    guess: &'a Guess,
+    mesh: &'a Mesh,
+    settings: Settings,
+    thin: Thin,
+    lines: Lines,
+    composer: Composer<'a>,
+    surfaces: Surfaces,
+}
+
+/// What a pixel may be before it is smoothed.
+#[derive(Debug, Clone, Default)]
+struct Unsmoothed {
+    /// Around all paints.
+    around: Option<PaintRange>,
+    /// All paints there are, those with the fewest items first; none where they are too many.
+    each: Vec<PaintRange>,
+    items: Vec<u32>,
+}
+
+/// More paints of a pixel are not told one by one.
+const MOST_PAINTS: usize = 12;
+
+/// More entries of an unsorted list are not tried in each order.
+const MOST_UNSORTED: usize = 4;
+
+impl Frame<'_> {
+    fn judged(&self) -> Judged {
+        let (width, height) = (self.view.frame.width(), self.view.frame.height());
+        let told = |share: f64| (self.view.progress)(0.5 + 0.3 * share);
+        let rows = parallel::map_telling(height, &told, |y| {
+            (0..width).map(|x| self.unsmoothed([x, y])).collect::<Vec<_>>()
+        });
+        let pixels: Vec<Unsmoothed> = rows.into_iter().flatten().collect();
+        let ranges = match self.settings.antialiasing {
+            Antialiasing::Fxaa => self.smoothed(&pixels),
+            _ => pixels.iter().map(|of| self.range(of)).collect(),
+        };
+        let ranges: Buffer<PixelRange> = Buffer::from_values(width, height, ranges);
+        (
+            picture::hypothesis(self.guess.name.clone(), &ranges),
+            stages(&self.surfaces.seen),
+            picture::feature_runs(&ranges, &self.view.stage.draw_list),
+        )
+    }
+
+    /// What a pixel may be of all that its centre may see.
+    fn unsmoothed(&self, pixel: [usize; 2]) -> Unsmoothed {
+        let mut all = Unsmoothed::default();
+        let mut has_all = true;
+        for surface in self.surfaces.of.at(pixel[0], pixel[1]) {
+            let laid = self.laid(surface, pixel);
+            let composed = match laid {
+                None => Composed { range: surface.paint, each: vec![surface.paint] },
+                Some(laid) => {
+                    all.items.extend(laid.iter().flatten().map(|one| one.item));
+                    let each = laid.iter().map(|laid| self.composer.over(surface.ground, laid));
+                    joined(each)
+                }
+            };
+            all.items.extend(surface.items.iter().flatten().map(|(item, _)| *item));
+            all.around = Some(all.around.map_or(composed.range, |around| around.hull(&composed.range)));
+            has_all &= !composed.each.is_empty();
+            for paint in composed.each {
+                if !all.each.contains(&paint) {
+                    all.each.push(paint);
+                }
+            }
+        }
+        if !has_all || all.each.len() > MOST_PAINTS {
+            all.each.clear();
+        }
+        all.items.sort_unstable();
+        all.items.dedup();
+        all
+    }
+
+    /// What is laid on a surface, in each order that it may be laid in; `None`: no line is near.
+    fn laid(&self, surface: &Surface, pixel: [usize; 2]) -> Option<Vec<Vec<Laid>>> {
+        let centre = Plan::new(pixel[0] as f64 + 0.5, pixel[1] as f64 + 0.5);
+        if surface.triangle == SKY {
+            return None;
+        }
+        let patch = Patch::new(self.view, self.guess, self.mesh, surface, pixel);
+        if !self.lines.may_reach(&patch.bounds(), centre) {
+            return None;
+        }
+        let is_seen = |at: World| match self.thin {
+            Thin::NearAndSeen => self.is_seen(at, pixel),
+            _ => Known::In,
+        };
+        let is_seen: &dyn Fn(World) -> Known = &is_seen;
+        let place = Place { patch: &patch, centre, is_seen: (self.thin != Thin::Nothing).then_some(is_seen) };
+        let held = self.lines.holding(&place);
+        if held.is_empty() {
+            return None;
+        }
+        let statics: Vec<Laid> = match &surface.items {
+            Some(items) => items.iter().map(|(item, known)| Laid::once(*item, *known)).collect(),
+            // There are too many to have been told: whatever they are, they lie somewhere between.
+            None => return Some(vec![self.anything(&held)]),
+        };
+        Some(match self.settings.sorting {
+            Sorting::Selection => vec![merged(&self.once_each(&held), &statics)],
+            Sorting::None => self.unsorted(&held).iter().map(|lines| merged(lines, &statics)).collect(),
+        })
+    }
+
+    /// Lines in draw order.
+    fn once_each(&self, held: &[Held]) -> Vec<Laid> {
+        let laid = |of: &Held| {
+            let known = match (of.least, of.most) {
+                (0, 0) => Known::Out,
+                (0, _) => Known::Open,
+                _ => Known::In,
+            };
+            match self.settings.overlaps {
+                LineOverlaps::Once => Laid::once(of.item, known),
+                LineOverlaps::Double => Laid { least: of.least, most: of.most, ..Laid::once(of.item, known) },
+            }
+        };
+        held.iter().map(laid).collect()
+    }
+
+    /// Any of all items, any number of times.
+    fn anything(&self, held: &[Held]) -> Vec<Laid> {
+        const OFTEN: u32 = 8;
+        let count = self.view.stage.draw_list.items().len() as u32;
+        let of = |item: u32| Laid { most: OFTEN, ..Laid::once(item, Known::Open) };
+        (0..count.min(64)).map(of).chain(held.iter().map(|held| of(held.item))).collect()
+    }
+
+    /// Lines in each order that a parallel machine may find them in, from the lowest on (Fig. 3.7a).
+    fn unsorted(&self, held: &[Held]) -> Vec<Vec<Laid>> {
+        let most: u32 = held.iter().map(|of| of.most).sum();
+        if held.len() == 1 {
+            return vec![self.once_each(held)];
+        }
+        if most as usize > MOST_UNSORTED {
+            // Any number of any of them, twice: whatever comes last is over all others.
+            let laid: Vec<Laid> =
+                held.iter().map(|of| Laid { least: 0, ..Laid::once(of.item, Known::Open) }).collect();
+            let often = Laid { most: most + 1, ..Laid::once(held[0].item, Known::Open) };
+            let all = held.iter().map(|of| Laid { item: of.item, ..often });
+            return vec![laid.iter().copied().chain(all.clone()).chain(all).collect()];
+        }
+        let entries: Vec<(u32, Known)> = held
+            .iter()
+            .flat_map(|of| {
+                (0..of.most).map(|k| (of.item, if k < of.least { Known::In } else { Known::Open }))
+            })
+            .collect();
+        let mut orders = vec![Vec::new()];
+        for entry in entries {
+            orders = orders
+                .into_iter()
+                .flat_map(|order: Vec<(u32, Known)>| {
+                    (0..=order.len()).map(move |at| {
+                        let mut with = order.clone();
+                        with.insert(at, entry);
+                        with
+                    })
+                })
+                .collect();
+        }
+        orders.iter().flat_map(|order| self.runs(order)).collect()
+    }
+
+    /// A list as it is composed: of entries of one line that follow one another one counts, if overlaps do not. Each open entry is tried both ways, as what lies
+    /// between two entries matters.
+    fn runs(&self, order: &[(u32, Known)]) -> Vec<Vec<Laid>> {
+        let open: Vec<usize> = (0..order.len()).filter(|k| order[*k].1 == Known::Open).collect();
+        let list = |answers: usize| {
+            let is_in = |k: usize| open.iter().position(|o| *o == k).is_none_or(|bit| answers >> bit & 1 == 1);
+            let mut laid: Vec<Laid> = Vec::new();
+            for (item, _) in (0..order.len()).filter(|k| is_in(*k)).map(|k| order[k]) {
+                let is_again = laid.last().is_some_and(|last| last.item == item);
+                if !(is_again && self.settings.overlaps == LineOverlaps::Once) {
+                    laid.push(Laid::once(item, Known::In));
+                }
+            }
+            laid
+        };
+        (0..1 << open.len()).map(list).collect()
+    }
+
+    /// Whether the surface under a place of a segment is no deeper than what a pixel and those around it see of the terrain.
+    fn is_seen(&self, at: World, [x, y]: [usize; 2]) -> Known {
+        let Some(height) = self.view.stage.mesh.height_at(at.plan()) else { return Known::Out };
+        let under = World::new(at.x, at.y, height);
+        let depth = self.view.frame.depth(under);
+        let doubt = self.guess.envelope.along(self.view.frame, depth)
+            + 8.0 * self.guess.envelope.single() * self.view.frame.pixel_m(under);
+        let of = &self.surfaces.of;
+        let (columns, rows) = (x.saturating_sub(1)..(x + 2).min(of.width()), y.saturating_sub(1)..(y + 2).min(of.height()));
+        let around = rows.flat_map(|y| columns.clone().map(move |x| of.at(x, y)));
+        let (mut may_be, mut is_sure) = (false, false);
+        for seen in around {
+            let on_terrain = || seen.iter().filter(|surface| surface.triangle != SKY);
+            may_be |= on_terrain().any(|surface| surface.depth.1 >= depth - doubt);
+            is_sure |= on_terrain().count() == seen.len() && seen.iter().all(|surface| surface.depth.0 > depth + doubt);
+        }
+        match (is_sure, may_be) {
+            (true, _) => Known::In,
+            (_, true) => Known::Open,
+            _ => Known::Out,
+        }
+    }
+
+    /// An unsmoothed pixel as it is judged.
+    fn range(&self, of: &Unsmoothed) -> PixelRange {
+        let slack = BLEND * of.items.len().clamp(1, 4) as f64;
+        let colors = |paint: &PaintRange| {
+            let mut mean = PaintMean::NOTHING;
+            mean.add(paint, 1.0);
+            let [low, high, _] = mean.colors(&self.composer.compositor, 1e-12);
+            [low, high]
+        };
+        let widened = |[low, high]: ColorRange| [low.map(|v| v - slack), high.map(|v| v + slack)];
+        let all = widened(colors(&of.around.unwrap_or(PaintRange::ANY)));
+        let each: Vec<ColorRange> = of.each.iter().map(colors).collect();
+        let extremes = match &each[..] {
+            [first, .., last] => Some([first[0], last[0]]),
+            _ => None,
+        };
+        let choices = if each.len() > 1 { each.into_iter().map(widened).collect() } else { Vec::new() };
+        PixelRange { all, choices, extremes, items: of.items.clone() }
+    }
+
+    /// All pixels after the filter.
+    fn smoothed(&self, pixels: &[Unsmoothed]) -> Vec<PixelRange> {
+        let (width, height) = (self.view.frame.width(), self.view.frame.height());
+        let compositor = &self.composer.compositor;
+        let premultiplied = |paint: [f64; 4]| {
+            let [r, g, b, a] = compositor.encoded(crate::resolve::Paint(paint));
+            [r * a, g * a, b * a, a]
+        };
+        let candidates = |of: &Unsmoothed| {
+            let is_exact = |paint: &PaintRange| paint.low == paint.high;
+            if of.each.is_empty() || !of.each.iter().all(is_exact) {
+                let around = of.around.unwrap_or(PaintRange::ANY);
+                // Premultiplied and encoded both grow with each channel, but for the alpha's part in the encoding.
+                return Candidates::Between([premultiplied(around.low), premultiplied(around.high)]);
+            }
+            Candidates::Each(of.each.iter().map(|paint| premultiplied(paint.low)).collect())
+        };
+        let weight = 0.5 / f64::from(1u32 << self.guess.envelope.filter_bits);
+        let picture = Picture { size: [width, height], pixels: pixels.iter().map(candidates).collect(), weight };
+        let told = |share: f64| (self.view.progress)(0.8 + 0.2 * share);
+        let rows = parallel::map_telling(height, &told, |y| {
+            (0..width)
+                .map(|x| {
+                    let own = &pixels[y * width + x];
+                    PixelRange { items: own.items.clone(), ..of_filtered(&picture.filtered([x, y]), own) }
+                })
+                .collect::<Vec<_>>()
+        });
+        rows.into_iter().flatten().collect()
+    }
+}
+
+/// What is composed in one of several orders.
+fn joined(all: impl Iterator<Item = Composed>) -> Composed {
+    let mut joined: Option<Composed> = None;
+    for one in all {
+        let Some(known) = &mut joined else {
+            joined = Some(one);
+            continue;
+        };
+        known.range = known.range.hull(&one.range);
+        if one.each.is_empty() || known.each.is_empty() {
+            known.each.clear();
+            continue;
+        }
+        for paint in one.each {
+            if !known.each.contains(&paint) {
+                known.each.push(paint);
+            }
+        }
+    }
+    joined.unwrap_or(Composed { range: PaintRange::ANY, each: Vec::new() })
+}
+
+/// Lines among static decals, from the lowest on: by the draw order that both share, whatever the lines' own order is.
+fn merged(lines: &[Laid], statics: &[Laid]) -> Vec<Laid> {
+    let (mut lines, mut statics) = (lines.iter().rev().peekable(), statics.iter().rev().peekable());
+    let mut all = Vec::new();
+    while let (Some(line), Some(other)) = (lines.peek(), statics.peek()) {
+        all.extend(if line.item > other.item { lines.next() } else { statics.next() });
+    }
+    all.extend(lines.chain(statics));
+    all.reverse();
+    all
+}
+
+/// A filtered pixel as it is judged: the filter's result is rounded, and so is what it reads.
+fn of_filtered(filtered: &Filtered, own: &Unsmoothed) -> PixelRange {
+    let slack = BLEND * (own.items.len().clamp(1, 3) as f64);
+    let straight = |[r, g, b, a]: [f64; 4]| {
+        let by = |v: f64| if a > 0.0 { math::min(v / a, 1.0) } else { 0.0 };
+        [by(r), by(g), by(b), a]
+    };
+    let around = |[low, high]: ColorRange, slack: f64| [low.map(|v| v - slack), high.map(|v| v + slack)];
+    match filtered {
+        Filtered::Between([low, high]) => {
+            // A straight channel falls as the alpha grows.
+            let ends = |of: &[f64; 4], alpha: f64, none: f64| -> [f64; 4] {
+                std::array::from_fn(|c| match c {
+                    3 => of[3],
+                    _ if alpha > 0.0 => math::min(of[c] / alpha, 1.0),
+                    _ => none,
+                })
+            };
+            let all = around([ends(low, high[3], 0.0), ends(high, low[3], 1.0)], slack);
+            PixelRange { all, ..PixelRange::default() }
+        }
+        Filtered::Each(each) => {
+            let each: Vec<(ColorRange, [f64; 4])> = each
+                .iter()
+                .map(|(color, weight)| (around([straight(*color); 2], slack + weight), straight(*color)))
+                .collect();
+            let all = each.iter().skip(1).fold(each[0].0, |all, (of, _)| {
+                let least = std::array::from_fn(|c| math::min(all[0][c], of[0][c]));
+                [least, std::array::from_fn(|c| math::max(all[1][c], of[1][c]))]
+            });
+            let is_open = each.len() > 1;
+            let extremes = is_open.then(|| [each[0].1, each[each.len() - 1].1]);
+            let choices = if is_open { each.into_iter().map(|(of, _)| of).collect() } else { Vec::new() };
+            PixelRange { all, choices, extremes, items: Vec::new() }
+        }
+    }
+}

@@ -1,0 +1,161 @@
+//! What pictures of lines on the screen may be: whatever an imitated machine within the envelope draws is allowed, and what a planted bug draws is not.
+#![cfg(feature = "render")]
+
+mod drawing;
+mod judged;
+
+use drapery::technique::Kind;
+use drawing::{frame_of, scene, stage};
+use judged::{MACHINES, allowed_of, best, outside, strangers, wide};
+use std::time::Instant;
+
+const HILLS: &str = r#"kind = "fbm", seed = 3, posts = [65, 65], cell_m = 10.0, height_m = 120.0"#;
+
+const LINES: &str = "[[layer]]\nfeatures = [{ line = [[-280, -200], [0, 100], [250, -60], [300, 280]] }, { line = [[-200, 200], [-20, -40], [200, -250]] }]\n\
+     line = { color = \"#aa2200\", opacity = 0.6, width_px = 3.0 }\n\
+     [[layer]]\nfeatures = [{ line = [[-100, -250], [-60, 0], [100, 40], [120, 250]] }]\nline = { color = \"#113355\", width_px = 1.5 }\n";
+
+const SOUTH: &str = "eye = [40, -420, 260], target = [0, 0, 40]";
+
+/// Settings of dynamic lines by which a pixel's centre is in a line where its surface point is in the footprint.
+const PLAIN: [&str; 5] = [
+    "technique.dynamic-line.antialiasing=\"none\"",
+    "technique.dynamic-line.boxes=\"enclosing\"",
+    "technique.dynamic-line.culling=\"boxes\"",
+    "technique.dynamic-line.simplification=\"none\"",
+    "technique.dynamic-line.thin_lines=\"none\"",
+];
+
+/// Prints how many pixels of each machine's picture are outside; all have to be inside of some hypothesis.
+fn assert_machines_are_inside(kind: Kind, name: &str, text: &str, changes: &[&str]) {
+    let start = Instant::now();
+    let of = stage(text, changes);
+    let all = allowed_of(kind, &of);
+    let took = start.elapsed();
+    let start = Instant::now();
+    let _ = drawing::truth_of(&of);
+    let widths: Vec<usize> = all.hypotheses.iter().map(wide).collect();
+    println!("{name}: wide {widths:?} of {}, {took:?} (truth {:?})", all.width * all.height, start.elapsed());
+    let mut bad = Vec::new();
+    for machine in MACHINES {
+        let with = [changes, machine].concat();
+        let image = frame_of(kind, &stage(text, &with), &[]).image;
+        let missed: Vec<usize> = all.hypotheses.iter().map(|h| outside(h, &image)).collect();
+        println!("  {machine:?}: {missed:?}");
+        if best(&all, &image) > 0 {
+            let last = all.hypotheses.last().unwrap();
+            for pixel in strangers(last, &image).into_iter().take(6) {
+                let k = pixel as usize;
+                let codes = |of: [u16; 4]| of.map(|v| f64::from(v) / 257.0);
+                println!("    ({}, {}): {:?} {:?} {:?}", k % all.width, k / all.width, image.values()[k], codes(last.lo[k]), codes(last.hi[k]));
+                for choice in last.choices.iter().filter(|choice| choice.pixel == pixel) {
+                    println!("      {:?} {:?}", codes(choice.lo), codes(choice.hi));
+                }
+            }
+            bad.push(machine);
+        }
+    }
+    assert!(bad.is_empty(), "{name}: {bad:?}");
+    assert!(widths[0] * 20 < all.width * all.height, "{name}: {widths:?}");
+}
+
+#[test]
+fn what_machines_draw_of_dynamic_lines_is_allowed() {
+    let kind = Kind::DynamicLine;
+    let hills = scene(HILLS, SOUTH, LINES);
+    assert_machines_are_inside(kind, "plain", &hills, &PLAIN);
+    assert_machines_are_inside(kind, "unsmoothed", &hills, &PLAIN[..1]);
+    assert_machines_are_inside(kind, "default", &hills, &[]);
+}
+
+/// Fills, a stroke in metres and an outline in pixels among lines, some of them of many short segments.
+fn mixed_layers() -> String {
+    let zigzag: String = (0..60)
+        .map(|k| format!("[{}, {}]", -240.0 + 8.0 * f64::from(k), -40.0 + 14.0 * f64::from(k % 3) + 0.5 * f64::from(k)))
+        .collect::<Vec<_>>()
+        .join(", ");
+    format!(
+        "[[layer]]\nfeatures = [{{ polygon = [[-150, -150], [120, -180], [60, 20], [160, 150], [-120, 90]] }}]\n\
+         fill = {{ color = \"#3388ff\", opacity = 0.6 }}\noutline = {{ color = \"#003366\", width_px = 2.5, opacity = 0.8 }}\n\
+         [[layer]]\nfeatures = [{{ line = [[-200, -100], [200, 100]] }}]\nline = {{ color = \"#ffcc00\", width_m = 14, opacity = 0.7 }}\n\
+         [[layer]]\nfeatures = [{{ line = [{zigzag}] }}]\nline = {{ color = \"#661144\", width_px = 4.0, opacity = 0.5 }}\n{LINES}"
+    )
+}
+
+#[test]
+fn settings_of_dynamic_lines_and_other_views_are_allowed() {
+    let kind = Kind::DynamicLine;
+    let near = "eye = [20, -120, 150], target = [0, 60, 60]";
+    let above = "eye = [5, -10, 700], target = [0, 0, 40]";
+    let low = "eye = [-200, -330, 150], target = [100, 100, 40]";
+    let far = "eye = [300, -2400, 1200], target = [0, 0, 0], fov_y_deg = 25";
+    let side = "eye = [40, -420, 260], target = [0, 0, 40], projection = \"orthographic\", height_m = 300";
+    let none = "technique.dynamic-line.antialiasing=\"none\"";
+    let scenes: [(&str, &str, &str, &[&str]); 14] = [
+        ("mixed", SOUTH, &mixed_layers(), &[]),
+        ("mixed unsmoothed", SOUTH, &mixed_layers(), &[none]),
+        ("near", near, LINES, &[]),
+        ("low", low, &mixed_layers(), &[]),
+        ("far", far, &mixed_layers(), &[]),
+        ("far unsmoothed", far, &mixed_layers(), &[none]),
+        ("above", above, &mixed_layers(), &[]),
+        ("above unsmoothed", above, &mixed_layers(), &[none]),
+        ("second depth", low, LINES, &["technique.dynamic-line.thin_lines=\"second-depth\"", none]),
+        ("orthographic", side, &mixed_layers(), &[none]),
+        ("unsorted", SOUTH, LINES, &["technique.dynamic-line.sorting=\"none\"", none]),
+        ("double", SOUTH, &mixed_layers(), &["technique.dynamic-line.overlaps=\"double\"", none]),
+        ("overlapping", low, &mixed_layers(), &["technique.dynamic-line.boxes=\"overlapping\"", none]),
+        ("additive", SOUTH, &mixed_layers(), &["compositing.mode=\"additive\""]),
+    ];
+    for (name, camera, layers, changes) in scenes {
+        assert_machines_are_inside(kind, name, &scene(HILLS, camera, layers), changes);
+    }
+}
+
+#[test]
+fn what_bugs_draw_of_dynamic_lines_is_not_allowed() {
+    let kind = Kind::DynamicLine;
+    let text = scene(HILLS, SOUTH, &mixed_layers());
+    let smoothed = allowed_of(kind, &stage(&text, &["device.subpixel_bits=8"]));
+    let none = "technique.dynamic-line.antialiasing=\"none\"";
+    let unsmoothed = allowed_of(kind, &stage(&text, &[none, "device.subpixel_bits=8"]));
+    let bugs: [(&str, &str, &str); 8] = [
+        ("wider by a twentieth", "width_px = 4.0", "width_px = 4.2"),
+        ("thin line wider by a twentieth", "width_px = 1.5", "width_px = 1.575"),
+        ("a line missing", ", { line = [[-200, 200], [-20, -40], [200, -250]] }", ""),
+        ("a segment missing", "[100, 40], [120, 250]] }", "[100, 40]] }"),
+        ("half a pixel", "target = [0, 0, 40]", "target = [0, 0, 42.0]"),
+        ("opacity", "opacity = 0.8", "opacity = 0.78"),
+        ("colour", "#113355", "#183355"),
+        ("order", "order = 0", "order = 1"),
+    ];
+    for (name, from, to) in bugs {
+        let with = if name == "order" {
+            // The last layer comes first: what sorting would have put right.
+            let (first, last) = text.rsplit_once("[[layer]]").unwrap();
+            let (head, rest) = first.split_once("[[layer]]").unwrap();
+            format!("{head}[[layer]]{last}[[layer]]{rest}")
+        } else {
+            text.replacen(from, to, 1)
+        };
+        assert_ne!(with, text, "{name}");
+        for (what, all, changes) in [("smoothed", &smoothed, &[][..]), ("unsmoothed", &unsmoothed, &[none][..])] {
+            let image = frame_of(kind, &stage(&with, changes), &[]).image;
+            println!("{name}, {what}: {}", best(all, &image));
+            assert!(best(all, &image) > 0, "{name}, {what}");
+        }
+    }
+    let settings: [(&str, &str); 7] = [
+        ("no filter", none),
+        ("no mitre", "technique.dynamic-line.boxes=\"overlapping\""),
+        ("whole parts", "technique.dynamic-line.l_max=1e9"),
+        ("drawn twice", "technique.dynamic-line.overlaps=\"double\""),
+        ("unsorted", "technique.dynamic-line.sorting=\"none\""),
+        ("corners by style", "technique.dynamic-line.corners=\"style\""),
+        ("no vertex left out", "technique.dynamic-line.simplification=\"none\""),
+    ];
+    for (name, change) in settings {
+        let image = frame_of(kind, &stage(&text, &[change]), &[]).image;
+        println!("{name}: {}", best(&smoothed, &image));
+    }
+}
