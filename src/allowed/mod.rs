@@ -41,6 +41,8 @@ pub fn allowed(
     technique::applies(kind, stage)?;
     let guesses: Vec<Guess> = Envelope::of(&stage.scene.device).into_iter().map(Guess::of).collect();
     let mut all = Allowed { width: frame.width(), height: frame.height(), ..Allowed::default() };
+    // Of guesses that are looked at together, those beside the first.
+    let mut others = Vec::new();
     let count = guesses.len() as f64;
     for (k, guess) in guesses.iter().enumerate() {
         let progress = |share: f64| progress((k as f64 + share) / count);
@@ -49,7 +51,11 @@ pub fn allowed(
             Kind::StencilVolume => {
                 stencil_volume::sampling(&stage.scene.technique.get()).picture(&view, guess)
             }
-            Kind::DynamicLine => dynamic_line::picture(&view, guess)?,
+            Kind::DynamicLine => {
+                let (judged, rounded) = dynamic_line::picture(&view, guess)?;
+                others.extend(rounded);
+                judged
+            }
             Kind::StaticDecal => {
                 let settings = stage.scene.technique.get();
                 static_decal::sampling(&settings, &stage.draw_list)?.picture(&view, guess)
@@ -70,6 +76,7 @@ pub fn allowed(
         // The last envelope is the widest.
         (all.stages, all.features) = (stages, features);
     }
+    all.hypotheses.append(&mut others);
     Ok(all)
 }
 

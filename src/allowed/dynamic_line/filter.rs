@@ -32,6 +32,32 @@ pub(super) enum Candidates {
     Between([Premultiplied; 2]),
 }
 
+/// How near to halfway between two codes a colour may be rounded to either, codes.
+const HALFWAY: f64 = 1e-3;
+
+impl Candidates {
+    /// The same from a target of 8 bits.
+    pub(super) fn rounded(self) -> Self {
+        let all = match self {
+            Self::Each(all) => all,
+            Self::Between([low, high]) => {
+                let code = |v: f64, by: f64| (v * 255.0 + by).floor() / 255.0;
+                return Self::Between([low.map(|v| code(v, 0.5 - HALFWAY)), high.map(|v| code(v, 0.5 + HALFWAY))]);
+            }
+        };
+        let mut rounded: Vec<Premultiplied> = Vec::with_capacity(all.len());
+        for color in all {
+            let either = [-HALFWAY, HALFWAY].map(|by| color.map(|v| (v * 255.0 + 0.5 + by).floor() / 255.0));
+            for color in either {
+                if !rounded.contains(&color) {
+                    rounded.push(color);
+                }
+            }
+        }
+        Self::Each(rounded)
+    }
+}
+
 /// What the filter may make of a pixel.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Filtered {

@@ -11,9 +11,11 @@ use crate::allowed::surface::{Surface, Surfaces, surfaces};
 use crate::allowed::{picture, static_decal};
 use crate::buffer::Buffer;
 use crate::certainty::{Known, PaintMean, PaintRange};
+use crate::compare::Hypothesis;
 use crate::error::{Error, Result};
 use crate::math;
 use crate::parallel;
+use crate::resolve::{Compositor, Paint};
 use crate::scene::Width;
 use crate::space::{Plan, World};
 use crate::technique::dynamic_line::{
@@ -26,7 +28,7 @@ use crate::terrain::{Mesh, SKY};
 ///
 /// # Errors
 /// When nobody knows what some setting draws.
-pub(in crate::allowed) fn picture(view: &View, guess: &Guess) -> Result<Judged> {
+pub(in crate::allowed) fn picture(view: &View, guess: &Guess) -> Result<(Judged, Option<Hypothesis>)> {
     let stage = view.stage;
     let settings: Settings = stage.scene.technique.get();
     supported(&settings)?;
@@ -124,23 +126,30 @@ const MOST_PAINTS: usize = 12;
 const MOST_UNSORTED: usize = 4;
 
 impl Frame<'_> {
-    fn judged(&self) -> Judged {
+    /// What the picture may be; where it is smoothed, also what it may be if the filter reads rounded pixels.
+    fn judged(&self) -> (Judged, Option<Hypothesis>) {
         let (width, height) = (self.view.frame.width(), self.view.frame.height());
         let told = |share: f64| (self.view.progress)(0.5 + 0.3 * share);
         let rows = parallel::map_telling(height, &told, |y| {
             (0..width).map(|x| self.unsmoothed([x, y])).collect::<Vec<_>>()
         });
         let pixels: Vec<Unsmoothed> = rows.into_iter().flatten().collect();
-        let ranges = match self.settings.antialiasing {
-            Antialiasing::Fxaa => self.smoothed(&pixels),
-            _ => pixels.iter().map(|of| self.range(of)).collect(),
+        let buffer = |ranges: Vec<PixelRange>| -> Buffer<PixelRange> { Buffer::from_values(width, height, ranges) };
+        let is_smoothed = self.settings.antialiasing == Antialiasing::Fxaa;
+        let ranges = match is_smoothed {
+            true => buffer(self.smoothed(&pixels, &Unsmoothed::candidates)),
+            false => buffer(pixels.iter().map(|of| self.range(of)).collect()),
         };
-        let ranges: Buffer<PixelRange> = Buffer::from_values(width, height, ranges);
-        (
+        let rounded = is_smoothed.then(|| {
+            let ranges = self.smoothed(&pixels, &|of, compositor| of.candidates(compositor).rounded());
+            picture::hypothesis(format!("{}-8-bit-before-filter", self.guess.name), &buffer(ranges))
+        });
+        let judged = (
             picture::hypothesis(self.guess.name.clone(), &ranges),
             stages(&self.surfaces.seen),
             picture::feature_runs(&ranges, &self.view.stage.draw_list),
-        )
+        );
+        (judged, rounded)
     }
 
     /// What a pixel may be of all that its centre may see.
@@ -306,9 +315,9 @@ impl Frame<'_> {
         }
     }
 
-    /// An unsmoothed pixel as it is judged.
+    /// An unsmoothed pixel as it is judged: its list is composed by one program (4.4.2), and rounded once.
     fn range(&self, of: &Unsmoothed) -> PixelRange {
-        let slack = BLEND * of.items.len().clamp(1, 4) as f64;
+        let slack = BLEND;
         let colors = |paint: &PaintRange| {
             let mut mean = PaintMean::NOTHING;
             mean.add(paint, 1.0);
@@ -327,34 +336,42 @@ impl Frame<'_> {
     }
 
     /// All pixels after the filter.
-    fn smoothed(&self, pixels: &[Unsmoothed]) -> Vec<PixelRange> {
+    fn smoothed(
+        &self,
+        pixels: &[Unsmoothed],
+        candidates: &dyn Fn(&Unsmoothed, &Compositor) -> Candidates,
+    ) -> Vec<PixelRange> {
         let (width, height) = (self.view.frame.width(), self.view.frame.height());
-        let compositor = &self.composer.compositor;
-        let premultiplied = |paint: [f64; 4]| {
-            let [r, g, b, a] = compositor.encoded(crate::resolve::Paint(paint));
-            [r * a, g * a, b * a, a]
-        };
-        let candidates = |of: &Unsmoothed| {
-            let is_exact = |paint: &PaintRange| paint.low == paint.high;
-            if of.each.is_empty() || !of.each.iter().all(is_exact) {
-                let around = of.around.unwrap_or(PaintRange::ANY);
-                // Premultiplied and encoded both grow with each channel, but for the alpha's part in the encoding.
-                return Candidates::Between([premultiplied(around.low), premultiplied(around.high)]);
-            }
-            Candidates::Each(of.each.iter().map(|paint| premultiplied(paint.low)).collect())
-        };
+        let read = pixels.iter().map(|of| candidates(of, &self.composer.compositor)).collect();
         let weight = 0.5 / f64::from(1u32 << self.guess.envelope.filter_bits);
-        let picture = Picture { size: [width, height], pixels: pixels.iter().map(candidates).collect(), weight };
+        let picture = Picture { size: [width, height], pixels: read, weight };
         let told = |share: f64| (self.view.progress)(0.8 + 0.2 * share);
         let rows = parallel::map_telling(height, &told, |y| {
             (0..width)
                 .map(|x| {
                     let own = &pixels[y * width + x];
-                    PixelRange { items: own.items.clone(), ..of_filtered(&picture.filtered([x, y]), own) }
+                    PixelRange { items: own.items.clone(), ..of_filtered(&picture.filtered([x, y])) }
                 })
                 .collect::<Vec<_>>()
         });
         rows.into_iter().flatten().collect()
+    }
+}
+
+impl Unsmoothed {
+    /// What the filter may read.
+    fn candidates(&self, compositor: &Compositor) -> Candidates {
+        let premultiplied = |paint: [f64; 4]| {
+            let [r, g, b, a] = compositor.encoded(Paint(paint));
+            [r * a, g * a, b * a, a]
+        };
+        let is_exact = |paint: &PaintRange| paint.low == paint.high;
+        if self.each.is_empty() || !self.each.iter().all(is_exact) {
+            let around = self.around.unwrap_or(PaintRange::ANY);
+            // Each channel grows with its own, whatever the alpha does.
+            return Candidates::Between([premultiplied(around.low), premultiplied(around.high)]);
+        }
+        Candidates::Each(self.each.iter().map(|paint| premultiplied(paint.low)).collect())
     }
 }
 
@@ -392,9 +409,9 @@ fn merged(lines: &[Laid], statics: &[Laid]) -> Vec<Laid> {
     all
 }
 
-/// A filtered pixel as it is judged: the filter's result is rounded, and so is what it reads.
-fn of_filtered(filtered: &Filtered, own: &Unsmoothed) -> PixelRange {
-    let slack = BLEND * (own.items.len().clamp(1, 3) as f64);
+/// A filtered pixel as it is judged: rounded.
+fn of_filtered(filtered: &Filtered) -> PixelRange {
+    let slack = BLEND;
     let straight = |[r, g, b, a]: [f64; 4]| {
         let by = |v: f64| if a > 0.0 { math::min(v / a, 1.0) } else { 0.0 };
         [by(r), by(g), by(b), a]

@@ -26,6 +26,8 @@ pub(super) struct Segment {
     kept: Known,
     /// What its box may cover, by its neighbours; none: the whole screen.
     outlines: Vec<Option<Outline>>,
+    /// Its box's corners in the plan by its first neighbours: at the start left and right, at the end right and left.
+    plan: [Plan; 4],
     /// What of it lies before the near plane.
     picture: Option<Picture>,
 }
@@ -43,6 +45,8 @@ struct Picture {
 #[derive(Debug)]
 struct Piece {
     item: u32,
+    /// The number of its chain.
+    chain: u32,
     /// Half the line's width, pixels.
     half_px: f64,
     /// Each way that it may be made of segments.
@@ -56,6 +60,8 @@ pub(super) struct Held {
     pub(super) item: u32,
     pub(super) least: u32,
     pub(super) most: u32,
+    /// Whether one of two segments does for sure, whichever.
+    is_shared: bool,
 }
 
 /// A pixel's centre, and what of the surface it may see.
@@ -105,7 +111,8 @@ impl Lines {
         let made = parallel::map_indices(chains.len().div_ceil(CHAINS_AT_A_TIME), |k| {
             let first = k * CHAINS_AT_A_TIME;
             let some = &chains[first..chains.len().min(first + CHAINS_AT_A_TIME)];
-            some.iter().flat_map(|(item, half_px, chain)| maker.pieces((*item, *half_px), chain)).collect::<Vec<_>>()
+            let numbered = (first as u32..).zip(some);
+            numbered.flat_map(|(k, (item, half_px, chain))| maker.pieces((*item, *half_px), (k, chain))).collect::<Vec<_>>()
         });
         let pieces: Vec<Piece> = made.into_iter().flatten().collect();
         let plan: Vec<PlanBox> = parallel::map(&pieces, |piece| maker.reach_of(piece));
@@ -140,15 +147,23 @@ impl Lines {
         near.sort_unstable();
         near.dedup();
         let mut held: Vec<Held> = Vec::new();
-        for piece in near.into_iter().map(|k| &self.pieces[k as usize]) {
+        for (k, piece) in near.iter().map(|k| (*k as usize, &self.pieces[*k as usize])) {
             let (least, most) = self.often(piece, place);
             if most == 0 {
                 continue;
             }
-            match held.last_mut().filter(|last| last.item == piece.item) {
-                Some(last) => (last.least, last.most) = (last.least + least, last.most + most),
-                None => held.push(Held { item: piece.item, least, most }),
+            let next = self.pieces.get(k + 1).filter(|next| next.chain == piece.chain);
+            let is_shared = || next.is_some_and(|next| self.share(piece, next, place));
+            if held.last().is_none_or(|last| last.item != piece.item) {
+                held.push(Held { item: piece.item, least: 0, most: 0, is_shared: false });
             }
+            if let Some(last) = held.last_mut() {
+                (last.least, last.most) = (last.least + least, last.most + most);
+                last.is_shared |= last.least == 0 && is_shared();
+            }
+        }
+        for of in &mut held {
+            of.least = of.least.max(u32::from(of.is_shared));
         }
         held
     }
@@ -172,17 +187,38 @@ impl Lines {
         }
     }
 
-    fn holds(&self, segment: &Segment, half_px: f64, place: &Place) -> Known {
+    /// Whether two pieces that follow one another hold a place that lies near the face that their boxes have in common: one of them does, whichever.
+    fn share(&self, first: &Piece, second: &Piece, place: &Place) -> bool {
+        let ([one], [other]) = (&first.ways[..], &second.ways[..]) else { return false };
+        let (Some(one), Some(other)) = (one.last(), other.first()) else { return false };
+        let is_near = |segment: &Segment| {
+            segment.kept == Known::In && self.is_near(segment, first.half_px, place) == Known::In
+        };
+        let sides = |segment: &Segment, faces: [[usize; 2]; 3]| {
+            faces.iter().all(|[from, to]| place.patch.is_left_of([segment.plan[*from], segment.plan[*to]]))
+        };
+        // Corners run right round: from the start's left one over its right one.
+        is_near(one)
+            && is_near(other)
+            && sides(one, [[0, 1], [1, 2], [3, 0]])
+            && sides(other, [[1, 2], [2, 3], [3, 0]])
+    }
+
+    /// Whether a place is near enough to a segment.
+    fn is_near(&self, segment: &Segment, half_px: f64, place: &Place) -> Known {
         let patch = place.patch;
         let [low, high] = patch.distance.map(|r| half_px * self.pixel * if self.central { r } else { 1.0 });
         let [least, most] = patch.distances(segment.ends.map(World::plan));
         let rounding = high * SHARE;
-        let near = match () {
+        match () {
             () if most + rounding <= low => Known::In,
             () if least - rounding > high => Known::Out,
             () => Known::Open,
-        };
-        let near = near.or(self.is_thin(segment, place));
+        }
+    }
+
+    fn holds(&self, segment: &Segment, half_px: f64, place: &Place) -> Known {
+        let near = self.is_near(segment, half_px, place).or(self.is_thin(segment, place));
         if near == Known::Out || segment.kept == Known::Out {
             return Known::Out;
         }
@@ -282,7 +318,7 @@ impl<'a> Maker<'a> {
     }
 
     /// The pieces of a chain.
-    fn pieces(&self, (item, half_px): (u32, f64), chain: &Chain) -> Vec<Piece> {
+    fn pieces(&self, (item, half_px): (u32, f64), (number, chain): (u32, &Chain)) -> Vec<Piece> {
         let vertices: Vec<Vertex> = self.places(chain).into_iter().map(|at| self.vertex(at)).collect();
         let pixels: Vec<Pixels> = vertices.iter().map(|vertex| self.pixels(vertex.at)).collect();
         let stretches = stretches(&pixels, chain.is_closed);
@@ -320,7 +356,7 @@ impl<'a> Maker<'a> {
                 pairs(stretch, row).into_iter().map(segment).collect()
             };
             let ways = stretch.rows.iter().map(way).collect();
-            pieces.push(Piece { item, half_px, ways, is_wild: stretch.is_wild });
+            pieces.push(Piece { item, chain: number, half_px, ways, is_wild: stretch.is_wild });
         }
         pieces.retain(|piece| piece.ways.iter().flatten().any(|segment| segment.kept != Known::Out));
         pieces
@@ -384,16 +420,18 @@ impl<'a> Maker<'a> {
         let mut outlines = Vec::new();
         if self.settings.boxes != Boxes::Enclosing {
             for before in &around[0] {
-                outlines.extend(around[1].iter().map(|after| self.outline(ends, half_px, [*before, *after])));
+                let plans = around[1].iter().map(|after| self.corners(ends, half_px, [*before, *after]));
+                outlines.extend(plans.map(|plan| self.outline(&plan)));
             }
             outlines.dedup();
         }
+        let plan = self.corners(ends, half_px, [around[0][0], around[1][0]]);
         let picture = if self.is_thin { self.picture(ends) } else { None };
-        Segment { ends, kept, outlines, picture }
+        Segment { ends, kept, outlines, plan, picture }
     }
 
-    /// Algorithms 3.3 and 3.4: what the box of a segment may cover.
-    fn outline(&self, ends: [World; 2], half_px: f64, around: [Option<Plan>; 2]) -> Option<Outline> {
+    /// Algorithms 3.3 and 3.4: the corners of a segment's box in the plan.
+    fn corners(&self, ends: [World; 2], half_px: f64, around: [Option<Plan>; 2]) -> [Plan; 4] {
         let [start, end] = ends.map(World::plan);
         let sizes = ends.map(|p| self.frame.pixel_m(p));
         let half = half_px * math::max(sizes[0], sizes[1]);
@@ -404,7 +442,11 @@ impl<'a> Maker<'a> {
         let back = mitre(around[1].map(|after| [start, end, after])).unwrap_or(along.perp()) * half;
         let on = |neighbour: Option<Plan>| if neighbour.is_none() || !is_mitred { along * half } else { DVec2::ZERO };
         let (from, to) = (start + -on(around[0]), end + on(around[1]));
-        let corners = [from + front, from + -front, to + -back, to + back];
+        [from + front, from + -front, to + -back, to + back]
+    }
+
+    /// What the box over some corners may cover of the screen.
+    fn outline(&self, corners: &[Plan; 4]) -> Option<Outline> {
         let points: Vec<World> =
             corners.iter().flat_map(|p| self.walls.map(|z| World::new(p.x, p.y, z))).collect();
         Outline::of_solid(self.frame, &points, if self.is_thin { THIN_MARGIN } else { 0.0 })

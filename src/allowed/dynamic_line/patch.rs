@@ -88,6 +88,13 @@ impl Patch {
         PlanBox::around(self.corners.iter().copied()).grown(self.slack)
     }
 
+    /// Whether all of it lies to the left of a way (y up).
+    pub(super) fn is_left_of(&self, [from, to]: [Plan; 2]) -> bool {
+        let along = to - from;
+        let least = self.slack * along.length();
+        self.corners.iter().all(|p| along.perp_dot(*p - from) >= least)
+    }
+
     /// How far its places are from a segment: at least and at most.
     pub(super) fn distances(&self, ends: [Plan; 2]) -> [f64; 2] {
         let most = self.corners.iter().map(|p| to_segment(*p, ends)).fold(0.0, math::max);
