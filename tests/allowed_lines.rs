@@ -159,3 +159,86 @@ fn what_bugs_draw_of_dynamic_lines_is_not_allowed() {
         println!("{name}: {}", best(&smoothed, &image));
     }
 }
+
+/// Opaque and translucent lines, wide ones and one in metres, and an area.
+const OVERLAID: &str = "[[layer]]\nfeatures = [{ polygon = [[-150, -150], [120, -180], [60, 20], [160, 150], [-120, 90]] }]\n\
+     fill = { color = \"#3388ff\" }\noutline = { color = \"#003366\", width_px = 2, opacity = 0.5 }\n\
+     [[layer]]\nfeatures = [{ line = [[-200, -100], [200, 100]] }, { line = [[-280, 10], [-100, 40], [40, -250]] }]\n\
+     line = { color = \"#cc8800\", width_m = 3, opacity = 0.7 }\n";
+
+#[test]
+fn what_machines_draw_of_lines_overlaid_is_allowed() {
+    let kind = Kind::GeometryOverlay;
+    let layers = format!("{OVERLAID}{LINES}");
+    let near = "eye = [20, -120, 150], target = [0, 60, 60]";
+    let above = "eye = [5, -10, 700], target = [0, 0, 40]";
+    let low = "eye = [-200, -330, 110], target = [100, 100, 60]";
+    let far = "eye = [300, -2400, 1200], target = [0, 0, 0], fov_y_deg = 25";
+    let side = "eye = [40, -420, 260], target = [0, 0, 40], projection = \"orthographic\", height_m = 300";
+    let set = |change: &str| format!("technique.geometry-overlay.{change}");
+    let changes: [Vec<String>; 6] = [
+        vec![],
+        vec![set("stipple=0xf0f3")],
+        vec![set("stipple=0x3333"), set("primitives=\"strips\"")],
+        vec![set("lines=\"antialiased\"")],
+        vec![set("offset_factor=0.0"), set("offset_units=4.0")],
+        vec!["terrain.lod={ error_px = 2.0 }".to_owned(), "terrain.diagonal=\"alternating\"".to_owned()],
+    ];
+    let cases = [
+        ("hills", SOUTH, 0),
+        ("near", near, 0),
+        ("above", above, 0),
+        ("low", low, 0),
+        ("far", far, 0),
+        ("orthographic", side, 0),
+        ("stippled", SOUTH, 1),
+        ("strips", SOUTH, 2),
+        ("anti-aliased", SOUTH, 3),
+        ("anti-aliased low", low, 3),
+        ("no slope", low, 4),
+        ("level of detail", low, 5),
+    ];
+    for (name, camera, k) in cases {
+        let changes: Vec<&str> = changes[k].iter().map(String::as_str).collect();
+        assert_machines_are_inside(kind, name, &scene(HILLS, camera, &layers), &changes);
+    }
+}
+
+#[test]
+fn what_bugs_draw_of_lines_overlaid_is_not_allowed() {
+    let kind = Kind::GeometryOverlay;
+    let text = scene(HILLS, SOUTH, &format!("{OVERLAID}{LINES}"));
+    let set = |change: &str| format!("technique.geometry-overlay.{change}");
+    let all = allowed_of(kind, &stage(&text, &["device.subpixel_bits=8"]));
+    let bugs: [(&str, &str, &str); 8] = [
+        ("a pixel wider", "width_px = 3.0", "width_px = 4.0"),
+        ("metres wider by a fifth", "width_m = 3,", "width_m = 3.6,"),
+        ("a line missing", ", { line = [[-200, 200], [-20, -40], [200, -250]] }", ""),
+        ("a segment missing", "[100, 40], [120, 250]] }", "[100, 40]] }"),
+        ("half a pixel", "target = [0, 0, 40]", "target = [0, 0, 42.0]"),
+        ("opacity", "opacity = 0.6", "opacity = 0.58"),
+        ("colour", "#113355", "#183355"),
+        ("a vertex moved", "[250, -60]", "[251.5, -60]"),
+    ];
+    for (name, from, to) in bugs {
+        let with = text.replacen(from, to, 1);
+        assert_ne!(with, text, "{name}");
+        let image = frame_of(kind, &stage(&with, &[]), &[]).image;
+        println!("{name}: {}", best(&all, &image));
+        assert!(best(&all, &image) > 0, "{name}");
+    }
+    let settings = [
+        ("no polygon offset", vec![set("offset_factor=0.0"), set("offset_units=0.0")]),
+        ("half the polygon offset", vec![set("offset_factor=0.5")]),
+        ("one pixel wide", vec![set("widths=\"one\"")]),
+        ("anti-aliased", vec![set("lines=\"antialiased\"")]),
+        ("simplified", vec![set("tolerance_px=2.0")]),
+        ("stippled", vec![set("stipple=0x7fff")]),
+    ];
+    for (name, changes) in settings {
+        let changes: Vec<&str> = changes.iter().map(String::as_str).collect();
+        let image = frame_of(kind, &stage(&text, &changes), &[]).image;
+        println!("{name}: {}", best(&all, &image));
+        assert!(best(&all, &image) > 0, "{name}");
+    }
+}

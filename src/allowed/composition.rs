@@ -34,6 +34,22 @@ pub(super) struct Composed {
     pub(super) each: Vec<PaintRange>,
 }
 
+impl Composed {
+    /// With what it may be otherwise.
+    pub(super) fn join(&mut self, other: Self) {
+        self.range = self.range.hull(&other.range);
+        if self.each.is_empty() || other.each.is_empty() {
+            self.each.clear();
+            return;
+        }
+        for paint in other.each {
+            if !self.each.contains(&paint) {
+                self.each.push(paint);
+            }
+        }
+    }
+}
+
 /// Composes a scene's items.
 pub(super) struct Composer<'a> {
     list: &'a DrawList,

@@ -9,6 +9,7 @@ mod composition;
 mod dynamic_line;
 mod envelope;
 mod inverse_projection;
+mod geometry_overlay;
 mod model;
 mod picture;
 mod pixel;
@@ -56,6 +57,7 @@ pub fn allowed(
                 others.extend(rounded);
                 judged
             }
+            Kind::GeometryOverlay => geometry_overlay::picture(&view, guess)?,
             Kind::StaticDecal => {
                 let settings = stage.scene.technique.get();
                 static_decal::sampling(&settings, &stage.draw_list)?.picture(&view, guess)

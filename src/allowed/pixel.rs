@@ -1,5 +1,6 @@
 //! What a pixel may be, from what its samples may see.
 
+use super::composition::Composed;
 use crate::certainty::{PaintMean, PaintRange};
 use crate::math;
 use crate::resolve::Compositor;
@@ -37,6 +38,24 @@ pub(super) enum Blending {
 }
 
 impl PixelRange {
+    /// One place, of which all paints are known, or too many to be told; each is off by `slack` at most.
+    pub(super) fn of_composed(of: &Composed, items: Vec<u32>, slack: f64, compositor: &Compositor) -> Self {
+        let colors = |paint: &PaintRange| {
+            let mut mean = PaintMean::NOTHING;
+            mean.add(paint, 1.0);
+            let [low, high, _] = mean.colors(compositor, 1e-12);
+            [low, high]
+        };
+        let each: Vec<ColorRange> = of.each.iter().map(colors).collect();
+        let extremes = match &each[..] {
+            [first, .., last] => Some([first[0], last[0]]),
+            _ => None,
+        };
+        let is_open = each.len() > 1;
+        let choices = each.into_iter().filter(|_| is_open).map(|color| widened(color, slack)).collect();
+        Self { all: widened(colors(&of.range), slack), choices, extremes, items }
+    }
+
     /// The mean of samples.
     pub(super) fn of_samples(samples: &[Sample], compositor: &Compositor, blending: Blending) -> Self {
         let slack = match blending {

@@ -16,11 +16,16 @@ pub(super) struct Seen {
 const DEPTH_SHARE: f64 = 1.0 / (1 << 20) as f64;
 
 impl Seen {
-    /// What a sample at the centre may see; `along` is how far a view depth may be off by its format, metres.
-    pub(super) fn of(sample: &Sample, along: &dyn Fn(f64) -> f64) -> Self {
-        let mut triangles: Vec<u32> = sample.outcomes.iter().map(|outcome| outcome.triangle).collect();
+    /// Any of some triangles, between two view depths.
+    pub(super) fn any_of(mut triangles: Vec<u32>, depth: (f64, f64)) -> Self {
         triangles.sort_unstable();
         triangles.dedup();
+        Self { triangles, depth }
+    }
+
+    /// What a sample at the centre may see; `along` is how far a view depth may be off by its format, metres.
+    pub(super) fn of(sample: &Sample, along: &dyn Fn(f64) -> f64) -> Self {
+        let triangles = sample.outcomes.iter().map(|outcome| outcome.triangle).collect();
         let doubt =
             |depth: f64| if depth.is_finite() { along(depth) + depth.abs() * DEPTH_SHARE } else { 0.0 };
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
@@ -28,7 +33,7 @@ impl Seen {
             low = crate::math::min(low, outcome.depth.0 - doubt(outcome.depth.0));
             high = crate::math::max(high, outcome.depth.1 + doubt(outcome.depth.1));
         }
-        Self { triangles, depth: (low, high) }
+        Self::any_of(triangles, (low, high))
     }
 }
 

@@ -10,7 +10,7 @@ use crate::allowed::stages::stages;
 use crate::allowed::surface::{Surface, Surfaces, surfaces};
 use crate::allowed::{picture, static_decal};
 use crate::buffer::Buffer;
-use crate::certainty::{Known, PaintMean, PaintRange};
+use crate::certainty::{Known, PaintRange};
 use crate::compare::Hypothesis;
 use crate::error::{Error, Result};
 use crate::math;
@@ -138,7 +138,7 @@ impl Frame<'_> {
         let is_smoothed = self.settings.antialiasing == Antialiasing::Fxaa;
         let ranges = match is_smoothed {
             true => buffer(self.smoothed(&pixels, &Unsmoothed::candidates)),
-            false => buffer(pixels.iter().map(|of| self.range(of)).collect()),
+            false => buffer(pixels.iter().map(|of| of.range(&self.composer.compositor)).collect()),
         };
         let rounded = is_smoothed.then(|| {
             let ranges = self.smoothed(&pixels, &|of, compositor| of.candidates(compositor).rounded());
@@ -315,26 +315,6 @@ impl Frame<'_> {
         }
     }
 
-    /// An unsmoothed pixel as it is judged: its list is composed by one program (4.4.2), and rounded once.
-    fn range(&self, of: &Unsmoothed) -> PixelRange {
-        let slack = BLEND;
-        let colors = |paint: &PaintRange| {
-            let mut mean = PaintMean::NOTHING;
-            mean.add(paint, 1.0);
-            let [low, high, _] = mean.colors(&self.composer.compositor, 1e-12);
-            [low, high]
-        };
-        let widened = |[low, high]: ColorRange| [low.map(|v| v - slack), high.map(|v| v + slack)];
-        let all = widened(colors(&of.around.unwrap_or(PaintRange::ANY)));
-        let each: Vec<ColorRange> = of.each.iter().map(colors).collect();
-        let extremes = match &each[..] {
-            [first, .., last] => Some([first[0], last[0]]),
-            _ => None,
-        };
-        let choices = if each.len() > 1 { each.into_iter().map(widened).collect() } else { Vec::new() };
-        PixelRange { all, choices, extremes, items: of.items.clone() }
-    }
-
     /// All pixels after the filter.
     fn smoothed(
         &self,
@@ -359,6 +339,12 @@ impl Frame<'_> {
 }
 
 impl Unsmoothed {
+    /// As it is judged: its list is composed by one program (4.4.2), and rounded once.
+    fn range(&self, compositor: &Compositor) -> PixelRange {
+        let of = Composed { range: self.around.unwrap_or(PaintRange::ANY), each: self.each.clone() };
+        PixelRange::of_composed(&of, self.items.clone(), BLEND, compositor)
+    }
+
     /// What the filter may read.
     fn candidates(&self, compositor: &Compositor) -> Candidates {
         let premultiplied = |paint: [f64; 4]| {
@@ -377,24 +363,11 @@ impl Unsmoothed {
 
 /// What is composed in one of several orders.
 fn joined(all: impl Iterator<Item = Composed>) -> Composed {
-    let mut joined: Option<Composed> = None;
-    for one in all {
-        let Some(known) = &mut joined else {
-            joined = Some(one);
-            continue;
-        };
-        known.range = known.range.hull(&one.range);
-        if one.each.is_empty() || known.each.is_empty() {
-            known.each.clear();
-            continue;
-        }
-        for paint in one.each {
-            if !known.each.contains(&paint) {
-                known.each.push(paint);
-            }
-        }
-    }
-    joined.unwrap_or(Composed { range: PaintRange::ANY, each: Vec::new() })
+    let whole = |mut known: Composed, one: Composed| {
+        known.join(one);
+        known
+    };
+    all.reduce(whole).unwrap_or(Composed { range: PaintRange::ANY, each: Vec::new() })
 }
 
 /// Lines among static decals, from the lowest on: by the draw order that both share, whatever the lines' own order is.

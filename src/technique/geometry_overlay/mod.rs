@@ -16,6 +16,7 @@
 mod dag;
 mod drawing;
 mod frame;
+mod line_strips;
 mod mesh;
 mod settings;
 mod step;
@@ -29,6 +30,7 @@ mod tests;
 mod tile;
 
 pub use dag::{Bytes, Counts, PointForm, Storage, StoredLayers};
+pub use line_strips::LineStrip;
 pub use settings::{Borrowed, Lines, Primitives, Settings, Widths};
 pub use step::Step;
 pub use stored::StoredQuad;

@@ -1,0 +1,66 @@
+//! How much of a pixel the rectangle around a segment covers (OpenGL 2.1, 3.4.2), when the segment's ends may stray.
+
+use super::screen_line::ScreenLine;
+use crate::math;
+use crate::space::Plan;
+use glam::DVec2;
+
+/// At least and at most; a line so many pixels wide.
+pub(super) fn share(line: &ScreenLine, width: f64, [x, y]: [usize; 2]) -> [f64; 2] {
+    let [a, b] = line.ends;
+    let length = (b - a).length();
+    let along = if length > 0.0 { (b - a) / length } else { DVec2::X };
+    let off = std::f64::consts::SQRT_2 * line.stray;
+    let area = |by: f64| {
+        let limits = [-by, length + by, width / 2.0 + by];
+        if limits[0] >= limits[1] || limits[2] <= 0.0 {
+            return 0.0;
+        }
+        let corner = |dx: f64, dy: f64| Plan::new(x as f64 + dx, y as f64 + dy) - a;
+        let mut polygon = vec![corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)];
+        let across = along.perp();
+        for (normal, limit) in [(-along, -limits[0]), (along, limits[1]), (across, limits[2]), (-across, limits[2])] {
+            polygon = cut(&polygon, |p| limit - p.dot(normal));
+        }
+        math::min(area_of(&polygon), 1.0)
+    };
+    // A segment whose ends may lie on one another may have any direction.
+    let least = if length > 8.0 * off { area(-off) } else { 0.0 };
+    let most = if length > 8.0 * off { area(off) } else { around(line, width, off, [x, y]) };
+    [math::max(least - ROUNDING, 0.0), math::min(most + ROUNDING, 1.0)]
+}
+
+/// Far more than what adding up the areas of a pixel may be off.
+const ROUNDING: f64 = 1e-6;
+
+/// At most what a very short segment covers: as much as its rectangle has, where that may be.
+fn around(line: &ScreenLine, width: f64, off: f64, [x, y]: [usize; 2]) -> f64 {
+    let [a, b] = line.ends;
+    let middle = a + (b - a) * 0.5;
+    let reach = width / 2.0 + off + (b - a).length();
+    let near = |from: f64, at: f64| from - reach <= at && at <= from + 1.0 + reach;
+    let all = width * ((b - a).length() + 2.0 * off);
+    if near(x as f64, middle.x) && near(y as f64, middle.y) { math::min(all, 1.0) } else { 0.0 }
+}
+
+/// What a convex polygon has where a linear function is at least 0.
+fn cut(polygon: &[DVec2], inside: impl Fn(DVec2) -> f64) -> Vec<DVec2> {
+    let mut out = Vec::with_capacity(polygon.len() + 1);
+    for (k, p) in polygon.iter().enumerate() {
+        let q = polygon[(k + 1) % polygon.len()];
+        let (at_p, at_q) = (inside(*p), inside(q));
+        if at_p >= 0.0 {
+            out.push(*p);
+        }
+        if (at_p >= 0.0) != (at_q >= 0.0) {
+            out.push(*p + (q - *p) * (at_p / (at_p - at_q)));
+        }
+    }
+    out
+}
+
+fn area_of(polygon: &[DVec2]) -> f64 {
+    let Some(first) = polygon.first() else { return 0.0 };
+    let twice: f64 = polygon.windows(2).map(|pair| (pair[0] - *first).perp_dot(pair[1] - *first)).sum();
+    twice.abs() / 2.0
+}
