@@ -176,5 +176,47 @@ fn what_machines_draw_of_every_golden_is_allowed() {
             }
             println!("{}", if worst > 0 { " OUTSIDE" } else { "" });
         }
+/// Layers of scenes of textures: a translucent lake with a hole, thin and wide lines.
+const MAP: &str = "[[layer]]\nfeatures = [{ polygon = [[[-150, -150], [120, -180], [60, 20], [160, 150], [-120, 90]], [[-60, -60], [0, -80], [-20, 20]]] }]\n\
+     fill = { color = \"#3388ff\", opacity = 0.6 }\noutline = { color = \"#003366\", width_m = 2.0 }\n\
+     [[layer]]\nfeatures = [{ line = [[-280, -200], [0, 100], [250, -60], [300, 280]] }]\n\
+     line = { color = \"#ff7f00\", width_m = 12 }\n\
+     [[layer]]\nfeatures = [{ line = [[-200, 200], [-20, -40], [200, -250]] }]\n\
+     line = { color = \"#7f0000\", width_m = 1.0, opacity = 0.8 }\n";
+
+/// Scenes of textures, by name.
+fn maps() -> Vec<(&'static str, String)> {
+    let flat = r#"kind = "fbm", seed = 3, posts = [65, 65], cell_m = 10.0, height_m = 0.0"#;
+    let of = |terrain: &str, camera: &str| scene(terrain, camera, MAP);
+    vec![
+        ("hills", of(HILLS, "eye = [40, -420, 260], target = [0, 0, 40]")),
+        ("near", of(HILLS, "eye = [-60, -120, 130], target = [0, 20, 40]")),
+        ("far", of(HILLS, "eye = [100, -1900, 700], target = [0, 0, 40]")),
+        ("flat", of(flat, "eye = [40, -420, 160], target = [0, 0, 0]")),
+        ("grazing", of(HILLS, "eye = [-300, -300, 140], target = [200, 200, 60]")),
+    ]
+}
+
+/// Machines that draw textures.
+const TEXTURE_MACHINES: [&[&str]; 6] = [
+    &[],
+    &["device.subpixel_bits=8", "device.filter_bits=8"],
+    &["device.subpixel_bits=8", "device.precision=\"f32\"", "device.filter_bits=8"],
+    &["device.filter_bits=8"],
+    &["device.subpixel_bits=4", "device.precision=\"f32\"", "device.filter_bits=8"],
+    &["device.precision=\"f32\"", "device.depth=\"f32\""],
+];
+
+fn what_machines_draw_of_a_clipmap_is_allowed() {
+    for (name, text) in maps() {
+        let start = std::time::Instant::now();
+        let all = allowed(Kind::Clipmap, &text, &[]);
+        let time = start.elapsed();
+        for machine in TEXTURE_MACHINES {
+            let image = frame_of(Kind::Clipmap, &stage(&text, machine), &[]).image;
+            let missed: Vec<usize> = all.hypotheses.iter().map(|h| outside(h, &image)).collect();
+            println!("{name} {machine:?}: {missed:?}");
+        let widths: Vec<usize> = all.hypotheses.iter().map(wide).collect();
+        println!("{name}: wide {widths:?} of {}, {time:?}", all.width * all.height);
     }
 }

@@ -7,6 +7,7 @@
 
 mod composition;
 mod dynamic_line;
+mod clipmap;
 mod envelope;
 mod inverse_projection;
 mod geometry_overlay;
@@ -65,6 +66,7 @@ pub fn allowed(
             Kind::InverseProjection => {
                 inverse_projection::picture(&stage.scene.technique.get(), &view, guess)
             }
+            Kind::Clipmap => clipmap::picture(&view, guess)?,
             _ => {
                 return Err(Error::unsupported(format!(
                     "nobody knows what {}'s picture may be",

@@ -138,7 +138,7 @@ fn blends(samples: &[Sample]) -> f64 {
     most.clamp(1, 4) as f64 + f64::from(u8::from(samples.len() > 1))
 }
 
-fn widened([low, high]: ColorRange, slack: f64) -> ColorRange {
+pub(super) fn widened([low, high]: ColorRange, slack: f64) -> ColorRange {
     [low.map(|v| v - slack), high.map(|v| v + slack)]
 }
 

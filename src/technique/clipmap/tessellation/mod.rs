@@ -97,7 +97,7 @@ impl Rule {
 
     /// Tessellates some segments of a polyline that has passed [`Rule::tessellate`]'s checks: its joints with what is before and after
     /// them are made too, so that parts next to one another fit.
-    pub(super) fn part(
+    pub fn part(
         &self,
         line: &Polyline,
         segments: std::ops::Range<usize>,
@@ -213,14 +213,14 @@ impl Rule {
     }
 
     /// The strips of a line of one vertex: a dot by its cap, which only a style has.
-    pub(super) fn dot(&self, at: Plan, half: f64, sagitta: Sagitta, out: &mut Strips) {
+    pub fn dot(&self, at: Plan, half: f64, sagitta: Sagitta, out: &mut Strips) {
         if self.joints == Joints::Style {
             style::dot(at, half, self.cap, sagitta, out);
         }
     }
 
     /// How far from a polyline's vertices its strips may reach, in half widths.
-    pub(super) fn reach(&self, line: &Polyline) -> f64 {
+    pub fn reach(&self, line: &Polyline) -> f64 {
         let has_corners = match self.joints {
             Joints::Combined | Joints::Corner => true,
             Joints::Style => matches!(self.join, Join::Miter { .. }),
@@ -246,7 +246,7 @@ impl Rule {
 
 impl Polyline<'_> {
     /// How many segments it has.
-    pub(super) fn segments(&self) -> usize {
+    pub fn segments(&self) -> usize {
         if self.is_loop { self.vertices.len() } else { self.vertices.len().saturating_sub(1) }
     }
 
