@@ -117,15 +117,13 @@ impl Drawing<'_> {
         });
     }
 
-    /// The edges around an item's area that matter to the tile: not those beside its rows, or east of it.
+    /// The edges around an item's area that matter to the tile: not those beside its rows.
     fn ring_edges(&self, item: u32) -> Vec<Edge> {
         let mut outline = Outline::default();
         let size = self.size as f64;
         self.maker.items.rings(item, &mut |from, to| {
             let (from, to) = (self.texel(from), self.texel(to));
-            let is_beside = (from.y < -2.0 && to.y < -2.0)
-                || (from.y > size + 2.0 && to.y > size + 2.0)
-                || (from.x > size + 2.0 && to.x > size + 2.0);
+            let is_beside = (from.y < -2.0 && to.y < -2.0) || (from.y > size + 2.0 && to.y > size + 2.0);
             if !is_beside {
                 outline.edge(from, to);
             }

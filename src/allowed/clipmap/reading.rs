@@ -115,10 +115,8 @@ impl Reader<'_> {
             return vec![of(1, look.longer)];
         }
         let count = |ratio: f64| (ratio - SAME_RATIO).ceil().clamp(1.0, f64::from(self.settings.anisotropy)) as u32;
-        let long = look.axis.length();
-        let ends = [long - look.axis_off, long + look.axis_off];
         (count(look.ratio[0])..=count(look.ratio[1]))
-            .map(|count| of(count, ends.map(|end| math::max(end, 0.0) / f64::from(count))))
+            .map(|count| of(count, look.long.map(|long| long / f64::from(count))))
             .collect()
     }
 

@@ -30,7 +30,9 @@ pub(super) struct Look {
     pub(super) noise: f64,
     /// The longer derivative, texels of level 0: at least and at most.
     pub(super) longer: [f64; 2],
-    /// The long axis of the footprint, texels of level 0, and how far its ends may lie elsewhere.
+    /// The length of the footprint's long axis, texels of level 0: at least and at most.
+    pub(super) long: [f64; 2],
+    /// The axis, and how far its ends may lie elsewhere.
     pub(super) axis: DVec2,
     pub(super) axis_off: f64,
     /// Its length over that of the short one, at least and at most.
@@ -134,6 +136,7 @@ impl Look {
             ways: ways.map(|way| texture.way(way)),
             noise,
             longer: [f64::INFINITY, 0.0],
+            long: [f64::INFINITY, 0.0],
             axis: DVec2::ZERO,
             axis_off: 0.0,
             ratio: [f64::INFINITY, 0.0],
@@ -176,9 +179,12 @@ impl Look {
     /// Takes a footprint into account; the first is the nominal one.
     fn measure(&mut self, texture: &Texture, turns: DMat2) {
         let [dx, dy] = [turns.x_axis, turns.y_axis].map(|way| texture.way(way));
-        let longer = math::max(dx.length(), dy.length());
-        self.longer = [math::min(self.longer[0], longer), math::max(self.longer[1], longer)];
+        let around = |range: &mut [f64; 2], v: f64| {
+            *range = [math::min(range[0], v), math::max(range[1], v)];
+        };
+        around(&mut self.longer, math::max(dx.length(), dy.length()));
         let (axis, short) = axes(dx, dy);
+        around(&mut self.long, axis.length());
         if self.ratio[1] == 0.0 {
             self.axis = axis;
         }
@@ -188,7 +194,7 @@ impl Look {
         let ratio = axis.length() / short;
         // Of zeros, as of a circle.
         let ratio = if ratio.is_nan() { 1.0 } else { ratio };
-        self.ratio = [math::min(self.ratio[0], ratio), math::max(self.ratio[1], ratio)];
+        around(&mut self.ratio, ratio);
     }
 }
 
