@@ -13,6 +13,9 @@ pub(super) struct Edge {
     pub(super) to: Texel,
 }
 
+/// So near to a line, in texels, that its side is a matter of rounding.
+const ON_LINE: f64 = 1e-7;
+
 /// A triangle of this many slacks' height may be turned over by them.
 const THIN: f64 = 3.0;
 
@@ -20,6 +23,12 @@ impl Edge {
     /// Whether a point lies on the edge's inner side.
     pub(super) fn has_inside(&self, at: Texel) -> bool {
         (self.to - self.from).perp_dot(at - self.from) < 0.0
+    }
+
+    /// Whether a point lies on its line, but for rounding.
+    pub(super) fn is_on(&self, at: Texel) -> bool {
+        let d = self.to - self.from;
+        d.perp_dot(at - self.from).abs() <= ON_LINE * d.length()
     }
 
     /// Its lowest and highest y.
