@@ -73,6 +73,8 @@ pub mod golden;
 pub mod index;
 #[cfg(feature = "render")]
 pub(crate) mod interval;
+#[cfg(feature = "render")]
+pub mod judge_test;
 pub mod math;
 #[cfg(feature = "render")]
 pub mod measure;

@@ -216,6 +216,24 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "buffer",
         ],
     ),
+    // The judge and what is shown to it: all that draws.
+    (
+        "judge_test",
+        &[
+            "technique",
+            "canvas",
+            "allowed",
+            "report",
+            "source",
+            "scene_file",
+            "stage",
+            "scene",
+            "space",
+            "compare",
+            "parallel",
+            "buffer",
+        ],
+    ),
     // Text alone.
     ("tutorial", &[]),
 ];

@@ -10,6 +10,7 @@ mod completions;
 mod export;
 mod golden;
 mod info;
+mod judge_test;
 mod lines;
 mod new;
 mod print;
@@ -75,6 +76,9 @@ enum Command {
     Info(info::Arguments),
     /// Print the JSON Schema of the scene file.
     Schema,
+    /// Test the judge itself: planted bugs have to fail, other right pictures have to pass.
+    #[command(hide = true)]
+    JudgeTest(judge_test::Arguments),
     /// Print completions for a shell.
     Completions(completions::Arguments),
 }
@@ -104,6 +108,7 @@ fn run(command: Command) -> Outcome {
         Command::Golden(arguments) => golden::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Schema => schema::run(),
+        Command::JudgeTest(arguments) => judge_test::run(&arguments),
         Command::Completions(arguments) => completions::run(&arguments, &mut Cli::command()),
     }
 }
