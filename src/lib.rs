@@ -92,6 +92,8 @@ pub(crate) mod predicate;
 #[cfg(feature = "render")]
 pub mod raster;
 #[cfg(feature = "render")]
+pub mod reduce;
+#[cfg(feature = "render")]
 pub mod report;
 #[cfg(feature = "render")]
 pub mod resolve;

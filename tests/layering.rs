@@ -216,6 +216,8 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "buffer",
         ],
     ),
+    // Drafts of scenes, whoever draws and judges them.
+    ("reduce", &["scene_file", "scene", "space"]),
     // The judge and what is shown to it: all that draws.
     (
         "judge_test",

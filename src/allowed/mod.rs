@@ -12,6 +12,7 @@ mod envelope;
 mod inverse_projection;
 mod geometry_overlay;
 mod model;
+mod outside;
 mod picture;
 mod pixel;
 mod sampled;
@@ -21,6 +22,7 @@ mod stencil_volume;
 mod surface;
 
 pub use envelope::Envelope;
+pub use outside::outside;
 
 use crate::compare::Allowed;
 use crate::error::{Error, Result};

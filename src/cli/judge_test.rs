@@ -2,6 +2,7 @@
 
 use super::bar::Bar;
 use super::print::print;
+use super::reduce::technique;
 use super::stop::{Outcome, Status, Stop};
 use drapery::measure::Watch;
 use drapery::output::write_whole;
@@ -24,7 +25,7 @@ not, 2 the call is wrong.";
 #[command(after_long_help = EXAMPLES)]
 pub(super) struct Arguments {
     /// Only this technique.
-    #[arg(long, value_name = "TECHNIQUE", value_parser = kind)]
+    #[arg(long, value_name = "TECHNIQUE", value_parser = technique)]
     only: Option<Kind>,
     /// Only this scene.
     #[arg(long, value_name = "NAME")]
@@ -43,13 +44,6 @@ pub(super) struct Arguments {
     threads: usize,
 }
 
-/// A technique by its name.
-fn kind(text: &str) -> Result<Kind, String> {
-    let names = || Kind::ALL.iter().map(|kind| kind.name()).collect::<Vec<_>>().join(", ");
-    let found = Kind::ALL.iter().copied().find(|kind| kind.name() == text);
-    found.ok_or_else(|| format!("there is no technique `{text}`; one of {}", names()))
-}
-
 pub(super) fn run(arguments: &Arguments) -> Outcome {
     let plan = judge_test::Plan {
         kinds: arguments.only.map_or_else(|| Kind::ALL.to_vec(), |kind| vec![kind]),
@@ -59,7 +53,8 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
     };
     let bar = Bar::new();
     bar.start("testing the judge");
-    let trial = parallel::with_threads(arguments.threads, || judge_test::run(&plan, &|share| bar.done(share)))??;
+    let trial =
+        parallel::with_threads(arguments.threads, || judge_test::run(&plan, &|share| bar.done(share)))??;
     drop(bar);
     if let Some(path) = &arguments.json {
         let text = trial.json()?;

@@ -14,6 +14,7 @@ mod judge_test;
 mod lines;
 mod new;
 mod print;
+mod reduce;
 mod refusal;
 mod render;
 mod report;
@@ -70,6 +71,8 @@ enum Command {
     Export(export::Arguments),
     /// Judge a frame by a bundle, or a picture by another.
     Compare(compare::Arguments),
+    /// Find the smallest scene that a program still draws wrong.
+    Reduce(reduce::Arguments),
     /// Replay goldens: small scenes whose every buffer is known.
     Golden(golden::Arguments),
     /// Tell what a data file holds.
@@ -105,6 +108,7 @@ fn run(command: Command) -> Outcome {
         Command::Export(arguments) => export::run(&arguments),
         Command::New(arguments) => new::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
+        Command::Reduce(arguments) => reduce::run(&arguments),
         Command::Golden(arguments) => golden::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Schema => schema::run(),

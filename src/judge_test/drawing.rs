@@ -93,9 +93,7 @@ impl Subject<'_> {
                 let half = math::tan(fov_y_deg.to_radians() / 2.0) * share;
                 Projection::Perspective { fov_y_deg: 2.0 * math::atan2(half, 1.0).to_degrees() }
             }
-            Projection::Orthographic { height_m } => {
-                Projection::Orthographic { height_m: height_m * share }
-            }
+            Projection::Orthographic { height_m } => Projection::Orthographic { height_m: height_m * share },
         };
         let large = draw(self.kind, &Stage::new(scene, surface)?, None)?;
         let kept = (0..height).flat_map(|y| large.row(y + rows)[columns..].iter().copied());

@@ -161,7 +161,11 @@ mod tests {
 
     /// A picture of different pixels.
     fn picture() -> Picture {
-        Buffer::from_values(24, 16, (0..24 * 16).map(|k| [(k % 256) as u8, (k / 256) as u8, 7, 200]).collect())
+        Buffer::from_values(
+            24,
+            16,
+            (0..24 * 16).map(|k| [(k % 256) as u8, (k / 256) as u8, 7, 200]).collect(),
+        )
     }
 
     #[test]

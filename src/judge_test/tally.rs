@@ -24,8 +24,6 @@ pub struct Counts {
     pub equivalent: usize,
     /// That the judge failed.
     pub caught: usize,
-    /// That it let pass with a doubt.
-    pub weak: usize,
     /// That it let pass.
     pub missed: usize,
 }
@@ -51,7 +49,6 @@ impl Counts {
                     counts.changed += 1;
                     match said {
                         Judgement::Fail => counts.caught += 1,
-                        Judgement::Weak => counts.weak += 1,
                         Judgement::Pass => counts.missed += 1,
                     }
                 }
@@ -97,7 +94,8 @@ impl Trial {
     /// Of each usual comparator its name, the share of bugs that it fails, and the share of variants that it lets pass.
     pub(super) fn comparators(&self) -> Vec<(&'static str, f64, f64)> {
         let share = |shown: &mut dyn Iterator<Item = &Shown>, k: usize, passes: bool| {
-            let (all, so) = shown.fold((0, 0), |(all, so), of| (all + 1, so + usize::from(of.contrast[k] == passes)));
+            let (all, so) =
+                shown.fold((0, 0), |(all, so), of| (all + 1, so + usize::from(of.contrast[k] == passes)));
             if all == 0 { 1.0 } else { f64::from(so as u32) / f64::from(all) }
         };
         let of = |(k, name): (usize, &&'static str)| {
@@ -113,10 +111,10 @@ impl Trial {
         Kind::ALL.iter().copied().filter(|kind| self.subjects.iter().any(|of| of.kind == *kind)).collect()
     }
 
-    /// Bugs that were let pass without a doubt, and variants that were not.
+    /// Bugs that were let pass, and variants that were not.
     pub(super) fn wrong(&self) -> impl Iterator<Item = &Shown> {
         self.shown.iter().filter(|shown| match shown.bug {
-            Some(_) => matches!(shown.said, Some(Judgement::Pass | Judgement::Weak)),
+            Some(_) => shown.said == Some(Judgement::Pass),
             None => shown.said == Some(Judgement::Fail),
         })
     }
@@ -159,7 +157,12 @@ impl Trial {
         for kind in self.judged() {
             let of = self.tightness(Some(kind)).filter(|of| of.mean > WIDE);
             loose.extend(of.map(|of| {
-                format!("{}: {:.2} % of all pixels are wide, more than {} %", kind.name(), of.mean * 100.0, WIDE * 100.0)
+                format!(
+                    "{}: {:.2} % of all pixels are wide, more than {} %",
+                    kind.name(),
+                    of.mean * 100.0,
+                    WIDE * 100.0
+                )
             }));
         }
         let wide = self.subjects.iter().filter(|of| of.wide > WIDE_IN_A_SCENE);

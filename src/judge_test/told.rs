@@ -63,10 +63,12 @@ impl Trial {
     pub fn text(&self) -> String {
         let told = self.told();
         let mut text = String::from(
-            "technique           class        bugs  caught  weak  missed  no change   caught   right    passed  wide, mean  worst\n",
+            "technique           class        bugs  caught  missed  no change   caught   right    passed  wide, mean  worst\n",
         );
         let wide = |of: &Option<Tightness>| {
-            of.map_or(String::new(), |of| format!("{:>8.2} %  {:.2} % ({})", of.mean * 100.0, of.worst * 100.0, of.scene))
+            of.map_or(String::new(), |of| {
+                format!("{:>8.2} %  {:.2} % ({})", of.mean * 100.0, of.worst * 100.0, of.scene)
+            })
         };
         for of in told.techniques.iter().chain([&told.all]) {
             for class in &of.classes {
@@ -145,7 +147,8 @@ impl Trial {
     }
 
     fn of<'t>(&self, technique: &'t str, kind: Option<crate::technique::Kind>) -> OfTechnique<'t> {
-        let classes = CLASSES.iter().map(|(class, name)| OfClass { class: name, bugs: self.bugs(kind, Some(*class)) });
+        let classes =
+            CLASSES.iter().map(|(class, name)| OfClass { class: name, bugs: self.bugs(kind, Some(*class)) });
         let (variants, passed) = self.variants(kind);
         OfTechnique {
             technique,
@@ -160,10 +163,9 @@ impl Trial {
 
 fn row(of: &Counts) -> String {
     format!(
-        "{:>6}{:>8}{:>6}{:>8}{:>11}  {:>7.2} %",
+        "{:>6}{:>8}{:>8}{:>11}  {:>7.2} %",
         of.changed,
         of.caught,
-        of.weak,
         of.missed,
         of.equivalent,
         of.sensitivity() * 100.0

@@ -82,7 +82,8 @@ pub fn run(plan: &Plan, progress: &(dyn Fn(f64) + Sync)) -> Result<Trial> {
         scenes.iter().flat_map(|scene| plan.kinds.iter().map(move |kind| (*scene, *kind))).collect();
     let parts = parallel::map_telling(places.len(), progress, |k| {
         let (scene, kind) = places[k];
-        of_subject(plan, scene, kind).map_err(|error| error.reworded(|what| format!("{}: {what}", scene.name)))
+        of_subject(plan, scene, kind)
+            .map_err(|error| error.reworded(|what| format!("{}: {what}", scene.name)))
     });
     let mut trial = Trial::default();
     for part in parts {
@@ -146,7 +147,7 @@ impl Trier<'_> {
     /// The verdict on a bug; `None`: the scene has nothing that it is a bug of.
     fn bug(&self, bug: &Bug) -> Result<Option<Shown>> {
         let Some(picture) = self.subject.edited(&bug.edit, self.right)? else { return Ok(None) };
-        Ok(Some(self.shown(bug.name.to_owned(), Some(bug.class), &picture)))
+        self.shown(bug.name.to_owned(), Some(bug.class), &picture).map(Some)
     }
 
     /// The verdict on a variant; `None`: the scene has nothing that is otherwise in it.
@@ -156,15 +157,14 @@ impl Trier<'_> {
             None => Some(subject.right()?),
             Some(edit) => subject.edited(edit, self.right)?,
         };
-        Ok(picture.map(|picture| {
-            self.shown(format!("{}, by a machine: {}", variant.name, machine.name), None, &picture)
-        }))
+        let name = format!("{}, by a machine: {}", variant.name, machine.name);
+        picture.map(|picture| self.shown(name, None, &picture)).transpose()
     }
 
-    fn shown(&self, name: String, bug: Option<bugs::Class>, picture: &Picture) -> Shown {
+    fn shown(&self, name: String, bug: Option<bugs::Class>, picture: &Picture) -> Result<Shown> {
         let is_right = picture.values() == self.right.values();
-        let said = if bug.is_some() && is_right { None } else { Some(judge(self.allowed, picture)) };
+        let said = if bug.is_some() && is_right { None } else { Some(judge(self.allowed, picture)?) };
         let contrast = if is_right { [true; 4] } else { contrast::passed(self.right, picture) };
-        Shown { kind: self.subject.kind, scene: self.scene, name, bug, said, contrast }
+        Ok(Shown { kind: self.subject.kind, scene: self.scene, name, bug, said, contrast })
     }
 }

@@ -37,6 +37,16 @@ pub(super) const BUGS: &[Bug] = &[
         "an entry a segment",
         Keys(&["technique.dynamic-line.overlaps=\"double\""]),
     ),
-    Bug::of(&[Kind::StaticDecal], Here, "a hit a segment", Keys(&["technique.static-decal.overlaps=\"double\""])),
-    Bug::of(&[Kind::Clipmap], Here, "tiles of the wrong place", Keys(&["technique.clipmap.center=[1e5,1e5]", "technique.clipmap.clip_size=256"])),
+    Bug::of(
+        &[Kind::StaticDecal],
+        Here,
+        "a hit a segment",
+        Keys(&["technique.static-decal.overlaps=\"double\""]),
+    ),
+    Bug::of(
+        &[Kind::Clipmap],
+        Here,
+        "tiles of the wrong place",
+        Keys(&["technique.clipmap.center=[1e5,1e5]", "technique.clipmap.clip_size=256"]),
+    ),
 ];

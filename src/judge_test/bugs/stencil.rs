@@ -8,14 +8,24 @@ const VOLUMES: &[Kind] = &[Kind::StencilVolume];
 
 /// The bugs.
 pub(super) const BUGS: &[Bug] = &[
-    Bug::of(VOLUMES, Here, "z-pass with the eye inside", Keys(&["technique.stencil-volume.method=\"z-pass\""])),
+    Bug::of(
+        VOLUMES,
+        Here,
+        "z-pass with the eye inside",
+        Keys(&["technique.stencil-volume.method=\"z-pass\""]),
+    ),
     Bug::of(
         VOLUMES,
         Here,
         "top caps missing",
         Keys(&["technique.stencil-volume.caps=\"bottom\"", "technique.stencil-volume.method=\"z-fail\""]),
     ),
-    Bug::of(VOLUMES, Here, "top caps missing where z-fail is chosen", Keys(&["technique.stencil-volume.caps=\"bottom\""])),
+    Bug::of(
+        VOLUMES,
+        Here,
+        "top caps missing where z-fail is chosen",
+        Keys(&["technique.stencil-volume.caps=\"bottom\""]),
+    ),
     Bug::of(
         VOLUMES,
         Here,
@@ -32,7 +42,11 @@ pub(super) const BUGS: &[Bug] = &[
         VOLUMES,
         Here,
         "saturates, z-fail",
-        Keys(&["technique.stencil-volume.overflow=\"saturate\"", "technique.stencil-volume.method=\"z-fail\"", "device.stencil_bits=3"]),
+        Keys(&[
+            "technique.stencil-volume.overflow=\"saturate\"",
+            "technique.stencil-volume.method=\"z-fail\"",
+            "device.stencil_bits=3",
+        ]),
     ),
     Bug::of(VOLUMES, Here, "stencil of too few bits", Keys(&["device.stencil_bits=1"])),
     Bug::of(
@@ -49,6 +63,11 @@ pub(super) const BUGS: &[Bug] = &[
     ),
     Bug::of(VOLUMES, Here, "masks of a colour", Keys(&["technique.stencil-volume.grouping=\"color\""])),
     Bug::of(VOLUMES, Here, "a mask an object", Keys(&["technique.stencil-volume.grouping=\"object\""])),
-    Bug::of(VOLUMES, Here, "joins that nobody asked for", Keys(&["technique.stencil-volume.joins=\"style\""])),
+    Bug::of(
+        VOLUMES,
+        Here,
+        "joins that nobody asked for",
+        Keys(&["technique.stencil-volume.joins=\"style\""]),
+    ),
     Bug::of(VOLUMES, Here, "boxes without joins", Keys(&["technique.stencil-volume.joins=\"none\""])),
 ];

@@ -26,12 +26,19 @@ pub(super) const BUGS: &[Bug] = &[
     Bug::any(Here, "far plane too near", Scene(g::far_plane_too_near)),
     Bug::any(Here, "mesh of a coarser level", Keys(&["terrain.lod.error_px=6"])),
     Bug::any(Here, "no level of detail", Keys(&["terrain.lod="])),
-    Bug::any(Here, "depths of 16 bits before a near plane at 0.1 m", Keys(&["device.depth=\"unorm16\"", "camera.near_m=0.1"])),
+    Bug::any(
+        Here,
+        "depths of 16 bits before a near plane at 0.1 m",
+        Keys(&["device.depth=\"unorm16\"", "camera.near_m=0.1"]),
+    ),
     Bug::of(
         &[Kind::GeometryOverlay],
         Here,
         "hidden lines shown",
-        Keys(&["technique.geometry-overlay.offset_factor=4000", "technique.geometry-overlay.offset_units=1e7"]),
+        Keys(&[
+            "technique.geometry-overlay.offset_factor=4000",
+            "technique.geometry-overlay.offset_units=1e7",
+        ]),
     ),
     Bug::of(
         &[Kind::GeometryOverlay],

@@ -59,9 +59,12 @@ impl Blurred {
         let (x, y) = (crate::math::max(x, 0.0), crate::math::max(y, 0.0));
         let (left, top) = (x.floor() as usize, y.floor() as usize);
         let (s, t) = (x.fract(), y.fract());
-        let corners = [self.at(left, top), self.at(left + 1, top), self.at(left, top + 1), self.at(left + 1, top + 1)];
+        let corners =
+            [self.at(left, top), self.at(left + 1, top), self.at(left, top + 1), self.at(left + 1, top + 1)];
         let weights = [(1.0 - s) * (1.0 - t), s * (1.0 - t), (1.0 - s) * t, s * t];
-        std::array::from_fn(|c| corners.iter().zip(weights).map(|(corner, w)| corner[c] * w).sum::<f64>().round())
+        std::array::from_fn(|c| {
+            corners.iter().zip(weights).map(|(corner, w)| corner[c] * w).sum::<f64>().round()
+        })
     }
 
     /// The least difference of a colour from what is at a place and around it.
@@ -70,7 +73,8 @@ impl Blurred {
         if least == 0.0 {
             return least;
         }
-        for (column, row) in (y - 1..=y + 1).flat_map(|row| (x - 1..=x + 1).map(move |column| (column, row))) {
+        for (column, row) in (y - 1..=y + 1).flat_map(|row| (x - 1..=x + 1).map(move |column| (column, row)))
+        {
             least = crate::math::min(least, difference(code, self.at(column, row)));
         }
         let step = |k: usize| (k as f64 + 0.5) / BETWEEN as f64 * 2.0 - 1.0;

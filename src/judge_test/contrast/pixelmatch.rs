@@ -57,9 +57,8 @@ fn neighbours(of: &Picture, x: usize, y: usize) -> impl Iterator<Item = (usize, 
 /// pictures, and few neighbours are its equals.
 fn is_smooth(picture: &Picture, other: &Picture, x: usize, y: usize) -> bool {
     let own = brightness(*picture.at(x, y));
-    let is_border = |x: usize, y: usize| {
-        x == 0 || y == 0 || x == picture.width() - 1 || y == picture.height() - 1
-    };
+    let is_border =
+        |x: usize, y: usize| x == 0 || y == 0 || x == picture.width() - 1 || y == picture.height() - 1;
     let mut equal = usize::from(is_border(x, y));
     let mut ends = [(0.0, x, y); 2];
     for (column, row) in neighbours(picture, x, y) {
@@ -89,7 +88,15 @@ mod tests {
     #[test]
     fn a_lonely_pixel_differs_and_a_slope_between_two_plains_does_not() {
         let plain = |edge: u8| {
-            let row = |x: usize| if x < 4 { 0 } else if x == 4 { edge } else { 255 };
+            let row = |x: usize| {
+                if x < 4 {
+                    0
+                } else if x == 4 {
+                    edge
+                } else {
+                    255
+                }
+            };
             let pixels = (0..72).map(|k| row(k % 9)).map(|v| [v, v, v, 255]);
             Buffer::from_values(9, 8, pixels.collect())
         };

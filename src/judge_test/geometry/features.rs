@@ -1,5 +1,6 @@
 //! Edits of features' shapes.
 
+use crate::math::max;
 use crate::scene::{Feature, Scene, Shape, Surface};
 use crate::space::Plan;
 use glam::DVec2;
@@ -35,8 +36,8 @@ fn each_vertex(scene: &mut Scene, edit: impl Fn(Plan) -> Plan) -> bool {
 fn extent(scene: &Scene) -> f64 {
     let features = scene.layers.iter().flat_map(|layer| &layer.features);
     let points = features.flat_map(|feature| feature.shape.parts()).flatten();
-    let reach = points.map(|p| p.x.abs().max(p.y.abs()));
-    reach.fold(0.0, crate::math::max)
+    let reach = points.map(|p| max(p.x.abs(), p.y.abs()));
+    reach.fold(0.0, max)
 }
 
 /// The last line of the last layer that has several, or one.
@@ -192,10 +193,8 @@ pub(in super::super) fn segments_blended(scene: &mut Scene, _: &mut Surface) -> 
         let split = |feature: &Feature| -> Vec<Feature> {
             let Shape::Line(parts) = &feature.shape else { return vec![feature.clone()] };
             let segments = parts.iter().flat_map(|part| part.windows(2));
-            let alone = |segment: &[Plan]| Feature {
-                shape: Shape::Line(vec![segment.to_vec()]),
-                ..feature.clone()
-            };
+            let alone =
+                |segment: &[Plan]| Feature { shape: Shape::Line(vec![segment.to_vec()]), ..feature.clone() };
             segments.map(alone).collect()
         };
         layer.features = layer.features.iter().flat_map(split).collect();
@@ -206,7 +205,8 @@ pub(in super::super) fn segments_blended(scene: &mut Scene, _: &mut Surface) -> 
 /// Every feature twice.
 pub(in super::super) fn features_twice(scene: &mut Scene, _: &mut Surface) -> bool {
     for layer in &mut scene.layers {
-        layer.features = layer.features.iter().flat_map(|feature| [feature.clone(), feature.clone()]).collect();
+        layer.features =
+            layer.features.iter().flat_map(|feature| [feature.clone(), feature.clone()]).collect();
     }
     true
 }
@@ -229,7 +229,7 @@ pub(in super::super) fn origin_in_single_precision(scene: &mut Scene, _: &mut Su
     let origin = scene.origin;
     let single = |v: f64, origin: f64| f64::from((v + origin) as f32) - origin;
     each_vertex(scene, |p| Plan::new(single(p.x, origin.x), single(p.y, origin.y)))
-        && origin.x.abs().max(origin.y.abs()) > 1e5
+        && max(origin.x.abs(), origin.y.abs()) > 1e5
 }
 
 /// The whole data lie a hundredth of their extent too far east.

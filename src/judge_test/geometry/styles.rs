@@ -19,7 +19,8 @@ fn each_stroke(scene: &mut Scene, edit: impl Fn(&mut Line) -> bool) -> bool {
 fn each_color(scene: &mut Scene, edit: impl Fn(Color) -> Color) -> bool {
     each_style(scene, |style| {
         let outline = style.outline.as_mut().map(|outline| &mut outline.line.color);
-        let [line, point] = [&mut style.line, &mut style.point].map(|line| line.as_mut().map(|l| &mut l.color));
+        let [line, point] =
+            [&mut style.line, &mut style.point].map(|line| line.as_mut().map(|l| &mut l.color));
         let fill = style.fill.as_mut().map(|fill| &mut fill.color);
         let colors = [fill, outline, line, point].into_iter().flatten();
         colors.fold(false, |any, color| {

@@ -173,7 +173,8 @@ pub(in super::super) fn shade_missing(scene: &mut Scene, _: &mut Surface) -> boo
 
 /// The light a few degrees beside where it is.
 pub(in super::super) fn light_beside(scene: &mut Scene, _: &mut Surface) -> bool {
-    scene.ground.light = scene.ground.light.map(|light| Light { azimuth_deg: light.azimuth_deg + 5.0, ..light });
+    scene.ground.light =
+        scene.ground.light.map(|light| Light { azimuth_deg: light.azimuth_deg + 5.0, ..light });
     scene.ground.light.is_some()
 }
 
