@@ -74,7 +74,7 @@ fn a_program_that_fails_hangs_or_draws_nothing_is_told() {
     };
     let failed = said("echo no such device >&2; false", &[]);
     assert!(failed.contains("no such device") && failed.contains("status: 1"), "{failed}");
-    let hangs = said("sleep 600", &["--timeout", "0.3"]);
+    let hangs = said("sleep 600; true", &["--timeout", "0.3"]);
     assert!(hangs.contains("did not end in 0.3 s") && hangs.contains("--timeout"), "{hangs}");
     let nothing = said("true", &[]);
     assert!(nothing.contains("stencil-volume.png"), "{nothing}");

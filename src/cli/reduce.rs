@@ -11,8 +11,9 @@ use drapery::measure::Watch;
 use drapery::output::write_whole;
 use drapery::reduce::{Draft, Failing, reduce};
 use drapery::scene_file::SceneText;
+use drapery::source::load;
 use drapery::technique::Kind;
-use drapery::{Error, Opened, Result, parallel};
+use drapery::{Error, Result, parallel};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -67,8 +68,9 @@ fn seconds(text: &str) -> std::result::Result<f64, String> {
 
 pub(super) fn run(arguments: &Arguments) -> Outcome {
     let (text, kind) = input(arguments)?;
-    let scene = Opened::load(text, &|_| {})?;
-    let draft = Draft::of(&scene.text, &scene.stage.scene)?;
+    // Not opened: of a stage the layers have no features any more.
+    let (scene, _) = load::load(&text.file, &|_| {})?;
+    let draft = Draft::of(&text, &scene)?;
     let (features, vertices) = (draft.features(), draft.vertices());
     let client = Client::new(&arguments.with, kind, Duration::from_secs_f64(arguments.timeout))?;
     let bar = Bar::new();

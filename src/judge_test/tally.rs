@@ -1,8 +1,7 @@
 //! What was said, counted; and whether that is good enough.
 
-use super::bugs::{CLASSES, Class};
+use super::bugs::{self, Bug, CLASSES, Class};
 use super::contrast;
-use super::judging::Judgement;
 use super::trial::{Shown, Trial};
 use crate::technique::Kind;
 use serde::Serialize;
@@ -43,16 +42,10 @@ impl Counts {
     fn of<'s>(shown: impl Iterator<Item = &'s Shown>) -> Self {
         let mut counts = Self::default();
         for of in shown {
-            match of.said {
-                None => counts.equivalent += 1,
-                Some(said) => {
-                    counts.changed += 1;
-                    match said {
-                        Judgement::Fail => counts.caught += 1,
-                        Judgement::Pass => counts.missed += 1,
-                    }
-                }
-            }
+            counts.equivalent += usize::from(of.failing.is_none());
+            counts.changed += usize::from(of.failing.is_some());
+            counts.missed += usize::from(of.failing == Some(0));
+            counts.caught += usize::from(of.failing.is_some_and(|pixels| pixels > 0));
         }
         counts
     }
@@ -78,7 +71,7 @@ impl Trial {
         let variants = self.shown.iter().filter(|shown| shown.bug.is_none());
         let variants = variants.filter(|shown| kind.is_none_or(|kind| kind == shown.kind));
         variants.fold((0, 0), |(all, passed), shown| {
-            (all + 1, passed + usize::from(shown.said != Some(Judgement::Fail)))
+            (all + 1, passed + usize::from(shown.failing == Some(0)))
         })
     }
 
@@ -99,7 +92,7 @@ impl Trial {
             if all == 0 { 1.0 } else { f64::from(so as u32) / f64::from(all) }
         };
         let of = |(k, name): (usize, &&'static str)| {
-            let bugs = self.shown.iter().filter(|shown| shown.bug.is_some() && shown.said.is_some());
+            let bugs = self.shown.iter().filter(|shown| shown.bug.is_some() && shown.failing.is_some());
             let variants = self.shown.iter().filter(|shown| shown.bug.is_none());
             (*name, share(&mut { bugs }, k, false), share(&mut { variants }, k, true))
         };
@@ -114,9 +107,19 @@ impl Trial {
     /// Bugs that were let pass, and variants that were not.
     pub(super) fn wrong(&self) -> impl Iterator<Item = &Shown> {
         self.shown.iter().filter(|shown| match shown.bug {
-            Some(_) => shown.said == Some(Judgement::Pass),
-            None => shown.said == Some(Judgement::Fail),
+            Some(_) => shown.failing == Some(0),
+            None => shown.failing != Some(0),
         })
+    }
+
+    /// Bugs of the judged techniques that change no picture: they test nothing.
+    pub(super) fn idle(&self) -> Vec<&'static str> {
+        let judged = self.judged();
+        let asked = bugs::all().into_iter().filter(|bug| judged.iter().any(|kind| bug.can_be_of(*kind)));
+        let changes = |bug: &&&Bug| {
+            self.shown.iter().any(|shown| shown.bug.is_some() && shown.failing.is_some() && shown.name == bug.name)
+        };
+        asked.filter(|bug| !changes(&bug)).map(|bug| bug.name).collect()
     }
 
     /// The goals that are missed, each in a sentence; none: the judge can be trusted.

@@ -17,6 +17,7 @@ struct Told<'t> {
     comparators: Vec<Comparator>,
     without_model: Vec<WithoutModel<'t>>,
     wrong: Vec<Wrong<'t>>,
+    idle: Vec<&'static str>,
     faults: Vec<String>,
     loose: Vec<String>,
 }
@@ -56,6 +57,19 @@ struct Wrong<'t> {
     scene: &'t str,
     name: &'t str,
     is_bug: bool,
+    failing: usize,
+}
+
+impl<'t> Wrong<'t> {
+    fn of(shown: &'t Shown) -> Self {
+        Self {
+            technique: shown.kind.name(),
+            scene: shown.scene,
+            name: &shown.name,
+            is_bug: shown.bug.is_some(),
+            failing: shown.failing.unwrap_or(0),
+        }
+    }
 }
 
 impl Trial {
@@ -95,11 +109,19 @@ impl Trial {
             text += &format!("not judged: {}: {}\n", of.technique, of.reason);
         }
         for of in told.wrong.iter().take(NAMED) {
-            let what = if of.is_bug { "missed" } else { "failed though right" };
-            text += &format!("{what}: {}, {}: {}\n", of.technique, of.scene, of.name);
+            text += &match of.is_bug {
+                true => format!("missed: {}, {}: {}\n", of.technique, of.scene, of.name),
+                false => format!(
+                    "failed though right: {}, {}: {}: {} pixels\n",
+                    of.technique, of.scene, of.name, of.failing
+                ),
+            };
         }
         if told.wrong.len() > NAMED {
             text += &format!("... and {} more\n", told.wrong.len() - NAMED);
+        }
+        if !told.idle.is_empty() {
+            text += &format!("bugs without effect anywhere: {}\n", told.idle.join(", "));
         }
         told.loose.iter().for_each(|line| text += &format!("loose: {line}\n"));
         told.faults.iter().for_each(|line| text += &format!("FAIL: {line}\n"));
@@ -120,12 +142,6 @@ impl Trial {
     }
 
     fn told(&self) -> Told<'_> {
-        let wrong = |shown: &Shown| Wrong {
-            technique: shown.kind.name(),
-            scene: shown.scene,
-            name: "",
-            is_bug: shown.bug.is_some(),
-        };
         Told {
             schema: 1,
             techniques: self.judged().into_iter().map(|kind| self.of(kind.name(), Some(kind))).collect(),
@@ -140,7 +156,8 @@ impl Trial {
                 .iter()
                 .map(|(kind, reason)| WithoutModel { technique: kind.name(), reason })
                 .collect(),
-            wrong: self.wrong().map(|shown| Wrong { name: &shown.name, ..wrong(shown) }).collect(),
+            wrong: self.wrong().map(Wrong::of).collect(),
+            idle: self.idle(),
             faults: self.faults(),
             loose: self.loose(),
         }

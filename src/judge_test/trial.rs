@@ -4,7 +4,7 @@ use super::bugs::{self, Bug};
 use super::contrast;
 use super::drawing::Subject;
 use super::edit::Picture;
-use super::judging::{Judgement, everything, judge, wide};
+use super::judging::{everything, judge, wide};
 use super::scenes::{SCENES, SmallScene};
 use super::variants::{MACHINES, Machine, VARIANTS, Variant};
 use crate::allowed::allowed;
@@ -61,8 +61,8 @@ pub(super) struct Shown {
     pub(super) name: String,
     /// `None`: a legitimate variant.
     pub(super) bug: Option<bugs::Class>,
-    /// `None`: the right picture, bit for bit (of bugs; a variant is judged nevertheless).
-    pub(super) said: Option<Judgement>,
+    /// How many pixels the judge fails; `None`: it is the right picture, bit for bit (of bugs; a variant is judged nevertheless).
+    pub(super) failing: Option<usize>,
     /// Which of the usual comparators let it pass.
     pub(super) contrast: [bool; 4],
 }
@@ -163,8 +163,8 @@ impl Trier<'_> {
 
     fn shown(&self, name: String, bug: Option<bugs::Class>, picture: &Picture) -> Result<Shown> {
         let is_right = picture.values() == self.right.values();
-        let said = if bug.is_some() && is_right { None } else { Some(judge(self.allowed, picture)?) };
+        let failing = if bug.is_some() && is_right { None } else { Some(judge(self.allowed, picture)?) };
         let contrast = if is_right { [true; 4] } else { contrast::passed(self.right, picture) };
-        Ok(Shown { kind: self.subject.kind, scene: self.scene, name, bug, said, contrast })
+        Ok(Shown { kind: self.subject.kind, scene: self.scene, name, bug, failing, contrast })
     }
 }

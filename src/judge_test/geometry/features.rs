@@ -85,7 +85,7 @@ pub(in super::super) fn layers_reversed(scene: &mut Scene, _: &mut Surface) -> b
     scene.layers.len() > 1
 }
 
-/// The middle vertex of a line lies a hundredth of the data's extent elsewhere.
+/// The middle vertex of a line lies a fiftieth of the data's extent elsewhere.
 pub(in super::super) fn line_vertex_moved(scene: &mut Scene, _: &mut Surface) -> bool {
     vertex_moved(scene, |shape| matches!(shape, Shape::Line(_)))
 }
@@ -96,7 +96,7 @@ pub(in super::super) fn corner_moved(scene: &mut Scene, _: &mut Surface) -> bool
 }
 
 fn vertex_moved(scene: &mut Scene, is_it: impl Fn(&Shape) -> bool) -> bool {
-    let by = DVec2::splat(extent(scene) / 100.0);
+    let by = DVec2::splat(extent(scene) / 50.0);
     first_feature(scene, |feature| {
         if !is_it(&feature.shape) {
             return false;
