@@ -12,7 +12,6 @@ mod envelope;
 mod inverse_projection;
 mod geometry_overlay;
 mod model;
-mod outside;
 mod picture;
 mod pixel;
 mod sampled;
@@ -22,7 +21,6 @@ mod stencil_volume;
 mod surface;
 
 pub use envelope::Envelope;
-pub use outside::outside;
 
 use crate::compare::Allowed;
 use crate::error::{Error, Result};

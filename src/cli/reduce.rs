@@ -7,6 +7,7 @@ use super::bar::Bar;
 use super::print::print;
 use super::stop::{Outcome, Status, Stop};
 use client::{Client, Drawing};
+use drapery::compare::Judge;
 use drapery::measure::Watch;
 use drapery::output::write_whole;
 use drapery::reduce::{Draft, Failing, reduce};
@@ -15,7 +16,7 @@ use drapery::source::load;
 use drapery::technique::Kind;
 use drapery::{Error, Result, parallel};
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Duration;
 
 const EXAMPLES: &str = "\
@@ -135,20 +136,12 @@ fn input(arguments: &Arguments) -> Result<(SceneText, Kind)> {
     if !scene.is_file() {
         return Err(Error::new("this bundle has no scene.toml").in_file(input).help("name the scene file"));
     }
-    let kind = technique.map_or_else(|| of_bundle(input), Ok)?;
+    let of_bundle = || {
+        let judge = Judge::read(input)?;
+        self::technique(judge.technique()).map_err(|what| Error::new(what).in_file(input))
+    };
+    let kind = technique.map_or_else(of_bundle, Ok)?;
     Ok((SceneText::read(&scene, &[])?, kind))
-}
-
-/// The technique that a bundle is for.
-fn of_bundle(folder: &Path) -> Result<Kind> {
-    let path = folder.join("parameters.json");
-    let refuse = |what: &str| Error::new(what.to_owned()).in_file(&path);
-    let text = std::fs::read_to_string(&path)
-        .map_err(|error| Error::io("this part of the bundle cannot be read", error).in_file(&path))?;
-    let parameters: serde_json::Value =
-        serde_json::from_str(&text).map_err(|error| refuse("this is no JSON").caused_by(error))?;
-    let name = parameters.get("technique").and_then(serde_json::Value::as_str);
-    technique(name.unwrap_or_default()).map_err(|what| refuse(&what))
 }
 
 #[cfg(test)]

@@ -1,16 +1,28 @@
 //! The judge, as the judge's test asks it.
 
 use super::edit::Picture;
-use crate::allowed::outside;
-use crate::compare::{Allowed, Hypothesis, Image};
+use crate::compare::{Allowed, Gates, Hypothesis, Image, Judgement, Ruling, Submitted};
 use crate::error::Result;
+use std::path::PathBuf;
 
-/// How many pixels of a picture the judge fails; none: it is right.
+/// What the judge says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Said {
+    /// Its verdict.
+    pub(super) ruling: Ruling,
+    /// How many pixels lie outside of what is allowed.
+    pub(super) failing: usize,
+}
+
+/// Judges a picture.
 ///
 /// # Errors
 /// When it has no pixels.
-pub(super) fn judge(allowed: &Allowed, picture: &Picture) -> Result<usize> {
-    Ok(outside(allowed, &Image::from_rgba8(picture)?).len())
+pub(super) fn judge(allowed: &Allowed, picture: &Picture) -> Result<Said> {
+    let frame = Submitted::picture(Image::from_rgba8(picture)?, PathBuf::new());
+    let judgement = Judgement::on(allowed, &frame, Gates::default());
+    let failing = judgement.outcome.as_ref().map_or(picture.values().len(), |fitted| fitted.metrics.failing);
+    Ok(Said { ruling: judgement.ruling(), failing })
 }
 
 /// What a judge allows who looks at nothing.

@@ -3,6 +3,7 @@
 use super::bugs::{self, Bug, CLASSES, Class};
 use super::contrast;
 use super::trial::{Shown, Trial};
+use crate::compare::Ruling;
 use crate::technique::Kind;
 use serde::Serialize;
 
@@ -23,6 +24,8 @@ pub struct Counts {
     pub equivalent: usize,
     /// That the judge failed.
     pub caught: usize,
+    /// That it let pass with a doubt: all that is open was decided one way.
+    pub weak: usize,
     /// That it let pass.
     pub missed: usize,
 }
@@ -42,10 +45,16 @@ impl Counts {
     fn of<'s>(shown: impl Iterator<Item = &'s Shown>) -> Self {
         let mut counts = Self::default();
         for of in shown {
-            counts.equivalent += usize::from(of.failing.is_none());
-            counts.changed += usize::from(of.failing.is_some());
-            counts.missed += usize::from(of.failing == Some(0));
-            counts.caught += usize::from(of.failing.is_some_and(|pixels| pixels > 0));
+            let Some(said) = of.said else {
+                counts.equivalent += 1;
+                continue;
+            };
+            counts.changed += 1;
+            match said.ruling {
+                Ruling::Fail => counts.caught += 1,
+                Ruling::Weak => counts.weak += 1,
+                Ruling::Pass => counts.missed += 1,
+            }
         }
         counts
     }
@@ -71,7 +80,7 @@ impl Trial {
         let variants = self.shown.iter().filter(|shown| shown.bug.is_none());
         let variants = variants.filter(|shown| kind.is_none_or(|kind| kind == shown.kind));
         variants.fold((0, 0), |(all, passed), shown| {
-            (all + 1, passed + usize::from(shown.failing == Some(0)))
+            (all + 1, passed + usize::from(shown.ruling() != Some(Ruling::Fail)))
         })
     }
 
@@ -92,7 +101,7 @@ impl Trial {
             if all == 0 { 1.0 } else { f64::from(so as u32) / f64::from(all) }
         };
         let of = |(k, name): (usize, &&'static str)| {
-            let bugs = self.shown.iter().filter(|shown| shown.bug.is_some() && shown.failing.is_some());
+            let bugs = self.shown.iter().filter(|shown| shown.bug.is_some() && shown.said.is_some());
             let variants = self.shown.iter().filter(|shown| shown.bug.is_none());
             (*name, share(&mut { bugs }, k, false), share(&mut { variants }, k, true))
         };
@@ -107,8 +116,8 @@ impl Trial {
     /// Bugs that were let pass, and variants that were not.
     pub(super) fn wrong(&self) -> impl Iterator<Item = &Shown> {
         self.shown.iter().filter(|shown| match shown.bug {
-            Some(_) => shown.failing == Some(0),
-            None => shown.failing != Some(0),
+            Some(_) => matches!(shown.ruling(), Some(Ruling::Pass | Ruling::Weak)),
+            None => shown.ruling() == Some(Ruling::Fail),
         })
     }
 
@@ -117,7 +126,9 @@ impl Trial {
         let judged = self.judged();
         let asked = bugs::all().into_iter().filter(|bug| judged.iter().any(|kind| bug.can_be_of(*kind)));
         let changes = |bug: &&&Bug| {
-            self.shown.iter().any(|shown| shown.bug.is_some() && shown.failing.is_some() && shown.name == bug.name)
+            self.shown
+                .iter()
+                .any(|shown| shown.bug.is_some() && shown.said.is_some() && shown.name == bug.name)
         };
         asked.filter(|bug| !changes(&bug)).map(|bug| bug.name).collect()
     }

@@ -67,7 +67,7 @@ impl<'t> Wrong<'t> {
             scene: shown.scene,
             name: &shown.name,
             is_bug: shown.bug.is_some(),
-            failing: shown.failing.unwrap_or(0),
+            failing: shown.said.map_or(0, |said| said.failing),
         }
     }
 }
@@ -77,7 +77,7 @@ impl Trial {
     pub fn text(&self) -> String {
         let told = self.told();
         let mut text = String::from(
-            "technique           class        bugs  caught  missed  no change   caught   right    passed  wide, mean  worst\n",
+            "technique           class        bugs  caught  weak  missed  no change   caught   right    passed  wide, mean  worst\n",
         );
         let wide = |of: &Option<Tightness>| {
             of.map_or(String::new(), |of| {
@@ -180,9 +180,10 @@ impl Trial {
 
 fn row(of: &Counts) -> String {
     format!(
-        "{:>6}{:>8}{:>8}{:>11}  {:>7.2} %",
+        "{:>6}{:>8}{:>6}{:>8}{:>11}  {:>7.2} %",
         of.changed,
         of.caught,
+        of.weak,
         of.missed,
         of.equivalent,
         of.sensitivity() * 100.0

@@ -4,11 +4,11 @@ use super::bugs::{self, Bug};
 use super::contrast;
 use super::drawing::Subject;
 use super::edit::Picture;
-use super::judging::{everything, judge, wide};
+use super::judging::{Said, everything, judge, wide};
 use super::scenes::{SCENES, SmallScene};
 use super::variants::{MACHINES, Machine, VARIANTS, Variant};
 use crate::allowed::allowed;
-use crate::compare::Allowed;
+use crate::compare::{Allowed, Ruling};
 use crate::error::{Error, ErrorKind, Result};
 use crate::parallel;
 use crate::scene_file::SceneText;
@@ -61,10 +61,17 @@ pub(super) struct Shown {
     pub(super) name: String,
     /// `None`: a legitimate variant.
     pub(super) bug: Option<bugs::Class>,
-    /// How many pixels the judge fails; `None`: it is the right picture, bit for bit (of bugs; a variant is judged nevertheless).
-    pub(super) failing: Option<usize>,
+    /// What the judge says; `None`: it is the right picture, bit for bit (of bugs; a variant is judged nevertheless).
+    pub(super) said: Option<Said>,
     /// Which of the usual comparators let it pass.
     pub(super) contrast: [bool; 4],
+}
+
+impl Shown {
+    /// The verdict.
+    pub(super) fn ruling(&self) -> Option<Ruling> {
+        self.said.map(|said| said.ruling)
+    }
 }
 
 /// Shows the corpus to the judge. `progress` is told the share that is done (0..=1), from any thread.
@@ -163,8 +170,8 @@ impl Trier<'_> {
 
     fn shown(&self, name: String, bug: Option<bugs::Class>, picture: &Picture) -> Result<Shown> {
         let is_right = picture.values() == self.right.values();
-        let failing = if bug.is_some() && is_right { None } else { Some(judge(self.allowed, picture)?) };
+        let said = if bug.is_some() && is_right { None } else { Some(judge(self.allowed, picture)?) };
         let contrast = if is_right { [true; 4] } else { contrast::passed(self.right, picture) };
-        Ok(Shown { kind: self.subject.kind, scene: self.scene, name, bug, failing, contrast })
+        Ok(Shown { kind: self.subject.kind, scene: self.scene, name, bug, said, contrast })
     }
 }

@@ -1,8 +1,7 @@
 //! The program that draws bundles, and what the judge says of it.
 
 use super::folder::Folder;
-use drapery::allowed::{allowed, outside};
-use drapery::compare::Image;
+use drapery::compare::{Gates, Judge, Judgement, Submitted};
 use drapery::output::Batch;
 use drapery::reduce::{Draft, Failing};
 use drapery::technique::Kind;
@@ -58,11 +57,6 @@ impl Client {
     /// When bundles cannot be written, or the shell cannot be called.
     pub(super) fn drawn(&self, draft: &Draft) -> Result<Drawing> {
         let Ok(scene) = Opened::parse(&draft.text()) else { return Ok(Drawing::Judged(None)) };
-        let Ok(view) = scene.view() else { return Ok(Drawing::Judged(None)) };
-        let allowed = match allowed(self.kind, (&scene.stage, &view), &|_| {}) {
-            Ok(allowed) => allowed,
-            Err(error) => return Ok(Drawing::Broken(error)),
-        };
         let (bundle, frames) = (self.place.empty("bundle")?, self.place.empty("frames")?);
         let mut batch = Batch::into(&bundle)?;
         let text = draft.text();
@@ -75,11 +69,11 @@ impl Client {
         if let Err(error) = self.called(&bundle, &frames) {
             return Ok(Drawing::Broken(error));
         }
-        let frame = frames.join(format!("{}.png", self.kind.name()));
-        Ok(match Image::read(&frame) {
-            Ok(picture) => Drawing::Judged(failing(&outside(&allowed, &picture), allowed.width)),
-            Err(error) => Drawing::Broken(error.help("the command has to leave its frame there")),
-        })
+        let judged = Judge::read(&bundle).and_then(|judge| {
+            let frame = Submitted::read(&frames, judge.technique())?;
+            Ok(failing(&judge.judge(&frame, Gates::default())))
+        });
+        Ok(judged.map_or_else(Drawing::Broken, Drawing::Judged))
     }
 
     /// Calls the program.
@@ -136,27 +130,14 @@ fn stop(child: &mut Child) -> std::io::Result<()> {
     child.wait().map(drop)
 }
 
-/// How many pixels are wrong, and around which of them most are; `None`: none is.
-fn failing(wrong: &[usize], width: usize) -> Option<Failing> {
-    const REACH: usize = 8;
-    let near = |a: usize, b: usize| {
-        (a % width).abs_diff(b % width) <= REACH && (a / width).abs_diff(b / width) <= REACH
-    };
-    // Some of them tell as much as all of many.
-    let step = wrong.len().div_ceil(500).max(1);
-    let around = |a: usize| wrong.iter().step_by(step).filter(|b| near(a, **b)).count();
-    let middle = wrong.iter().step_by(step).copied().max_by_key(|a| (around(*a), std::cmp::Reverse(*a)))?;
-    Some(Failing { pixels: wrong.len(), at: [middle % width, middle / width] })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn most_wrong_pixels_are_around_the_middle_that_is_told() {
-        let wrong = [3, 500, 501, 520, 521];
-        assert_eq!(failing(&wrong, 20), Some(Failing { pixels: 5, at: [0, 25] }));
-        assert_eq!(failing(&[], 20), None);
+/// How many pixels are wrong, and around which of them most are; `None`: the frame passed.
+fn failing(judgement: &Judgement) -> Option<Failing> {
+    if judgement.passed() {
+        return None;
     }
+    // A picture that cannot be measured is wrong everywhere.
+    let metrics = judgement.outcome.as_ref().ok().map(|fitted| &fitted.metrics);
+    let window = metrics.and_then(|metrics| metrics.densest);
+    let at = window.map_or([0, 0], |window| [window.x + window.width / 2, window.y + window.height / 2]);
+    Some(Failing { pixels: metrics.map_or(0, |metrics| metrics.failing), at })
 }
