@@ -30,7 +30,7 @@ fill = { color = "#225522" }
 
 /// A program that draws a bundle's scene with a change.
 fn client(change: &str) -> String {
-    format!("'{DRAPERY}' render {{}}/scene.toml -t stencil-volume --set '{change}' -o {{out}}")
+    format!("'{DRAPERY}' render {{}}/scene.inline.toml -t stencil-volume --set '{change}' -o {{out}}")
 }
 
 fn reduce(folder: &Path, with: &str, more: &[&str]) -> Output {
@@ -94,5 +94,5 @@ fn a_scene_file_needs_a_technique_and_a_bundle_its_scene() {
     let (status, said) = call("scene.toml");
     assert!(status == Some(2) && said.contains("-t clipmap"), "{said}");
     let (status, said) = call("bundle");
-    assert!(status == Some(2) && said.contains("scene.toml"), "{said}");
+    assert!(status == Some(2) && said.contains("scene.inline.toml"), "{said}");
 }

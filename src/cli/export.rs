@@ -1,6 +1,7 @@
 //! `drapery export [SCENE]`, `drapery export --conformance`
 
 use super::bar::Bar;
+use super::reduce::SCENE;
 use super::render::techniques::{self, Name};
 use super::scene_input;
 use super::stop::{Outcome, Status};
@@ -9,6 +10,8 @@ use drapery::export::{Bundle, Conformance};
 use drapery::measure::Watch;
 use drapery::output::Batch;
 use drapery::scene_file::Override;
+use drapery::reduce::Draft;
+use drapery::scene_file::SceneText;
 use drapery::source::load;
 use drapery::technique::Kind;
 use drapery::truth::Budget;
@@ -82,17 +85,31 @@ fn conformance(arguments: &Arguments, technique: Option<Kind>, budget: Budget) -
 /// Writes a scene's bundle.
 fn bundle(arguments: &Arguments, technique: Kind, budget: Budget) -> Outcome {
     let text = scene_input::read(arguments.scene.as_deref(), &arguments.overrides)?;
-    let batch = Batch::into(&arguments.output)?;
+    let mut batch = Batch::into(&arguments.output)?;
     let bar = Bar::new();
     let export = || {
         let scene = scene_input::open(&text, &bar)?;
         let attributes = load::attributes(&text.file, &|told| bar.note(told));
         let hash = &text.file.hash;
         let stage = &scene.stage;
+        stage_scene_file(&text, &mut batch, &bar)?;
         Bundle { stage, hash, attributes: &attributes, technique, budget }.write(batch, &bar)
     };
     let done = parallel::with_threads(arguments.threads, export)?;
     done.map_err(|error| scene_input::blame(&text, error))?;
     bar.say(&format!("what is where: {}", arguments.output.join("README.md").display()));
     Ok(Status::Passed)
+}
+
+/// Writes the scene file with all features in it, for `drapery reduce`; where there can be none, that is noted.
+fn stage_scene_file(text: &SceneText, batch: &mut Batch, bar: &Bar) -> Result<()> {
+    // Loaded once more: of a stage the layers have no features any more.
+    let (scene, _) = load::load(&text.file, &|_| {})?;
+    match Draft::of(text, &scene) {
+        Ok(draft) => batch.stage(SCENE, |to| to.write_all(draft.text().as_bytes())),
+        Err(error) => {
+            bar.note(&format!("the bundle has no {SCENE}: {}", error.what()));
+            Ok(())
+        }
+    }
 }

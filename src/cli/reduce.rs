@@ -30,6 +30,9 @@ the bundle's scene and leaves TECHNIQUE.png there.
 Exit status: 0 the smallest scene that fails was written, 1 what CMD draws of the scene is right, 2 the call is wrong, or CMD fails or does \
 not end.";
 
+/// A bundle's scene file with all features in it.
+pub(super) const SCENE: &str = "scene.inline.toml";
+
 #[derive(Debug, clap::Args)]
 #[command(after_long_help = EXAMPLES)]
 pub(super) struct Arguments {
@@ -132,9 +135,11 @@ fn input(arguments: &Arguments) -> Result<(SceneText, Kind)> {
         })?;
         return Ok((SceneText::read(input, &[])?, kind));
     }
-    let scene = input.join("scene.toml");
+    let scene = input.join(SCENE);
     if !scene.is_file() {
-        return Err(Error::new("this bundle has no scene.toml").in_file(input).help("name the scene file"));
+        return Err(Error::new(format!("this bundle has no {SCENE}"))
+            .in_file(input)
+            .help("name the scene file"));
     }
     let of_bundle = || {
         let judge = Judge::read(input)?;

@@ -40,15 +40,14 @@ impl Draft {
     /// Of a scene file and what was loaded of it.
     ///
     /// # Errors
-    /// On a globe; when its text is no TOML.
+    /// On a globe.
     pub fn of(text: &SceneText, scene: &Scene) -> Result<Self> {
         if scene.globe.is_some() {
             return Err(Error::unsupported("a scene on a globe cannot be reduced")
                 .help("reduce one over a plane, or leave things out by hand"));
         }
-        let written: Table = toml::from_str(text.text())
-            .map_err(|error| Error::new("the scene's text is no TOML").caused_by(error))?;
-        let mut head: Table = written.into_iter().filter(|(key, _)| KEPT.contains(&key.as_str())).collect();
+        let mut head: Table =
+            text.table()?.into_iter().filter(|(key, _)| KEPT.contains(&key.as_str())).collect();
         let folder = text.file.path.as_deref().and_then(Path::parent);
         if let (Some(Value::Table(terrain)), Some(folder)) = (head.get_mut("terrain"), folder) {
             for key in ["source", "imagery"] {

@@ -60,7 +60,7 @@ impl Client {
         let (bundle, frames) = (self.place.empty("bundle")?, self.place.empty("frames")?);
         let mut batch = Batch::into(&bundle)?;
         let text = draft.text();
-        batch.stage("scene.toml", |to| to.write_all(text.as_bytes()))?;
+        batch.stage(super::SCENE, |to| to.write_all(text.as_bytes()))?;
         let made =
             Bundle { budget: BUDGET, hash: &scene.text.file.hash, ..Bundle::of(&scene.stage, self.kind) };
         if let Err(error) = made.write(batch, &drapery::measure::Unwatched) {
