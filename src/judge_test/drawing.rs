@@ -1,7 +1,7 @@
 //! Scenes drawn with edits.
 
 use super::edit::{Change, Edit, Picture};
-use super::picture;
+use super::{picture, target};
 use crate::buffer::Buffer;
 use crate::error::Result;
 use crate::math;
@@ -51,6 +51,11 @@ impl Subject<'_> {
             Edit::Tile(of) => {
                 let other = self.edited(of, right)?;
                 Ok(other.and_then(|other| picture::most_changed_tile(right, &other)))
+            }
+            Edit::Target => {
+                let (scene, surface) = self.loaded(&[])?;
+                let draw = |scene| draw(self.kind, &Stage::new(scene, surface.clone())?, None);
+                target::blended(&scene, &draw)
             }
             Edit::Tiles(side) => draw(self.kind, &self.stage()?, Some(side)).map(Some),
         }

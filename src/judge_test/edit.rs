@@ -22,6 +22,8 @@ pub(super) enum Edit {
     Picture(fn(&Picture) -> Picture),
     /// As by another edit, but only in the tile (8 x 8 pixels) where that changes most.
     Tile(&'static Edit),
+    /// Items are blended into a target of 8-bit codes, one by one.
+    Target,
     /// The same picture in tiles of another size.
     Tiles(usize),
 }

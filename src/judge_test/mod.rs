@@ -18,6 +18,7 @@ mod judging;
 mod picture;
 mod scenes;
 mod tally;
+mod target;
 mod told;
 mod trial;
 mod variants;

@@ -1,6 +1,6 @@
 //! What other right programs draw: machines within the envelope of a scene's device, and the same scene written otherwise.
 
-use super::edit::Edit::{self, Scene, Tiles};
+use super::edit::Edit::{self, Scene, Target, Tiles};
 use super::geometry as g;
 use crate::scene::{DepthFormat, Device};
 use crate::technique::Kind;
@@ -9,7 +9,7 @@ use crate::technique::Kind;
 pub(super) struct Variant {
     /// Its name.
     pub(super) name: &'static str,
-    /// Techniques that it is another picture of; none: of all.
+    /// Techniques of which it is no right picture.
     pub(super) not: &'static [Kind],
     /// What is otherwise; `None`: the machine alone.
     pub(super) edit: Option<Edit>,
@@ -80,9 +80,14 @@ impl Machine {
 /// Lines of the screen begin and end at vertices: other vertices are other lines.
 const SCREEN_LINES: &[Kind] = &[Kind::GeometryOverlay];
 
+/// All but stencil volumes compose in a shader.
+const SHADERS: &[Kind] =
+    &[Kind::Clipmap, Kind::InverseProjection, Kind::StaticDecal, Kind::DynamicLine, Kind::GeometryOverlay];
+
 /// The variants; each is drawn by the first machines ([`MACHINES`]) too.
 pub(super) const VARIANTS: &[Variant] = &[
     Variant { name: "as it is", not: &[], edit: None },
+    Variant { name: "blended into codes", not: SHADERS, edit: Some(Target) },
     Variant { name: "tiles of 32 pixels", not: &[], edit: Some(Tiles(32)) },
     Variant { name: "tiles of 48 pixels", not: &[], edit: Some(Tiles(48)) },
     Variant { name: "segments split", not: SCREEN_LINES, edit: Some(Scene(g::segments_split)) },
