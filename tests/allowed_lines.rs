@@ -47,7 +47,14 @@ fn assert_machines_are_inside(kind: Kind, name: &str, text: &str, changes: &[&st
             for pixel in strangers(last, &image).into_iter().take(6) {
                 let k = pixel as usize;
                 let codes = |of: [u16; 4]| of.map(|v| f64::from(v) / 257.0);
-                println!("    ({}, {}): {:?} {:?} {:?}", k % all.width, k / all.width, image.values()[k], codes(last.lo[k]), codes(last.hi[k]));
+                println!(
+                    "    ({}, {}): {:?} {:?} {:?}",
+                    k % all.width,
+                    k / all.width,
+                    image.values()[k],
+                    codes(last.lo[k]),
+                    codes(last.hi[k])
+                );
                 for choice in last.choices.iter().filter(|choice| choice.pixel == pixel) {
                     println!("      {:?} {:?}", codes(choice.lo), codes(choice.hi));
                 }
@@ -71,7 +78,13 @@ fn what_machines_draw_of_dynamic_lines_is_allowed() {
 /// Fills, a stroke in metres and an outline in pixels among lines, some of them of many short segments.
 fn mixed_layers() -> String {
     let zigzag: String = (0..60)
-        .map(|k| format!("[{}, {}]", -240.0 + 8.0 * f64::from(k), -40.0 + 14.0 * f64::from(k % 3) + 0.5 * f64::from(k)))
+        .map(|k| {
+            format!(
+                "[{}, {}]",
+                -240.0 + 8.0 * f64::from(k),
+                -40.0 + 14.0 * f64::from(k % 3) + 0.5 * f64::from(k)
+            )
+        })
         .collect::<Vec<_>>()
         .join(", ");
     format!(
@@ -139,7 +152,9 @@ fn what_bugs_draw_of_dynamic_lines_is_not_allowed() {
             text.replacen(from, to, 1)
         };
         assert_ne!(with, text, "{name}");
-        for (what, all, changes) in [("smoothed", &smoothed, &[][..]), ("unsmoothed", &unsmoothed, &[none][..])] {
+        for (what, all, changes) in
+            [("smoothed", &smoothed, &[][..]), ("unsmoothed", &unsmoothed, &[none][..])]
+        {
             let image = frame_of(kind, &stage(&with, changes), &[]).image;
             println!("{name}, {what}: {}", best(all, &image));
             assert!(best(all, &image) > 0, "{name}, {what}");

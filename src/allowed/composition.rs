@@ -148,9 +148,11 @@ mod tests {
         let file = crate::scene_file::SceneFile::parse(text, None, &[]).unwrap();
         let (mut scene, _) = crate::source::load::load(&file, &|_| {}).unwrap();
         scene.compositing = Compositing { space: BlendSpace::Encoded, mode: BlendMode::Over };
-        let list =
-            DrawList::new(&mut scene.layers, &PlanBox::around([crate::space::Plan::new(-40.0, -40.0), crate::space::Plan::new(40.0, 40.0)]))
-                .unwrap();
+        let list = DrawList::new(
+            &mut scene.layers,
+            &PlanBox::around([crate::space::Plan::new(-40.0, -40.0), crate::space::Plan::new(40.0, 40.0)]),
+        )
+        .unwrap();
         let composer = Composer::new(&scene, &list);
         let ground = PaintRange::exact(Paint([0.0, 0.0, 0.0, 1.0]));
         let reds = |laid: &[Laid]| -> Vec<f64> {

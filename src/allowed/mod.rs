@@ -5,12 +5,12 @@
 //! technique's own code decides: what may be seen and held within a sample's square is found with the truth's certified pieces
 //! ([`crate::truth::probe`]) over the technique's footprints. Refuses: techniques without a model.
 
+mod clipmap;
 mod composition;
 mod dynamic_line;
-mod clipmap;
 mod envelope;
-mod inverse_projection;
 mod geometry_overlay;
+mod inverse_projection;
 mod model;
 mod picture;
 mod pixel;
@@ -23,7 +23,7 @@ mod surface;
 pub use envelope::Envelope;
 
 use crate::compare::Allowed;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::scene::Device;
 use crate::space::ViewFrame;
 use crate::stage::Stage;
@@ -67,13 +67,6 @@ pub fn allowed(
                 inverse_projection::picture(&stage.scene.technique.get(), &view, guess)
             }
             Kind::Clipmap => clipmap::picture(&view, guess)?,
-            _ => {
-                return Err(Error::unsupported(format!(
-                    "nobody knows what {}'s picture may be",
-                    kind.name()
-                ))
-                .help("judge it by its picture and a tolerance"));
-            }
         };
         hypothesis.says = guess.says();
         all.hypotheses.push(hypothesis);

@@ -1,5 +1,6 @@
 //! What pixels' centres may see, before any line is drawn on the screen over it.
 
+use super::envelope::COORDINATES;
 use super::model::{Guess, View};
 use super::stages::Seen;
 use crate::buffer::Buffer;
@@ -42,7 +43,8 @@ pub(super) fn surfaces(
     let along = |depth: f64| guess.envelope.along(view.frame, depth);
     let probed = |list: &DrawList, strokes: Strokes, (from, to): (f64, f64)| -> Buffer<Sample> {
         let shift = guess.envelope.shift();
-        let of = Probe { list, strokes, spots: &[[0.5; 2]], shift, depths_of_shifts, along: &along };
+        let share = if list.items().is_empty() { 0.0 } else { COORDINATES };
+        let of = Probe { list, strokes, spots: &[[0.5; 2]], shift, depths_of_shifts, along: &along, share };
         let progress = |share: f64| (view.progress)(from + (to - from) * share);
         probe(view.stage, view.frame, &of, &|_, samples| samples[0].clone(), &progress)
     };
@@ -69,8 +71,5 @@ pub(super) fn surfaces(
     let (width, height) = (bare.width(), bare.height());
     let all = bare.values().iter().enumerate().map(of).collect();
     let seen = bare.values().iter().map(|sample| Seen::of(sample, &along)).collect();
-    Surfaces {
-        of: Buffer::from_values(width, height, all),
-        seen: Buffer::from_values(width, height, seen),
-    }
+    Surfaces { of: Buffer::from_values(width, height, all), seen: Buffer::from_values(width, height, seen) }
 }

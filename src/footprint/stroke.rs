@@ -68,11 +68,7 @@ fn half_width(line: &Line, pixel: &PixelSize) -> (f64, f64) {
 }
 
 /// How far from the bare segment all that [`primitives`] gives may lie, in each coordinate; `None`: there is nothing.
-pub(super) fn reach(
-    segment: &Segment,
-    line: &Line,
-    (pixel, strokes): (&PixelSize, Strokes),
-) -> Option<f64> {
+pub(super) fn reach(segment: &Segment, line: &Line, (pixel, strokes): (&PixelSize, Strokes)) -> Option<f64> {
     if strokes.leaves_out(line) {
         return None;
     }

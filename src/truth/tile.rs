@@ -533,12 +533,7 @@ impl<'a> Work<'a> {
     }
 
     /// What may be seen and held in the square of a pixel that was looked at last, of these facets.
-    fn outcomes(
-        &mut self,
-        pixel: [f64; 2],
-        (corner, side): ([f64; 2], f64),
-        near: &[u32],
-    ) -> Sample {
+    fn outcomes(&mut self, pixel: [f64; 2], (corner, side): ([f64; 2], f64), near: &[u32]) -> Sample {
         let hidden = self.nearly_seen([pixel[0] + corner[0], pixel[1] + corner[1]], side, near);
         let of = Pixel { setting: self.setting, rays: &self.rays, facets: &self.facets, corner: pixel };
         let mut sample = self.refinery.outcomes(&of, &mut self.pieces, &self.sight);

@@ -30,7 +30,8 @@ pub fn strangers(hypothesis: &Hypothesis, image: &Buffer<[u8; 4]>) -> Vec<u32> {
 
 /// What a stage's picture may be by a technique.
 pub fn allowed_of(kind: Kind, stage: &Stage) -> Allowed {
-    drapery::allowed::allowed(kind, (stage, &stage.view().unwrap()), &|_| {}).unwrap_or_else(|e| panic!("{e}"))
+    drapery::allowed::allowed(kind, (stage, &stage.view().unwrap()), &|_| {})
+        .unwrap_or_else(|e| panic!("{e}"))
 }
 
 /// The fewest pixels outside of any hypothesis.

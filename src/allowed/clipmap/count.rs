@@ -126,7 +126,8 @@ mod tests {
     /// The texels of a tile: least and most windings.
     fn windings(edges: &[Edge], slack: f64) -> Vec<(i32, i32)> {
         let mut all = vec![(0, 0); 64];
-        Windings::new(edges, (8, [0.5; 2]), slack).for_each(&mut |texel, least, most| all[texel] = (least, most));
+        Windings::new(edges, (8, [0.5; 2]), slack)
+            .for_each(&mut |texel, least, most| all[texel] = (least, most));
         all
     }
 
@@ -141,7 +142,10 @@ mod tests {
         let all = windings(&triangle([[1.0, 1.0], [7.0, 1.0], [1.0, 7.0]]), 0.1);
         // The diagonal runs through centres (3.5, 4.5).
         assert!(all[8 * 4 + 3].0 <= 0 && all[8 * 4 + 3].1 >= 1);
-        assert_eq!([all[8 * 4 + 2], all[8 + 1], all[8 * 6 + 6], all[8 * 3 + 3]], [(1, 1), (1, 1), (0, 0), (1, 1)]);
+        assert_eq!(
+            [all[8 * 4 + 2], all[8 + 1], all[8 * 6 + 6], all[8 * 3 + 3]],
+            [(1, 1), (1, 1), (0, 0), (1, 1)]
+        );
         let open = all.iter().filter(|(least, most)| least != most).count();
         assert_eq!(open, 6);
     }

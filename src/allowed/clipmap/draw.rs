@@ -74,10 +74,11 @@ impl Weight {
 
     /// The least and the most between two windings.
     fn between(self, least: i32, most: i32) -> [f64; 2] {
-        (least..=most.min(least.saturating_add(4096))).map(|winding| self.of(winding)).fold(
-            [f64::INFINITY, 0.0],
-            |[low, high], weight| [math::min(low, weight), math::max(high, weight)],
-        )
+        (least..=most.min(least.saturating_add(4096)))
+            .map(|winding| self.of(winding))
+            .fold([f64::INFINITY, 0.0], |[low, high], weight| {
+                [math::min(low, weight), math::max(high, weight)]
+            })
     }
 }
 
@@ -132,13 +133,7 @@ impl Drawing<'_> {
     }
 
     /// Calls `visit` with the texels that edges bound and their shares.
-    fn polygon(
-        &self,
-        edges: &[Edge],
-        slack: f64,
-        weight: Weight,
-        visit: &mut dyn FnMut(usize, [f64; 2]),
-    ) {
+    fn polygon(&self, edges: &[Edge], slack: f64, weight: Weight, visit: &mut dyn FnMut(usize, [f64; 2])) {
         if self.maker.settings.polygons == PolygonRaster::Exact {
             return self.areas(edges, slack, weight, visit);
         }
@@ -186,9 +181,8 @@ impl Drawing<'_> {
             let length: f64 = near.iter().map(|edge| edge.length_in(start, end)).sum();
             let off = length * slack * std::f64::consts::SQRT_2 + AREA;
             let found = share(&near, corner, (reference, winding), &|k| weight.of(k));
-            let shares = found.map_or([least, most], |share| {
-                [math::max(share - off, least), math::min(share + off, most)]
-            });
+            let shares = found
+                .map_or([least, most], |share| [math::max(share - off, least), math::min(share + off, most)]);
             all.insert(texel, shares);
         }
         windings.for_each(&mut |texel, winding, _| {
@@ -283,7 +277,9 @@ impl Drawing<'_> {
                         outline.ring(&ring);
                     }
                 }
-                (LinePrimitives::Coverage, false) => primitive.coverage(&mut |texel, shares| draw(texel, shares)),
+                (LinePrimitives::Coverage, false) => {
+                    primitive.coverage(&mut |texel, shares| draw(texel, shares))
+                }
                 (kind, is_once) => {
                     let mut raise = |texel: usize, [a, b]: [f64; 2]| {
                         let known = most.entry(texel).or_insert([0.0; 2]);

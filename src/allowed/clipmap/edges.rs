@@ -168,7 +168,11 @@ mod tests {
     #[test]
     fn what_two_triangles_share_is_no_border() {
         let mut outline = Outline::default();
-        outline.strip(&[[at(0.0, 0.0), at(0.0, 2.0)], [at(3.0, 0.0), at(3.0, 2.0)], [at(6.0, 1.0), at(6.0, 3.0)]], Joints::Combined, 0.01);
+        outline.strip(
+            &[[at(0.0, 0.0), at(0.0, 2.0)], [at(3.0, 0.0), at(3.0, 2.0)], [at(6.0, 1.0), at(6.0, 3.0)]],
+            Joints::Combined,
+            0.01,
+        );
         assert_eq!(outline.edges().len(), 6);
     }
 

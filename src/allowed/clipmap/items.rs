@@ -261,7 +261,8 @@ impl<'a> Items<'a> {
                 }
             });
         }
-        for chunk in chunks.iter().map(|chunk| self.chunk(*chunk)).filter(|chunk| !chunk.segments.is_empty()) {
+        for chunk in chunks.iter().map(|chunk| self.chunk(*chunk)).filter(|chunk| !chunk.segments.is_empty())
+        {
             let path = &self.list.path_of(&chunk.chain)[chunk.segments.start..=chunk.segments.end];
             path.windows(2).for_each(|pair| visit([pair[0], pair[1]]));
         }

@@ -82,7 +82,9 @@ impl Primitive {
             let (first, last) = ((start - off).floor(), (start + off).floor() + wide - 1.0);
             for n in between(first, last, 0.0, self.size) {
                 // In whichever way it is rounded.
-                let is_in = is_sure && (start + off).floor() <= n as f64 && n as f64 <= (start - off).floor() + wide - 1.0;
+                let is_in = is_sure
+                    && (start + off).floor() <= n as f64
+                    && n as f64 <= (start - off).floor() + wide - 1.0;
                 let texel = if is_flat { k + self.size * n } else { n + self.size * k };
                 visit(texel, [f64::from(u8::from(is_in)), 1.0]);
             }
@@ -123,9 +125,9 @@ const TABLE: f64 = 1.0 / 256.0;
 /// Between which x a convex ring has points in a row of texels.
 fn columns(ring: &[Texel; 4], row: f64) -> Option<(f64, f64)> {
     let edges = (0..4).map(|k| super::edges::Edge { from: ring[k], to: ring[(k + 1) % 4] });
-    edges.filter_map(|edge| edge.columns_within(row, row + 1.0)).reduce(|(west, east), (a, b)| {
-        (math::min(west, a), math::max(east, b))
-    })
+    edges
+        .filter_map(|edge| edge.columns_within(row, row + 1.0))
+        .reduce(|(west, east), (a, b)| (math::min(west, a), math::max(east, b)))
 }
 
 /// How far from a texel's centre a filter reaches.

@@ -161,6 +161,7 @@ fn sights(view: &View, guess: &Guess, mesh: &Mesh, texture: &Texture) -> Buffer<
         shift,
         depths_of_shifts: 0.0,
         along: &|_| 0.0,
+        share: 0.0,
     };
     probe(view.stage, frame, &of, &judge, &|share| (view.progress)(0.3 * share))
 }

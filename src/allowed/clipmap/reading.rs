@@ -114,7 +114,8 @@ impl Reader<'_> {
         if self.settings.filter != TextureFilter::Anisotropic {
             return vec![of(1, look.longer)];
         }
-        let count = |ratio: f64| (ratio - SAME_RATIO).ceil().clamp(1.0, f64::from(self.settings.anisotropy)) as u32;
+        let count =
+            |ratio: f64| (ratio - SAME_RATIO).ceil().clamp(1.0, f64::from(self.settings.anisotropy)) as u32;
         (count(look.ratio[0])..=count(look.ratio[1]))
             .map(|count| of(count, look.long.map(|long| long / f64::from(count))))
             .collect()
@@ -191,7 +192,12 @@ impl Reader<'_> {
 
     /// The texels that a place may read where a level is asked for: whether of this level, the level, and the first and the last. The last entry is sure if none before
     /// is.
-    fn at_hand(&self, look: &Look, (at, noise): (Texel, f64), level: u32) -> Vec<(Known, u32, [i64; 2], [i64; 2])> {
+    fn at_hand(
+        &self,
+        look: &Look,
+        (at, noise): (Texel, f64),
+        level: u32,
+    ) -> Vec<(Known, u32, [i64; 2], [i64; 2])> {
         let mut found = Vec::new();
         for level in level..=self.coarsest() {
             let place = Place::of(look, (at, noise), level, self.square_off());
@@ -241,8 +247,11 @@ impl Reader<'_> {
             self.places(look, probes.count, &mut |at, noise| {
                 for level in first..=end {
                     for (_, level, from, to) in self.at_hand(look, (at, noise), level) {
-                        let (columns, rows) = (from[0]..=to[0].min(from[0] + 3), from[1]..=to[1].min(from[1] + 3));
-                        for (column, row) in rows.flat_map(|row| columns.clone().map(move |column| (column, row))) {
+                        let (columns, rows) =
+                            (from[0]..=to[0].min(from[0] + 3), from[1]..=to[1].min(from[1] + 3));
+                        for (column, row) in
+                            rows.flat_map(|row| columns.clone().map(move |column| (column, row)))
+                        {
                             let (key, [c, r]) = self.tile_of(level, column, row);
                             let Some(tile) = tiles.get(&key) else { continue };
                             let (set, items) = tile.items_at(c, r);
@@ -260,7 +269,10 @@ impl Reader<'_> {
     fn tile_of(&self, level: u32, column: i64, row: i64) -> (Key, [usize; 2]) {
         let tile = i64::from(TILE_TEXELS);
         let (column, row) = (self.clamped(level, column), self.clamped(level, row));
-        ((level, (column / tile) as u32, (row / tile) as u32), [(column % tile) as usize, (row % tile) as usize])
+        (
+            (level, (column / tile) as u32, (row / tile) as u32),
+            [(column % tile) as usize, (row % tile) as usize],
+        )
     }
 }
 
@@ -309,9 +321,7 @@ impl Scene<'_> {
         let reader = self.reader;
         let (first, last) = reader.levels_read(probes);
         match reader.settings.filter {
-            TextureFilter::Nearest => {
-                (first..=last).flat_map(|level| self.nearest(level)).collect()
-            }
+            TextureFilter::Nearest => (first..=last).flat_map(|level| self.nearest(level)).collect(),
             TextureFilter::Bilinear => (first..=last)
                 .map(|level| self.square((self.look.at, self.look.noise), level).0.range())
                 .collect(),
@@ -414,7 +424,10 @@ impl Scene<'_> {
         let across = stops(0);
         for y in stops(1) {
             for x in &across {
-                let (column, row) = (x.floor().clamp(from[0] as f64, to[0] as f64 - 1.0), y.floor().clamp(from[1] as f64, to[1] as f64 - 1.0));
+                let (column, row) = (
+                    x.floor().clamp(from[0] as f64, to[0] as f64 - 1.0),
+                    y.floor().clamp(from[1] as f64, to[1] as f64 - 1.0),
+                );
                 let [least, most] = self.bilinear(level, [column as i64, row as i64], [x - column, y - row]);
                 for k in 0..4 {
                     low[k] = math::min(low[k], least[k]);
@@ -446,7 +459,8 @@ impl Scene<'_> {
             let mut off = 0.0;
             for end in 0..2 {
                 let [a, b, c, d] = corners.map(|corner| corner[end][k]);
-                let (east, south, bend) = ((b - a) * (1.0 - y) + (d - c) * y, (c - a) * (1.0 - x) + (d - b) * x, a + d - b - c);
+                let (east, south, bend) =
+                    ((b - a) * (1.0 - y) + (d - c) * y, (c - a) * (1.0 - x) + (d - b) * x, a + d - b - c);
                 let value = (a * (1.0 - x) + b * x) * (1.0 - y) + (c * (1.0 - x) + d * x) * y;
                 let by = place.ways.map(|way| east * way.x + south * way.y);
                 let own = (east.abs() + south.abs()) * place.off + bend.abs() * place.reach.x * place.reach.y;

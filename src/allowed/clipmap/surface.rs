@@ -4,8 +4,8 @@
 //! rounded move it along the ray; single precision moves it anywhere a little.
 
 use super::texture::Texture;
-use crate::math;
 use crate::certainty::PaintRange;
+use crate::math;
 use crate::space::{Lens, Plan, PlanBox, Screen, Texel, ViewFrame, World};
 use crate::terrain::{SurfaceTriangle, TriangleDrape};
 use glam::{DMat2, DVec2, DVec3};
@@ -85,8 +85,7 @@ impl<'a> Plane<'a> {
         let depth = self.normal.dot(self.corner - from) / self.normal.dot(along);
         let scale = if reach.is_some() { depth } else { 1.0 };
         // A step that leaves the plane is taken back along the ray.
-        let moved =
-            |step: DVec3| (step - along * (self.normal.dot(step) / self.normal.dot(along))) * scale;
+        let moved = |step: DVec3| (step - along * (self.normal.dot(step) / self.normal.dot(along))) * scale;
         let [right, down] = steps.map(|step| self.in_plan(moved(step)));
         let turns = DMat2::from_cols(right, down);
         (depth.is_finite() && turns.is_finite()).then_some((from + along * depth, along, turns))
@@ -206,7 +205,8 @@ fn turning(ratio: f64) -> f64 {
 
 /// The long axis of the ellipse that two derivatives make of a circle, and the length of the short one.
 fn axes(dx: DVec2, dy: DVec2) -> (DVec2, f64) {
-    let (east, south, both) = (dx.x * dx.x + dy.x * dy.x, dx.y * dx.y + dy.y * dy.y, dx.x * dx.y + dy.x * dy.y);
+    let (east, south, both) =
+        (dx.x * dx.x + dy.x * dy.x, dx.y * dx.y + dy.y * dy.y, dx.x * dx.y + dy.x * dy.y);
     let half = 0.5 * (east - south);
     let root = (half * half + both * both).sqrt();
     let long = (0.5 * (east + south) + root).sqrt();
@@ -233,7 +233,8 @@ mod tests {
     #[test]
     fn derivatives_are_those_of_the_plan_point() {
         let view = view();
-        let corners = [World::new(-20.0, -10.0, 1.0), World::new(25.0, -12.0, 3.0), World::new(0.0, 30.0, 8.0)];
+        let corners =
+            [World::new(-20.0, -10.0, 1.0), World::new(25.0, -12.0, 3.0), World::new(0.0, 30.0, 8.0)];
         let plan = [Plan::new(1.0, 2.0), Plan::new(8.0, 3.0), Plan::new(2.0, 9.0)];
         let draped = TriangleDrape::Affine { plan, up: DVec3::Z };
         for drape in [TriangleDrape::Vertical, draped] {
@@ -249,7 +250,8 @@ mod tests {
             assert!((right - turns.x_axis).length() < 1e-6 * right.length());
             assert!((down - turns.y_axis).length() < 1e-6 * down.length());
         }
-        let (world, ..) = Plane::new(&view, &SurfaceTriangle::vertical(corners)).see(Screen::new(32.0, 24.0)).unwrap();
+        let (world, ..) =
+            Plane::new(&view, &SurfaceTriangle::vertical(corners)).see(Screen::new(32.0, 24.0)).unwrap();
         assert!((view.screen_from_world(world).unwrap() - Screen::new(32.0, 24.0)).length() < 1e-9);
     }
 

@@ -91,7 +91,8 @@ impl Texels {
             if self.sets[texel] & OPEN != 0 {
                 continue;
             }
-            let mixed = rounded([change(corner)].to_vec(), if done.is_some() { format } else { TexelFormat::F32 });
+            let mixed =
+                rounded([change(corner)].to_vec(), if done.is_some() { format } else { TexelFormat::F32 });
             match mixed[..] {
                 [one] => *corner = Corner { before: one.now, ..one },
                 _ => {
@@ -116,7 +117,8 @@ impl Texels {
         let covers = least == 1.0 && most == 1.0 && paint.0[3] == 1.0 && self.mode == BlendMode::Over;
         let set = self.sets[texel] & !OPEN;
         self.sets[texel] = self.grow(if covers { 0 } else { set }, item) | (self.sets[texel] & OPEN);
-        let drawn = |corner: &Corner, share: f64| Corner { now: self.over(corner.now, paint.0, share), ..*corner };
+        let drawn =
+            |corner: &Corner, share: f64| Corner { now: self.over(corner.now, paint.0, share), ..*corner };
         let is_open = self.sets[texel] & OPEN != 0;
         if !is_open && least == most && self.format == TexelFormat::F32 {
             self.known[texel] = drawn(&self.known[texel], most);
@@ -264,7 +266,8 @@ mod tests {
 
     #[test]
     fn a_half_is_rounded_either_way() {
-        let code = |codes: &[[f32; 4]]| codes.iter().map(|c| (c[0] * 255.0).round() as u8).collect::<Vec<_>>();
+        let code =
+            |codes: &[[f32; 4]]| codes.iter().map(|c| (c[0] * 255.0).round() as u8).collect::<Vec<_>>();
         let mut both = code(&drawn(TexelFormat::Unorm8, &[[1.0, 1.0]]));
         both.sort_unstable();
         both.dedup();

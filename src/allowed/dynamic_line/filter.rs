@@ -42,7 +42,10 @@ impl Candidates {
             Self::Each(all) => all,
             Self::Between([low, high]) => {
                 let code = |v: f64, by: f64| (v * 255.0 + by).floor() / 255.0;
-                return Self::Between([low.map(|v| code(v, 0.5 - HALFWAY)), high.map(|v| code(v, 0.5 + HALFWAY))]);
+                return Self::Between([
+                    low.map(|v| code(v, 0.5 - HALFWAY)),
+                    high.map(|v| code(v, 0.5 + HALFWAY)),
+                ]);
             }
         };
         let mut rounded: Vec<Premultiplied> = Vec::with_capacity(all.len());
@@ -133,7 +136,8 @@ impl Picture {
             Candidates::Each(all) => match &all[..] {
                 [only] => Ok(*only),
                 all => {
-                    let known = way.of_pixels.iter().find(|(pixel, _)| *pixel == at).map(|(_, picked)| *picked);
+                    let known =
+                        way.of_pixels.iter().find(|(pixel, _)| *pixel == at).map(|(_, picked)| *picked);
                     let picked = known.unwrap_or_else(|| {
                         let picked = way.pick(all.len());
                         way.of_pixels.push((at, picked));
@@ -185,7 +189,8 @@ impl Picture {
         let mut all = own;
         for other in [[0, -1], [0, 1], [-1, 0], [1, 0]].map(range) {
             for c in 0..4 {
-                let mixed = |end: usize| own[end][c] + (other[end][c] - own[end][c]) * (SUBPIXEL + self.weight);
+                let mixed =
+                    |end: usize| own[end][c] + (other[end][c] - own[end][c]) * (SUBPIXEL + self.weight);
                 all[0][c] = math::min(all[0][c], mixed(0));
                 all[1][c] = math::max(all[1][c], mixed(1));
             }
@@ -197,7 +202,8 @@ impl Picture {
     fn run(&self, way: &mut Way, at: [usize; 2]) -> Result<(Premultiplied, f64), Unknown> {
         let own_color = self.color(way, self.index(at, [0, 0]))?;
         let own = luma(&own_color);
-        let mut read = |by: [isize; 2]| -> Result<f64, Unknown> { Ok(luma(&self.color(way, self.index(at, by))?)) };
+        let mut read =
+            |by: [isize; 2]| -> Result<f64, Unknown> { Ok(luma(&self.color(way, self.index(at, by))?)) };
         let cross = [read([0, -1])?, read([0, 1])?, read([-1, 0])?, read([1, 0])?];
         let most = cross.iter().fold(own, |most, l| math::max(*l, most));
         let least = cross.iter().fold(own, |least, l| math::min(*l, least));
@@ -205,7 +211,8 @@ impl Picture {
         if !way.is_at_least(range, math::max(EDGE[1], EDGE[0] * most)) {
             return Ok((own_color, 0.0));
         }
-        let mut read = |by: [isize; 2]| -> Result<f64, Unknown> { Ok(luma(&self.color(way, self.index(at, by))?)) };
+        let mut read =
+            |by: [isize; 2]| -> Result<f64, Unknown> { Ok(luma(&self.color(way, self.index(at, by))?)) };
         let [nw, ne, sw, se] = [read([-1, -1])?, read([1, -1])?, read([-1, 1])?, read([1, 1])?];
         let [north, south, west, east] = cross;
         let mean = (2.0 * (north + south + west + east) + nw + ne + sw + se) / 12.0;

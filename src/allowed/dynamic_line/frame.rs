@@ -33,7 +33,8 @@ pub(in crate::allowed) fn picture(view: &View, guess: &Guess) -> Result<(Judged,
     let settings: Settings = stage.scene.technique.get();
     supported(&settings)?;
     let list = &stage.draw_list;
-    let is_static = |item: u32| !matches!(list.style_of(item).stroke.map(|line| line.width), Some(Width::Pixels(_)));
+    let is_static =
+        |item: u32| !matches!(list.style_of(item).stroke.map(|line| line.width), Some(Width::Pixels(_)));
     let has_statics = list.numbered().any(|(item, _)| is_static(item));
     let strokes = match has_statics {
         true => {
@@ -60,7 +61,9 @@ pub(in crate::allowed) fn picture(view: &View, guess: &Guess) -> Result<(Judged,
 fn supported(settings: &Settings) -> Result<()> {
     let unknown = |setting: &str, instead: &str| {
         Err(Error::unsupported(format!("nobody knows what dynamic-line's picture may be with {setting}"))
-            .help(format!("use technique.dynamic-line.{instead}, or judge it by its picture and a tolerance")))
+            .help(format!(
+                "use technique.dynamic-line.{instead}, or judge it by its picture and a tolerance"
+            )))
     };
     if settings.simplification == Simplification::ScreenError {
         return unknown("simplification = \"screen-error\"", "simplification = \"same-pixel\"");
@@ -134,7 +137,8 @@ impl Frame<'_> {
             (0..width).map(|x| self.unsmoothed([x, y])).collect::<Vec<_>>()
         });
         let pixels: Vec<Unsmoothed> = rows.into_iter().flatten().collect();
-        let buffer = |ranges: Vec<PixelRange>| -> Buffer<PixelRange> { Buffer::from_values(width, height, ranges) };
+        let buffer =
+            |ranges: Vec<PixelRange>| -> Buffer<PixelRange> { Buffer::from_values(width, height, ranges) };
         let is_smoothed = self.settings.antialiasing == Antialiasing::Fxaa;
         let ranges = match is_smoothed {
             true => buffer(self.smoothed(&pixels, &Unsmoothed::candidates)),
@@ -279,7 +283,8 @@ impl Frame<'_> {
     fn runs(&self, order: &[(u32, Known)]) -> Vec<Vec<Laid>> {
         let open: Vec<usize> = (0..order.len()).filter(|k| order[*k].1 == Known::Open).collect();
         let list = |answers: usize| {
-            let is_in = |k: usize| open.iter().position(|o| *o == k).is_none_or(|bit| answers >> bit & 1 == 1);
+            let is_in =
+                |k: usize| open.iter().position(|o| *o == k).is_none_or(|bit| answers >> bit & 1 == 1);
             let mut laid: Vec<Laid> = Vec::new();
             for (item, _) in (0..order.len()).filter(|k| is_in(*k)).map(|k| order[k]) {
                 let is_again = laid.last().is_some_and(|last| last.item == item);
@@ -300,13 +305,15 @@ impl Frame<'_> {
         let doubt = self.guess.envelope.along(self.view.frame, depth)
             + 8.0 * self.guess.envelope.single() * self.view.frame.pixel_m(under);
         let of = &self.surfaces.of;
-        let (columns, rows) = (x.saturating_sub(1)..(x + 2).min(of.width()), y.saturating_sub(1)..(y + 2).min(of.height()));
+        let (columns, rows) =
+            (x.saturating_sub(1)..(x + 2).min(of.width()), y.saturating_sub(1)..(y + 2).min(of.height()));
         let around = rows.flat_map(|y| columns.clone().map(move |x| of.at(x, y)));
         let (mut may_be, mut is_sure) = (false, false);
         for seen in around {
             let on_terrain = || seen.iter().filter(|surface| surface.triangle != SKY);
             may_be |= on_terrain().any(|surface| surface.depth.1 >= depth - doubt);
-            is_sure |= on_terrain().count() == seen.len() && seen.iter().all(|surface| surface.depth.0 > depth + doubt);
+            is_sure |= on_terrain().count() == seen.len()
+                && seen.iter().all(|surface| surface.depth.0 > depth + doubt);
         }
         match (is_sure, may_be) {
             (true, _) => Known::In,

@@ -17,9 +17,11 @@ impl Pixels {
     /// Those of a screen point that is known within `doubt`; `None`: it has none.
     pub(super) fn of(at: Option<Plan>, doubt: f64) -> Self {
         let range = |v: f64| (v - doubt).floor() as i64..=(v + doubt).floor() as i64;
-        Self(at.map_or_else(Vec::new, |at| {
-            range(at.x).flat_map(|x| range(at.y).map(move |y| (x, y))).collect()
-        }))
+        Self(
+            at.map_or_else(Vec::new, |at| {
+                range(at.x).flat_map(|x| range(at.y).map(move |y| (x, y))).collect()
+            }),
+        )
     }
 
     fn count(&self) -> usize {
@@ -66,9 +68,9 @@ pub(super) fn stretches(vertices: &[Pixels], is_closed: bool) -> Vec<Stretch> {
 fn stretch(vertices: &[Pixels], start: usize, end: Option<usize>) -> Stretch {
     let between = start + 1..end.unwrap_or(vertices.len());
     let asked = start..between.end;
-    let count = asked.clone().try_fold(1usize, |count, k| {
-        Some(count * vertices[k].count()).filter(|count| *count <= MOST_ROWS)
-    });
+    let count = asked
+        .clone()
+        .try_fold(1usize, |count, k| Some(count * vertices[k].count()).filter(|count| *count <= MOST_ROWS));
     let whole = |rows: Vec<Vec<u32>>, is_wild: bool| Stretch { rows, is_wild };
     let with_ends = |inner: Vec<u32>| {
         let mut row = vec![start as u32];
@@ -113,7 +115,10 @@ mod tests {
 
     #[test]
     fn vertices_in_the_pixel_of_the_one_before_go_and_one_on_a_border_may() {
-        assert_eq!(rows(&[at(0.2, 0.5), at(0.8, 0.5), at(1.5, 0.5)], false), [vec![vec![0, 2]], vec![vec![2]]]);
+        assert_eq!(
+            rows(&[at(0.2, 0.5), at(0.8, 0.5), at(1.5, 0.5)], false),
+            [vec![vec![0, 2]], vec![vec![2]]]
+        );
         let open = rows(&[at(0.2, 0.5), at(0.999, 0.5), at(1.5, 0.5), at(2.5, 0.5)], false);
         assert_eq!(open, [vec![vec![0, 2, 3], vec![0, 1, 3]], vec![vec![3]]]);
         let behind = Pixels::of(None, 0.01);

@@ -112,11 +112,14 @@ impl Lines {
             let first = k * CHAINS_AT_A_TIME;
             let some = &chains[first..chains.len().min(first + CHAINS_AT_A_TIME)];
             let numbered = (first as u32..).zip(some);
-            numbered.flat_map(|(k, (item, half_px, chain))| maker.pieces((*item, *half_px), (k, chain))).collect::<Vec<_>>()
+            numbered
+                .flat_map(|(k, (item, half_px, chain))| maker.pieces((*item, *half_px), (k, chain)))
+                .collect::<Vec<_>>()
         });
         let pieces: Vec<Piece> = made.into_iter().flatten().collect();
         let plan: Vec<PlanBox> = parallel::map(&pieces, |piece| maker.reach_of(piece));
-        let screen: Vec<PlanBox> = if is_thin { pieces.iter().map(Piece::picture).collect() } else { Vec::new() };
+        let screen: Vec<PlanBox> =
+            if is_thin { pieces.iter().map(Piece::picture).collect() } else { Vec::new() };
         Self {
             pieces,
             plan: BoxTree::new(&plan),
@@ -230,13 +233,18 @@ impl Lines {
         let (Some(is_seen), Some(picture)) = (place.is_seen, segment.picture) else { return Known::Out };
         let ([a, b], [from, to], [first, last]) = (picture.screen, picture.world, picture.depth);
         let distance = to_segment(place.centre, [a, b]);
-        let doubt = self.single + SHARE * math::max(math::max(a.x.abs(), a.y.abs()), math::max(b.x.abs(), b.y.abs()));
+        let doubt =
+            self.single + SHARE * math::max(math::max(a.x.abs(), a.y.abs()), math::max(b.x.abs(), b.y.abs()));
         if distance > THIN + doubt {
             return Known::Out;
         }
         let along = b - a;
         let length = along.length_squared();
-        let t = if length > 0.0 { math::min(math::max((place.centre - a).dot(along) / length, 0.0), 1.0) } else { 0.0 };
+        let t = if length > 0.0 {
+            math::min(math::max((place.centre - a).dot(along) / length, 0.0), 1.0)
+        } else {
+            0.0
+        };
         // The perspective: shares of the picture weigh with the depth of the other end.
         let share = t * first / ((1.0 - t) * last + t * first);
         let near = if distance < THIN - doubt { Known::In } else { Known::Open };
@@ -246,7 +254,10 @@ impl Lines {
 
 impl Segment {
     fn covers(&self, centre: Plan, shift: f64) -> Known {
-        let told = self.outlines.iter().map(|outline| outline.as_ref().map_or(Known::Out, |of| of.holds(centre, shift)));
+        let told = self
+            .outlines
+            .iter()
+            .map(|outline| outline.as_ref().map_or(Known::Out, |of| of.holds(centre, shift)));
         told.reduce(|a, b| if a == b { a } else { Known::Open }).unwrap_or(Known::In)
     }
 }
@@ -254,7 +265,12 @@ impl Segment {
 impl Piece {
     /// What its picture and thin lines' reach beside it may cover of the screen.
     fn picture(&self) -> PlanBox {
-        let ends = self.ways.iter().flatten().filter_map(|segment| segment.picture).flat_map(|picture| picture.screen);
+        let ends = self
+            .ways
+            .iter()
+            .flatten()
+            .filter_map(|segment| segment.picture)
+            .flat_map(|picture| picture.screen);
         let around = PlanBox::around(ends);
         if around.is_empty() { around } else { around.grown(THIN_MARGIN) }
     }
@@ -295,7 +311,12 @@ struct Maker<'a> {
 }
 
 impl<'a> Maker<'a> {
-    fn new(view: &View<'a>, guess: &Guess, settings: &'a Settings, (mesh, is_thin): (&'a Mesh, bool)) -> Self {
+    fn new(
+        view: &View<'a>,
+        guess: &Guess,
+        settings: &'a Settings,
+        (mesh, is_thin): (&'a Mesh, bool),
+    ) -> Self {
         let frame = view.frame;
         let (low, high) = mesh.heights().unwrap_or_default();
         // 4.3.2: a small offset.
@@ -335,7 +356,9 @@ impl<'a> Maker<'a> {
                 all.dedup();
                 all
             };
-            let before = neighbour(count - 1 + usize::from(count == 1), &|row| row.len().checked_sub(2).map(|k| row[k]));
+            let before = neighbour(count - 1 + usize::from(count == 1), &|row| {
+                row.len().checked_sub(2).map(|k| row[k])
+            });
             let after = neighbour(1, &|row| row.get(1).copied());
             let pairs = |stretch: &Stretch, row: &Vec<u32>| -> Vec<[usize; 2]> {
                 match (row.len(), stretch.is_wild) {
@@ -386,9 +409,8 @@ impl<'a> Maker<'a> {
             None => Known::Out,
             Some(on) => {
                 let size = [self.frame.width() as f64, self.frame.height() as f64];
-                let within = |by: f64| {
-                    on.x >= by && on.y >= by && on.x <= size[0] - by && on.y <= size[1] - by
-                };
+                let within =
+                    |by: f64| on.x >= by && on.y >= by && on.x <= size[0] - by && on.y <= size[1] - by;
                 match [within(doubt), within(-doubt)] {
                     [true, _] => Known::In,
                     [_, true] => Known::Open,
@@ -440,7 +462,9 @@ impl<'a> Maker<'a> {
         let mitre = |points: Option<[Plan; 3]>| points.filter(|_| is_mitred).and_then(mitre);
         let front = mitre(around[0].map(|before| [before, start, end])).unwrap_or(along.perp()) * half;
         let back = mitre(around[1].map(|after| [start, end, after])).unwrap_or(along.perp()) * half;
-        let on = |neighbour: Option<Plan>| if neighbour.is_none() || !is_mitred { along * half } else { DVec2::ZERO };
+        let on = |neighbour: Option<Plan>| {
+            if neighbour.is_none() || !is_mitred { along * half } else { DVec2::ZERO }
+        };
         let (from, to) = (start + -on(around[0]), end + on(around[1]));
         [from + front, from + -front, to + -back, to + back]
     }

@@ -36,15 +36,11 @@ impl Patch {
             let depth = normal.dot(a - ray.from) / normal.dot(way);
             (depth.is_finite() && depth > 0.0).then(|| (ray.from + way * depth, depth, way))
         };
-        let places: [_; 5] =
-            [(0.0, 0.0), (-shift, -shift), (shift, -shift), (shift, shift), (-shift, shift)].map(|(x, y)| hit(x, y));
+        let places: [_; 5] = [(0.0, 0.0), (-shift, -shift), (shift, -shift), (shift, shift), (-shift, shift)]
+            .map(|(x, y)| hit(x, y));
         let plan = surface.plan;
-        let boxed = [
-            plan.min,
-            Plan::new(plan.max.x, plan.min.y),
-            plan.max,
-            Plan::new(plan.min.x, plan.max.y),
-        ];
+        let boxed =
+            [plan.min, Plan::new(plan.max.x, plan.min.y), plan.max, Plan::new(plan.min.x, plan.max.y)];
         let eye = frame.eye();
         let whole = || {
             // The plane is seen edge-on: the box is all that is known.
@@ -159,12 +155,8 @@ pub(super) fn hull(mut points: Vec<Plan>) -> Vec<Plan> {
 
 /// The part of a convex polygon in a box.
 fn clipped(mut polygon: Vec<Plan>, within: &PlanBox) -> Vec<Plan> {
-    let sides: [&dyn Fn(&Plan) -> f64; 4] = [
-        &|p| p.x - within.min.x,
-        &|p| within.max.x - p.x,
-        &|p| p.y - within.min.y,
-        &|p| within.max.y - p.y,
-    ];
+    let sides: [&dyn Fn(&Plan) -> f64; 4] =
+        [&|p| p.x - within.min.x, &|p| within.max.x - p.x, &|p| p.y - within.min.y, &|p| within.max.y - p.y];
     for side in sides {
         let mut cut = Vec::with_capacity(polygon.len() + 1);
         for (k, p) in polygon.iter().enumerate() {

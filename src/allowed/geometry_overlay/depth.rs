@@ -42,7 +42,11 @@ impl<'a> Depths<'a> {
     pub(super) fn of(&self, view_depth: f64) -> f64 {
         let near = self.frame.near();
         let whole = 1.0 - near / self.far;
-        if self.is_central { (1.0 - near / view_depth) / whole } else { (view_depth - near) / self.far / whole }
+        if self.is_central {
+            (1.0 - near / view_depth) / whole
+        } else {
+            (view_depth - near) / self.far / whole
+        }
     }
 
     /// The view depth of a point.
@@ -61,9 +65,10 @@ impl<'a> Depths<'a> {
     pub(super) fn doubt(&self, at: World) -> f64 {
         let view_depth = self.frame.depth(at);
         let size = |p: World| p.to_vec().abs().max_element();
-        let metres = self.guess.envelope.along(self.frame, view_depth)
-            + SHARE * (size(at) + size(self.frame.eye()));
-        let growth = if self.is_central { self.frame.near() / (view_depth * view_depth) } else { 1.0 / self.far };
+        let metres =
+            self.guess.envelope.along(self.frame, view_depth) + SHARE * (size(at) + size(self.frame.eye()));
+        let growth =
+            if self.is_central { self.frame.near() / (view_depth * view_depth) } else { 1.0 / self.far };
         metres * growth / (1.0 - self.frame.near() / self.far)
     }
 
@@ -78,14 +83,17 @@ impl<'a> Depths<'a> {
             DepthFormat::Unorm24 => [1.0 / 16_777_216.0, 1.0 / 16_777_215.0],
             // The exponent may be that of a neighbour.
             DepthFormat::F32 => [of_single(largest * 0.999), of_single(largest * 1.001)],
-            DepthFormat::F32Reversed => [of_single((1.0 - largest) * 0.999), of_single((1.0 - largest) * 1.001)],
+            DepthFormat::F32Reversed => {
+                [of_single((1.0 - largest) * 0.999), of_single((1.0 - largest) * 1.001)]
+            }
         }
     }
 
     /// A point of a line or a mesh on the screen, with its depth; `None`: it is not before the near plane.
     pub(super) fn on_screen(&self, at: World) -> Option<(Plan, f64)> {
         let view_depth = self.frame.depth(at);
-        let on = self.frame.screen_from_world(at).filter(|_| view_depth >= self.frame.near() * (1.0 - 1e-9))?;
+        let on =
+            self.frame.screen_from_world(at).filter(|_| view_depth >= self.frame.near() * (1.0 - 1e-9))?;
         Some((Plan::new(on.x, on.y), self.of(view_depth)))
     }
 }

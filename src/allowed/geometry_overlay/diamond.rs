@@ -71,7 +71,10 @@ impl Crossing {
         let [a, b] = line.ends;
         // The distance is convex along the segment, and bends where a coordinate is the centre's.
         let bends = [(a.x - centre.x, b.x - centre.x), (a.y - centre.y, b.y - centre.y)];
-        let shares = bends.into_iter().map(|(from, to)| from / (from - to)).filter(|share| (0.0..=1.0).contains(share));
+        let shares = bends
+            .into_iter()
+            .map(|(from, to)| from / (from - to))
+            .filter(|share| (0.0..=1.0).contains(share));
         let between: Vec<f64> = shares.map(|share| reach(a + (b - a) * share)).collect();
         let ends = [reach(a), reach(b)];
         let least = between.iter().copied().fold(math::min(ends[0], ends[1]), math::min);
@@ -106,16 +109,22 @@ pub(super) fn often(run: &[Crossing]) -> [u32; 2] {
     // Open answers: those of the run's vertices, and two of each segment.
     let count = run.len();
     let vertex = |k: usize| if k < count { run[k].ends[0] } else { run[count - 1].ends[1] };
-    let mut open: Vec<(usize, usize)> = (0..=count).filter(|k| vertex(*k) == Known::Open).map(|k| (0, k)).collect();
+    let mut open: Vec<(usize, usize)> =
+        (0..=count).filter(|k| vertex(*k) == Known::Open).map(|k| (0, k)).collect();
     open.extend((0..count).filter(|k| run[*k].meets == Meets::Known(Known::Open)).map(|k| (1, k)));
     open.extend((0..count).filter(|k| run[*k].is_drawn == Known::Open).map(|k| (2, k)));
     if open.len() > MOST_OPEN {
-        return run.iter().map(|one| often_alone(one)).fold([0; 2], |sum, of| [sum[0] + of[0], sum[1] + of[1]]);
+        return run
+            .iter()
+            .map(|one| often_alone(one))
+            .fold([0; 2], |sum, of| [sum[0] + of[0], sum[1] + of[1]]);
     }
     let mut range = [u32::MAX, 0];
     for answers in 0..1u32 << open.len() {
         let is_in = |known: Known, question: (usize, usize)| match known {
-            Known::Open => open.iter().position(|of| *of == question).is_some_and(|bit| answers >> bit & 1 == 1),
+            Known::Open => {
+                open.iter().position(|of| *of == question).is_some_and(|bit| answers >> bit & 1 == 1)
+            }
             known => known == Known::In,
         };
         let drawn = (0..count).filter(|&k| {
@@ -174,7 +183,9 @@ mod tests {
     #[test]
     fn a_wide_line_has_a_diamond_for_each_pixel_of_its_width() {
         let line = |to: (f64, f64)| ScreenLine::of_ends([Plan::default(), Plan::new(to.0, to.1)], 0.01);
-        let of = |to, width| diamonds(&line(to), width).iter().map(|(d, _)| (d.is_steep, d.across)).collect::<Vec<_>>();
+        let of = |to, width| {
+            diamonds(&line(to), width).iter().map(|(d, _)| (d.is_steep, d.across)).collect::<Vec<_>>()
+        };
         assert_eq!(of((9.0, 2.0), 1), [(false, 0)]);
         assert_eq!(of((9.0, 2.0), 3), [(false, -2), (false, 0), (false, 2)]);
         assert_eq!(of((2.0, 9.0), 2), [(true, -1), (true, 1)]);

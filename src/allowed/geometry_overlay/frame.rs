@@ -41,20 +41,16 @@ pub(in crate::allowed) fn picture(view: &View, guess: &Guess) -> Result<Judged> 
         return unknown("over imagery, which moves with the mesh", "give the terrain one colour");
     }
     if settings.lines == Lines::Antialiased && settings.stipple != 0xffff {
-        return unknown("of anti-aliased lines with a stipple", "leave technique.geometry-overlay.stipple out");
+        return unknown(
+            "of anti-aliased lines with a stipple",
+            "leave technique.geometry-overlay.stipple out",
+        );
     }
     let surfaces = surfaces(view, guess, (None, 1.0));
     let depths = Depths::new(view, guess, mesh);
     let seen = MovedMesh::new(&depths, mesh, &settings, guess).seen(view, &surfaces);
     let strips = Prepare::new(stage)?.line_strips(frame);
-    let overlay = Overlay {
-        view,
-        guess,
-        settings: &settings,
-        depths: &depths,
-        composer,
-        ground,
-    };
+    let overlay = Overlay { view, guess, settings: &settings, depths: &depths, composer, ground };
     Ok(overlay.judged(&seen, &strips))
 }
 
@@ -112,7 +108,8 @@ impl Overlay<'_> {
             of_pixels[pixel].push(fragment);
         }
         let told = |share: f64| (self.view.progress)(0.5 + 0.5 * share);
-        let ranges = parallel::map_telling(width * height, &told, |k| self.range(&of_pixels[k], &seen.values()[k]));
+        let ranges =
+            parallel::map_telling(width * height, &told, |k| self.range(&of_pixels[k], &seen.values()[k]));
         let ranges: Buffer<PixelRange> = Buffer::from_values(width, height, ranges);
         let centres = seen.values().iter().map(|of| self.seen(of)).collect();
         let centres: Buffer<Seen> = Buffer::from_values(width, height, centres);
@@ -212,9 +209,9 @@ impl Overlay<'_> {
             if let Some(count) = &count {
                 counter = [counter[0] + count.steps[0], counter[1] + count.steps[1]];
             }
-            let goes_on = out.last().is_some_and(|before| {
-                before.segment + 1 == segment && before.line.ends[1] == line.ends[0]
-            });
+            let goes_on = out
+                .last()
+                .is_some_and(|before| before.segment + 1 == segment && before.line.ends[1] == line.ends[0]);
             out.push(Ready { line, segment, goes_on, count });
         }
         out

@@ -149,10 +149,13 @@ impl<'a> MovedMesh<'a> {
         } else {
             [0.0, 2.0]
         };
-        let times = |range: Range, by: f64| if by < 0.0 { [range[1] * by, range[0] * by] } else { range.map(|v| v * by) };
+        let times = |range: Range, by: f64| {
+            if by < 0.0 { [range[1] * by, range[0] * by] } else { range.map(|v| v * by) }
+        };
         let by_slope = times(slopes, self.settings.offset_factor);
         let by_step = times(self.depths.step(most), self.settings.offset_units);
-        let offset = [by_slope[0] + by_step[0], by_slope[1] + by_step[1]].map(|v| math::max(-1.0, math::min(v, 1.0)));
+        let offset =
+            [by_slope[0] + by_step[0], by_slope[1] + by_step[1]].map(|v| math::max(-1.0, math::min(v, 1.0)));
         let doubt = world.iter().map(|p| self.depths.doubt(*p)).fold(0.0, math::max);
         Some(OnScreen { corners: [a, b, c], first, slope, offset, doubt })
     }

@@ -19,7 +19,9 @@ pub(super) fn share(line: &ScreenLine, width: f64, [x, y]: [usize; 2]) -> [f64; 
         let corner = |dx: f64, dy: f64| Plan::new(x as f64 + dx, y as f64 + dy) - a;
         let mut polygon = vec![corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)];
         let across = along.perp();
-        for (normal, limit) in [(-along, -limits[0]), (along, limits[1]), (across, limits[2]), (-across, limits[2])] {
+        for (normal, limit) in
+            [(-along, -limits[0]), (along, limits[1]), (across, limits[2]), (-across, limits[2])]
+        {
             polygon = cut(&polygon, |p| limit - p.dot(normal));
         }
         math::min(area_of(&polygon), 1.0)

@@ -39,8 +39,8 @@ impl Count {
             let minor = |p: Plan| if is_steep { p.x } else { p.y };
             let at = if share.is_finite() { minor(a) + (minor(b) - minor(a)) * share } else { minor(end) };
             let range = |row: i64| -> [u32; 2] {
-                let [along, across] = [column as f64 + 0.5, row as f64 + 0.5];
-                let pixel = if is_steep { Plan::new(across, along) } else { Plan::new(along, across) };
+                let [along, beside] = [column as f64 + 0.5, row as f64 + 0.5];
+                let pixel = if is_steep { Plan::new(beside, along) } else { Plan::new(along, beside) };
                 let crossing = Crossing::new(line, pixel, Diamond { is_steep, across });
                 crossing.map_or([0; 2], |crossing| often(&[crossing]))
             };
@@ -70,10 +70,8 @@ impl Count {
         };
         let first = scan(ends[0] - direction, ends[1] + direction, direction, a);
         let last = scan(ends[1] + direction, ends[0] - direction, -direction, b);
-        let steps = [
-            ((last[1] - first[1]) * direction + 1).max(0),
-            ((last[0] - first[0]) * direction + 1).max(0),
-        ];
+        let steps =
+            [((last[1] - first[1]) * direction + 1).max(0), ((last[0] - first[0]) * direction + 1).max(0)];
         Self { is_steep, direction, first, start, steps, is_diagonal: (x - y).abs() <= 4.0 * line.stray }
     }
 

@@ -111,6 +111,7 @@ fn probed(settings: &Settings, view: &View, eye: &Eye) -> Buffer<Probed> {
         // How depths move points along their rays is the eye's matter.
         depths_of_shifts: 0.0,
         along: &|_| 0.0,
+        share: 0.0,
     };
     let at = |[x, y]: [usize; 2], spot: [f64; 2]| {
         let on = |pixel: usize, spot: f64| pixel as f64 - BORDER as f64 + spot;
