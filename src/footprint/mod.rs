@@ -18,6 +18,7 @@ use crate::scene::{Line, Width};
 use crate::space::{Lens, Plan, PlanBox, ViewFrame, World};
 use crate::terrain::Mesh;
 use area::Area;
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// A piece of an item's boundary: an edge of its polygon, or a segment of its stroke with the join at its start and the
@@ -73,6 +74,7 @@ pub struct Footprints<'l> {
     list: &'l DrawList,
     pixel: PixelSize,
     strokes: Strokes,
+    sides: Sides,
     areas: Vec<Area>,
     /// The number of each item's area; [`NO_AREA`]: it has none.
     area_of: Vec<u32>,
@@ -85,6 +87,12 @@ pub struct Footprints<'l> {
 
 /// Tells whether a box of the plan can be seen.
 pub type IsSeen<'s> = dyn Fn(&PlanBox) -> bool + Sync + 's;
+
+/// By item and place of a chain among its own, on which side of the chain the item's polygon lies.
+type Sides = BTreeMap<(u32, u32), Option<bool>>;
+
+/// About so many segments of a ring are asked on which side of them its polygon lies.
+const MOST_ASKED: usize = 64;
 
 /// How far beside a segment its polygon is asked for, as a share of the segment's length.
 const BESIDE: f64 = 1e-6;
@@ -122,7 +130,11 @@ impl<'l> Footprints<'l> {
         let long = Long::of(list);
         let (parts, part_boxes) = Parts { list, pixel: &pixel, strokes, long, is_seen }.all();
         let (area_boxes, part_boxes) = (BoxTree::new(&area_boxes), BoxTree::new(&part_boxes));
-        Self { list, pixel, strokes, areas, area_of, area_items, area_boxes, parts, part_boxes }
+        let sides = Sides::new();
+        let mut all =
+            Self { list, pixel, strokes, sides, areas, area_of, area_items, area_boxes, parts, part_boxes };
+        all.sides = all.sides_of_cut_outlines();
+        all
     }
 
     /// The draw list.
@@ -178,7 +190,7 @@ impl<'l> Footprints<'l> {
                 let of = (&self.pixel, self.strokes);
                 match self.list.style_of(part.item).cut.filter(|_| self.strokes.is_cut_by_side()) {
                     Some(cut) => {
-                        let is_left = self.has_polygon_on_the_left(part.item, &segment);
+                        let is_left = self.sides.get(&(part.item, part.chain)).copied().flatten();
                         let is_left = is_left.map(|is_left| is_left == (cut == Side::Inside));
                         stroke::side_primitives(&segment, line, of, is_left, out);
                     }
@@ -196,14 +208,33 @@ impl<'l> Footprints<'l> {
         room.iter().all(|primitive| primitive.misses(plan))
     }
 
-    /// Whether an item's polygon lies on the left of a segment of its outline, rather than on the right; `None`: on both, or on neither.
-    fn has_polygon_on_the_left(&self, item: u32, segment: &stroke::Segment) -> Option<bool> {
-        let along = segment.to - segment.from;
-        let middle = segment.from + along * 0.5;
-        // Beside the segment, nearer than anything that is drawn on purpose.
-        let aside = along.perp() * BESIDE;
-        let [left, right] = [aside, -aside].map(|by| self.polygon_holds(item, middle + by));
-        (left != right).then_some(left)
+    /// Of each chain of an outline that is cut, where it is cut by side: whether the polygon lies on the left of most of its segments.
+    /// (The thesis takes the turn of the ring as a whole, 4.4.1; where a ring crosses itself that is wrong for some of them.)
+    fn sides_of_cut_outlines(&self) -> Sides {
+        let is_cut = |item: &u32| self.list.style_of(*item).cut.is_some();
+        let items = self.list.numbered().filter(|(item, _)| is_cut(item) && self.strokes.is_cut_by_side());
+        let chains = items.flat_map(|(item, of)| {
+            let first = of.area.len() as u32;
+            (first..).zip(self.list.strokes(of)).map(move |(place, chain)| ((item, place), *chain))
+        });
+        chains.map(|(key, chain)| (key, self.has_polygon_on_the_left(key.0, &chain))).collect()
+    }
+
+    /// Whether an item's polygon lies on the left of most segments of a chain, or on the right; `None`: it cannot be told.
+    fn has_polygon_on_the_left(&self, item: u32, chain: &Chain) -> Option<bool> {
+        let path = self.list.path_of(chain);
+        let every = (path.len() / MOST_ASKED).max(1);
+        let (mut left, mut right) = (0, 0);
+        for ends in path.windows(2).step_by(every) {
+            let along = ends[1] - ends[0];
+            let middle = ends[0] + along * 0.5;
+            // Beside the segment, nearer than anything that is drawn on purpose.
+            let aside = along.perp() * BESIDE;
+            let [on_left, on_right] = [aside, -aside].map(|by| self.polygon_holds(item, middle + by));
+            left += u32::from(on_left && !on_right);
+            right += u32::from(on_right && !on_left);
+        }
+        (left != right).then_some(left > right)
     }
 
     /// Bytes held, without the draw list.
