@@ -40,6 +40,11 @@ impl<T> Buffer<T> {
         &self.values
     }
 
+    /// The values in row order, of a buffer that is needed no more.
+    pub fn into_values(self) -> Vec<T> {
+        self.values
+    }
+
     /// The value of pixel (x, y).
     ///
     /// # Panics

@@ -22,7 +22,7 @@ mod surface;
 
 pub use envelope::Envelope;
 
-use crate::compare::Allowed;
+use crate::compare::{Allowed, FeatureRun, Hypothesis, Stage as StageOfPicture};
 use crate::error::Result;
 use crate::scene::Device;
 use crate::space::ViewFrame;
@@ -30,6 +30,7 @@ use crate::stage::Stage;
 use crate::technique::{self, Kind};
 use envelope::DEPTH_STEPS;
 use model::{Guess, View};
+use sampled::Pictures;
 
 /// What a technique's picture of a view may be. `progress` is told the share that is done (0..=1), from any thread.
 ///
@@ -42,35 +43,42 @@ pub fn allowed(
 ) -> Result<Allowed> {
     technique::applies(kind, stage)?;
     let guesses: Vec<Guess> = Envelope::of(&stage.scene.device).into_iter().map(Guess::of).collect();
-    let mut all = Allowed { width: frame.width(), height: frame.height(), ..Allowed::default() };
-    // Of guesses that are looked at together, those beside the first.
+    let view = View { stage, frame, progress };
+    let settings = &stage.scene.technique;
+    let Pictures { mut hypotheses, stages, features } = match kind {
+        Kind::StencilVolume => stencil_volume::sampling(&settings.get()).pictures(&view, &guesses),
+        Kind::StaticDecal => {
+            static_decal::sampling(&settings.get(), &stage.draw_list)?.pictures(&view, &guesses)
+        }
+        Kind::InverseProjection => by_guess(&view, &guesses, |view, guess| {
+            Ok((inverse_projection::picture(&settings.get(), view, guess), None))
+        })?,
+        Kind::Clipmap => by_guess(&view, &guesses, |view, guess| Ok((clipmap::picture(view, guess)?, None)))?,
+        Kind::DynamicLine => by_guess(&view, &guesses, dynamic_line::picture)?,
+        Kind::GeometryOverlay => {
+            by_guess(&view, &guesses, |view, guess| Ok((geometry_overlay::picture(view, guess)?, None)))?
+        }
+    };
+    hypotheses.iter_mut().zip(&guesses).for_each(|(hypothesis, guess)| hypothesis.says = guess.says());
+    Ok(Allowed { width: frame.width(), height: frame.height(), hypotheses, stages, features })
+}
+
+/// A picture by a guess, and another that is looked at with it.
+type Drawn = ((Hypothesis, Vec<StageOfPicture>, Vec<FeatureRun>), Option<Hypothesis>);
+
+/// The pictures by guesses one after the other; the last guess is the widest.
+fn by_guess(
+    view: &View,
+    guesses: &[Guess],
+    draw: impl Fn(&View, &Guess) -> Result<Drawn>,
+) -> Result<Pictures> {
+    let mut all = Pictures::default();
     let mut others = Vec::new();
-    let count = guesses.len() as f64;
     for (k, guess) in guesses.iter().enumerate() {
-        let progress = |share: f64| progress((k as f64 + share) / count);
-        let view = View { stage, frame, progress: &progress };
-        let (mut hypothesis, stages, features) = match kind {
-            Kind::StencilVolume => {
-                stencil_volume::sampling(&stage.scene.technique.get()).picture(&view, guess)
-            }
-            Kind::DynamicLine => {
-                let (judged, rounded) = dynamic_line::picture(&view, guess)?;
-                others.extend(rounded);
-                judged
-            }
-            Kind::GeometryOverlay => geometry_overlay::picture(&view, guess)?,
-            Kind::StaticDecal => {
-                let settings = stage.scene.technique.get();
-                static_decal::sampling(&settings, &stage.draw_list)?.picture(&view, guess)
-            }
-            Kind::InverseProjection => {
-                inverse_projection::picture(&stage.scene.technique.get(), &view, guess)
-            }
-            Kind::Clipmap => clipmap::picture(&view, guess)?,
-        };
-        hypothesis.says = guess.says();
+        let progress = |share: f64| (view.progress)((k as f64 + share) / guesses.len() as f64);
+        let ((hypothesis, stages, features), other) = draw(&View { progress: &progress, ..*view }, guess)?;
         all.hypotheses.push(hypothesis);
-        // The last envelope is the widest.
+        others.extend(other);
         (all.stages, all.features) = (stages, features);
     }
     all.hypotheses.append(&mut others);

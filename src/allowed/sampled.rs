@@ -9,7 +9,7 @@ use crate::buffer::Buffer;
 use crate::compare::{FeatureRun, Hypothesis, Stage};
 use crate::footprint::Strokes;
 use crate::resolve::Compositor;
-use crate::truth::{Probe, probe};
+use crate::truth::{Probe, Sample, probe};
 
 /// Where a technique takes samples, and what strokes it has.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,53 +22,69 @@ pub(super) struct Sampling {
     pub(super) blending: Blending,
 }
 
-/// What a pixel may be, and what its centre may see.
+/// What a pixel may be by each guess, and what its centre may see by the last.
 #[derive(Debug, Clone, Default)]
 struct Judged {
-    range: PixelRange,
+    ranges: Vec<PixelRange>,
     centre: Seen,
 }
 
 impl Sampling {
-    /// The picture by one guess.
-    pub(super) fn picture(&self, view: &View, guess: &Guess) -> (Hypothesis, Vec<Stage>, Vec<FeatureRun>) {
+    /// The pictures by guesses, which are looked at together; the last one is the widest.
+    pub(super) fn pictures(&self, view: &View, guesses: &[Guess]) -> Pictures {
         let stage = view.stage;
         let compositor = Compositor::new(stage.scene.compositing);
-        let along = |depth: f64| guess.envelope.along(view.frame, depth);
-        let centre = [0.5; 2];
-        let mut spots = self.spots.clone();
-        if !spots.contains(&centre) {
-            spots.push(centre);
-        }
-        let at_centre = spots.iter().position(|spot| *spot == centre).unwrap_or(0);
+        let shifts: Vec<f64> = guesses.iter().map(|guess| guess.envelope.shift()).collect();
+        let along = |depth: f64| guesses.last().map_or(0.0, |guess| guess.envelope.along(view.frame, depth));
+        // The centre's own depth is wanted.
         let count = self.spots.len();
+        let spots: Vec<[f64; 2]> = self.spots.iter().copied().chain([[0.5; 2]]).collect();
         let of = Probe {
             list: &stage.draw_list,
             strokes: self.strokes,
-            spots: &spots,
-            shift: guess.envelope.shift(),
+            spots: if self.spots == [[0.5; 2]] { &self.spots } else { &spots },
+            shifts: &shifts,
             depths_of_shifts: self.depths_of_shifts,
             along: &along,
             share: COORDINATES,
         };
-        let judged: Buffer<Judged> = probe(
-            stage,
-            view.frame,
-            &of,
-            &|_, samples| Judged {
-                range: PixelRange::of_samples(&samples[..count], &compositor, self.blending),
-                centre: Seen::of(&samples[at_centre], &along),
-            },
-            view.progress,
-        );
+        let judge = |_: [usize; 2], samples: &[Sample]| {
+            let of_guesses = samples.chunks(of.spots.len());
+            let range = |of: &[Sample]| PixelRange::of_samples(&of[..count], &compositor, self.blending);
+            Judged {
+                ranges: of_guesses.map(range).collect(),
+                centre: samples.last().map(|sample| Seen::of(sample, &along)).unwrap_or_default(),
+            }
+        };
+        let judged: Buffer<Judged> = probe(stage, view.frame, &of, &judge, view.progress);
         let (width, height) = (judged.width(), judged.height());
-        let (ranges, centres) = judged.values().iter().cloned().map(|of| (of.range, of.centre)).unzip();
-        let ranges: Buffer<PixelRange> = Buffer::from_values(width, height, ranges);
-        let centres: Buffer<Seen> = Buffer::from_values(width, height, centres);
-        (
-            picture::hypothesis(guess.name.clone(), &ranges),
-            stages(&centres),
-            picture::feature_runs(&ranges, &stage.draw_list),
-        )
+        let (ranges, centres): (Vec<Vec<PixelRange>>, _) =
+            judged.into_values().into_iter().map(|of| (of.ranges, of.centre)).unzip();
+        let mut by_guess: Vec<Vec<PixelRange>> =
+            guesses.iter().map(|_| Vec::with_capacity(ranges.len())).collect();
+        for of_pixel in ranges {
+            by_guess.iter_mut().zip(of_pixel).for_each(|(of_guess, range)| of_guess.push(range));
+        }
+        let pictures: Vec<Buffer<PixelRange>> =
+            by_guess.into_iter().map(|ranges| Buffer::from_values(width, height, ranges)).collect();
+        let hypotheses = guesses.iter().zip(&pictures);
+        Pictures {
+            hypotheses: hypotheses
+                .map(|(guess, picture)| picture::hypothesis(guess.name.clone(), picture))
+                .collect(),
+            stages: stages(&Buffer::from_values(width, height, centres)),
+            features: pictures
+                .last()
+                .map(|picture| picture::feature_runs(picture, &stage.draw_list))
+                .unwrap_or_default(),
+        }
     }
+}
+
+/// What pictures may be by several guesses.
+#[derive(Debug, Default)]
+pub(super) struct Pictures {
+    pub(super) hypotheses: Vec<Hypothesis>,
+    pub(super) stages: Vec<Stage>,
+    pub(super) features: Vec<FeatureRun>,
 }

@@ -44,7 +44,15 @@ pub(super) fn surfaces(
     let probed = |list: &DrawList, strokes: Strokes, (from, to): (f64, f64)| -> Buffer<Sample> {
         let shift = guess.envelope.shift();
         let share = if list.items().is_empty() { 0.0 } else { COORDINATES };
-        let of = Probe { list, strokes, spots: &[[0.5; 2]], shift, depths_of_shifts, along: &along, share };
+        let of = Probe {
+            list,
+            strokes,
+            spots: &[[0.5; 2]],
+            shifts: &[shift],
+            depths_of_shifts,
+            along: &along,
+            share,
+        };
         let progress = |share: f64| (view.progress)(from + (to - from) * share);
         probe(view.stage, view.frame, &of, &|_, samples| samples[0].clone(), &progress)
     };

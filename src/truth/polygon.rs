@@ -109,6 +109,30 @@ pub(super) fn middle(piece: &[[f64; 2]]) -> [f64; 2] {
     [x / piece.len() as f64, y / piece.len() as f64]
 }
 
+/// Whether a convex piece may meet a square; false where they are surely apart.
+pub(super) fn meets_square(piece: &[[f64; 2]], [x, y]: [f64; 2], side: f64) -> bool {
+    // Far above the rounding of coordinates of a pixel.
+    const SLACK: f64 = 1e-12;
+    let square = [[x, y], [x + side, y], [x + side, y + side], [x, y + side]];
+    let reach = |points: &[[f64; 2]], axis: usize| {
+        points.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| {
+            (crate::math::min(p[axis], low), crate::math::max(p[axis], high))
+        })
+    };
+    let is_apart = |axis: usize| {
+        let ((a, b), (c, d)) = (reach(piece, axis), reach(&square, axis));
+        b < c - SLACK || d < a - SLACK
+    };
+    let inside = middle(piece);
+    let is_beyond = |p: [f64; 2], q: [f64; 2]| {
+        let beside = |at: [f64; 2]| (q[0] - p[0]) * (at[1] - p[1]) - (q[1] - p[1]) * (at[0] - p[0]);
+        let sign = if beside(inside) < 0.0 { -1.0 } else { 1.0 };
+        square.iter().all(|at| beside(*at) * sign < -SLACK)
+    };
+    let edges = piece.iter().zip(piece.iter().cycle().skip(1));
+    !is_apart(0) && !is_apart(1) && !edges.into_iter().any(|(p, q)| is_beyond(*p, *q))
+}
+
 /// Whether a convex piece holds a point, its border included.
 pub(super) fn holds(piece: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
     let next = piece.iter().cycle().skip(1);

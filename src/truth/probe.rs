@@ -26,10 +26,11 @@ pub struct Probe<'a> {
     pub list: &'a DrawList,
     /// What its strokes are.
     pub strokes: Strokes,
-    /// Where samples lie in each pixel, from its upper left corner, 0..=1.
+    /// Where samples lie in each pixel, from its upper left corner, 0..=1. Of the last one's outcomes depth and plan are those of its own
+    /// square; where there are many, of the others' they may be those of more of the pixel.
     pub spots: &'a [[f64; 2]],
-    /// How far a sample may be shifted along each axis, pixels; at most a quarter.
-    pub shift: f64,
+    /// How far a sample may be shifted along each axis, pixels; at most a quarter. Each is asked for.
+    pub shifts: &'a [f64],
     /// How many such shifts' worth of the surface's depth a visible point may seem to lie elsewhere along its ray, because its depth is that
     /// of another place in the square.
     pub depths_of_shifts: f64,
@@ -39,7 +40,7 @@ pub struct Probe<'a> {
     pub share: f64,
 }
 
-/// What `judge` makes of each pixel's samples; it is told the pixel (column, row) and its samples in the order of the spots.
+/// What `judge` makes of each pixel's samples; it is told the pixel (column, row) and its samples, by shift and then in the order of the spots.
 /// `progress` is told the share that is done (0..=1), from any thread.
 pub fn probe<R: Send + Clone>(
     stage: &Stage,
@@ -68,9 +69,9 @@ pub fn probe_around<R: Send + Clone>(
     let budget = Budget { width: 0.0, depth: DEPTH, coverage: true };
     let setting = Setting::new(&stage.scene, mesh, (&footprints, size), budget).of_what_shows();
     let tiling = Tiling::new(view.width(), view.height(), TILE);
-    let shift = math::min(of.shift, MOST_SHIFT);
+    let shifts: Vec<f64> = of.shifts.iter().map(|shift| math::min(*shift, MOST_SHIFT)).collect();
     let (spots, depths_of_shifts, along) = (of.spots, of.depths_of_shifts, of.along);
-    let probes = Probes { spots, shift, depths_of_shifts, along, share: of.share };
+    let probes = Probes { spots, shifts: &shifts, depths_of_shifts, along, share: of.share };
     let tiles = parallel::map_telling(tiling.count(), progress, |k| {
         let place = tiling.place(k);
         let tile = certify_tile(&setting, mesh, view, &place, Some(probes));

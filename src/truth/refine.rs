@@ -15,8 +15,7 @@ use crate::certainty::{Known, PaintMean, PaintRange};
 use crate::footprint::{BorderPart, Primitive};
 use crate::math;
 use crate::resolve::{Compositor, Paint, Stack};
-use crate::space::{PlanBox, World};
-use crate::terrain::SKY;
+use crate::space::PlanBox;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
@@ -47,6 +46,14 @@ pub(super) struct Refinery {
     count: u64,
     /// The share of the pixel's area that is refined: its part of the budget.
     share: f64,
+}
+
+/// A piece of a pixel.
+#[derive(Debug)]
+pub(super) struct Part {
+    pub(super) shape: Polygon,
+    /// What all of it sees and is held by; `None`: that is not known.
+    pub(super) outcome: Option<Outcome>,
 }
 
 /// What parts of a pixel come to.
@@ -148,8 +155,20 @@ impl Refinery {
     }
 
     fn mean_of(&mut self, pixel: &Pixel, pieces: &mut Pieces, sight: &Sight, share: f64) -> PaintMean {
-        self.clear(sight.slop);
         self.share = share;
+        let most = (f64::from(1u32 << pixel.setting.budget.depth) * share).ceil() as u64;
+        self.refine_to(pixel, pieces, sight, most)
+    }
+
+    /// Cuts a pixel that sees this, beyond its fragments, into at most 2^depth pieces.
+    pub(super) fn refine_further(&mut self, pixel: &Pixel, pieces: &mut Pieces, sight: &Sight, depth: u32) {
+        self.share = 1.0;
+        let most = sight.fragments.len() as u64 + (1 << depth);
+        self.refine_to(pixel, pieces, sight, most);
+    }
+
+    fn refine_to(&mut self, pixel: &Pixel, pieces: &mut Pieces, sight: &Sight, most: u64) -> PaintMean {
+        self.clear(sight.slop);
         let mut mean = PaintMean::NOTHING;
         for sky in &sight.sky {
             let area = pieces.area(*sky);
@@ -160,7 +179,6 @@ impl Refinery {
         for fragment in &sight.fragments {
             self.look(pixel, pieces, FragmentPiece::new(fragment, pieces.area(fragment.shape)), &mut mean);
         }
-        let most = (f64::from(1u32 << pixel.setting.budget.depth) * share).ceil() as u64;
         while !self.is_enough(pixel.setting, &mean) && self.count < most {
             let Some(piece) = self.heap.pop() else { break };
             self.open_area -= if piece.is_open { piece.area } else { 0.0 };
@@ -216,27 +234,38 @@ impl Refinery {
             sample.add(Outcome::of_sky(PaintRange::exact(pixel.setting.sky)));
         }
         for piece in self.closed.iter().chain(&self.heap) {
-            let ground = pixel.ground(piece.facet);
-            let points = pieces.of(piece.shape);
-            let mut depth = (f64::INFINITY, f64::NEG_INFINITY);
-            for p in points {
-                let World { x, y, z } = ground.hit(*p).world;
-                let v = ground.rays.frame.depth(World::new(x, y, z));
-                depth = (math::min(v, depth.0), math::max(v, depth.1));
-            }
-            let states =
-                piece.states.map(|(first, count)| &self.states[first as usize..(first + count) as usize]);
-            let items = states.map(|states| states.iter().map(|s| (s.item, s.known())).collect());
-            sample.add(Outcome {
-                triangle: ground.facet.id,
-                paint: piece.paint,
-                items,
-                plan: ground.plan_box(points),
-                depth,
-            });
+            sample.add(self.outcome_of(pixel, pieces, piece));
         }
-        debug_assert!(!sample.outcomes.iter().any(|o| o.triangle == SKY && o.depth.0.is_finite()));
         sample
+    }
+
+    fn outcome_of(&self, pixel: &Pixel, pieces: &Pieces, piece: &FragmentPiece) -> Outcome {
+        let ground = pixel.ground(piece.facet);
+        let points = pieces.of(piece.shape);
+        let depths = points.iter().map(|p| ground.rays.frame.depth(ground.hit(*p).world));
+        let depth = depths.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
+            (math::min(v, low), math::max(v, high))
+        });
+        let states =
+            piece.states.map(|(first, count)| &self.states[first as usize..(first + count) as usize]);
+        let items = states.map(|states| states.iter().map(|s| (s.item, s.known())).collect());
+        let (triangle, plan) = (ground.facet.id, ground.plan_box(points));
+        Outcome { triangle, paint: piece.paint, items, plan, depth }
+    }
+
+    /// The pieces of the pixel refined last, and its sky.
+    pub(super) fn parts(&self, pixel: &Pixel, pieces: &Pieces, sight: &Sight) -> Vec<Part> {
+        let of_piece = |piece: &FragmentPiece| {
+            let outcome = (piece.paint.width() == 0.0 && !piece.is_open && piece.states.is_some())
+                .then(|| self.outcome_of(pixel, pieces, piece));
+            Part { shape: piece.shape, outcome }
+        };
+        let of_sky = |sky: &Polygon| Part {
+            shape: *sky,
+            outcome: Some(Outcome::of_sky(PaintRange::exact(pixel.setting.sky))),
+        };
+        let ground = self.closed.iter().chain(&self.heap).map(of_piece);
+        ground.chain(sight.sky.iter().map(of_sky)).collect()
     }
 
     /// The pieces of the pixel refined last, each with its facet and with what is known of its items (`None`: nothing).

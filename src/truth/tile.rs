@@ -4,7 +4,7 @@ use super::facet::{Facet, Hit};
 use super::knowledge::Pixel;
 use super::outcome::Sample;
 use super::polygon::{self, Pieces};
-use super::refine::{PartSum, Refinery};
+use super::refine::{Part, PartSum, Refinery};
 use super::setting::Setting;
 use super::tile_rays::TileRays;
 use super::visible::Sight;
@@ -116,8 +116,8 @@ pub(super) struct TileTruth {
 pub(super) struct Probes<'a> {
     /// Places in the pixel, 0..=1 from its upper left corner.
     pub(super) spots: &'a [[f64; 2]],
-    /// How far a sample may be shifted along each axis, pixels.
-    pub(super) shift: f64,
+    /// How far a sample may be shifted along each axis, pixels: each of these is asked for.
+    pub(super) shifts: &'a [f64],
     /// How many shifts' worth of the surface's depth a visible point may seem to lie elsewhere along its ray.
     pub(super) depths_of_shifts: f64,
     /// How far along its ray a visible point of a view depth may seem to lie elsewhere besides, metres.
@@ -235,8 +235,17 @@ const LEAF_MARGIN: f64 = 1e-2;
 /// View depths below this share of the coordinates are too near to trust a box's place on the screen.
 const NEAR_SHARE: f64 = 1e-6;
 
-/// From so many samples a pixel on it is first asked whether all see the same paint.
-const ALIKE_FROM: usize = 4;
+/// From so many samples on a pixel is looked at as a whole first, and cut into at most 2^depth pieces.
+const TOGETHER_FROM: usize = 4;
+const TOGETHER_DEPTH: u32 = 8;
+
+/// A pixel and all that its samples may be shifted to.
+const WITH_MARGIN: ([f64; 2], f64) = ([-MOST_SHIFT; 2], 1.0 + 2.0 * MOST_SHIFT);
+
+/// The square in which a sample may lie.
+fn square_around([x, y]: [f64; 2], shift: f64) -> ([f64; 2], f64) {
+    ([x - shift, y - shift], 2.0 * shift)
+}
 
 /// Side of a block of pixels that open the terrain's leaves together.
 const BLOCK: usize = 8;
@@ -503,33 +512,61 @@ impl<'a> Work<'a> {
 
     /// What a pixel's samples may see, as [`Work::pixel`].
     fn probe(&mut self, [x, y]: [usize; 2], probes: &Probes, near: &[u32], rest: &[usize]) -> bool {
-        let corner = [x as f64, y as f64];
-        let mut samples = Vec::with_capacity(probes.spots.len());
-        if probes.spots.len() >= ALIKE_FROM {
-            let square = ([-MOST_SHIFT; 2], 1.0 + 2.0 * MOST_SHIFT);
-            if !self.see(corner, square, near, rest) {
+        let pixel = [x as f64, y as f64];
+        let mut samples = vec![None; probes.spots.len() * probes.shifts.len()];
+        if probes.spots.len() >= TOGETHER_FROM {
+            if !self.see(pixel, WITH_MARGIN, near, rest) {
                 return false;
             }
-            let all = self.outcomes(corner, square, near);
-            if all.has_one_paint() {
-                samples = vec![all; probes.spots.len()];
-            }
+            self.sample_together(pixel, probes, near, &mut samples);
         }
-        if samples.is_empty() {
-            for &[sx, sy] in probes.spots {
-                let square = |shift: f64| ([sx - shift, sy - shift], 2.0 * shift);
-                if !self.see(corner, square(probes.shift), near, rest) {
-                    return false;
-                }
-                let reach = self.reach(corner, [sx, sy], probes);
-                if reach > probes.shift && !self.see(corner, square(reach), near, rest) {
-                    return false;
-                }
-                samples.push(self.outcomes(corner, square(math::max(reach, probes.shift)), near));
+        for (k, sample) in samples.iter_mut().enumerate().filter(|(_, sample)| sample.is_none()) {
+            let (spot, shift) = (probes.spots[k % probes.spots.len()], probes.shifts[k / probes.spots.len()]);
+            if !self.see(pixel, square_around(spot, shift), near, rest) {
+                return false;
             }
+            let reach =
+                self.sight.fragments.first().map_or(shift, |f| self.reach(f.facet, pixel, spot, shift));
+            let square = square_around(spot, reach);
+            if reach > shift && !self.see(pixel, square, near, rest) {
+                return false;
+            }
+            *sample = Some(self.outcomes(pixel, square, near));
         }
-        self.out.samples[y * self.size[0] + x] = samples;
+        self.out.samples[y * self.size[0] + x] = samples.into_iter().flatten().collect();
         true
+    }
+
+    /// Samples of a pixel, the whole of which was looked at last, where what its pieces know tells all; the last spot, of which depth and place
+    /// are wanted, is left out.
+    fn sample_together(
+        &mut self,
+        pixel: [f64; 2],
+        probes: &Probes,
+        near: &[u32],
+        samples: &mut [Option<Sample>],
+    ) {
+        let of = Pixel { setting: self.setting, rays: &self.rays, facets: &self.facets, corner: pixel };
+        self.refinery.refine_further(&of, &mut self.pieces, &self.sight, TOGETHER_DEPTH);
+        let parts = self.refinery.parts(&of, &self.pieces, &self.sight);
+        let count = probes.spots.len();
+        for (k, sample) in samples.iter_mut().enumerate().filter(|(k, _)| k % count + 1 < count) {
+            let (spot, shift) = (probes.spots[k % count], probes.shifts[k / count]);
+            let here = self.sight.fragments.iter().find(|f| polygon::holds(self.pieces.of(f.shape), spot));
+            let reach = here.map_or(shift, |fragment| self.reach(fragment.facet, pixel, spot, shift));
+            let (corner, side) = square_around(spot, reach);
+            let met: Vec<&Part> = parts
+                .iter()
+                .filter(|part| polygon::meets_square(self.pieces.of(part.shape), corner, side))
+                .collect();
+            let is_known = !met.is_empty() && met.iter().all(|part| part.outcome.is_some());
+            let at = [pixel[0] + corner[0], pixel[1] + corner[1]];
+            if is_known && self.nearly_seen(at, side, near).is_empty() {
+                let mut all = Sample::default();
+                met.into_iter().filter_map(|part| part.outcome.clone()).for_each(|outcome| all.add(outcome));
+                *sample = Some(all);
+            }
+        }
     }
 
     /// What may be seen and held in the square of a pixel that was looked at last, of these facets.
@@ -568,10 +605,10 @@ impl<'a> Work<'a> {
 
     /// How far a spot's sample may be shifted for what it seems to see to be all that it may, pixels. What is seen may lie elsewhere along the
     /// ray; a face through it that stands upright on the plan is met as much sooner or later.
-    fn reach(&self, pixel: [f64; 2], spot: [f64; 2], probes: &Probes) -> f64 {
+    fn reach(&self, facet: u32, pixel: [f64; 2], spot: [f64; 2], shift: f64) -> f64 {
         const STEP: f64 = 1.0 / 64.0;
-        let Some(fragment) = self.sight.fragments.first() else { return probes.shift };
-        let facet = &self.facets[fragment.facet as usize];
+        let Some(probes) = &self.probes else { return shift };
+        let facet = &self.facets[facet as usize];
         let hit =
             |dx: f64, dy: f64| facet.hit(&self.rays, [pixel[0] + spot[0] + dx, pixel[1] + spot[1] + dy]);
         let at = hit(0.0, 0.0);
@@ -591,11 +628,11 @@ impl<'a> Work<'a> {
             // Seen edge-on: whatever is near.
             if far.is_finite() { far } else { MOST_SHIFT }
         };
-        let of_shift = pixels(probes.depths_of_shifts * probes.shift * (slope(&right) + slope(&down)));
+        let of_shift = pixels(probes.depths_of_shifts * shift * (slope(&right) + slope(&down)));
         let size = at.world.to_vec().abs().max_element() + (at.world - self.rays.frame.eye()).length();
         let aside = probes.share * size * (x.length() + y.length()) / area.abs();
         let of_coordinates = if aside.is_finite() { aside } else { MOST_SHIFT };
-        let all = math::max(probes.shift, of_shift) + pixels((probes.along)(depth(&at))) + of_coordinates;
+        let all = math::max(shift, of_shift) + pixels((probes.along)(depth(&at))) + of_coordinates;
         math::min(all, MOST_SHIFT)
     }
 

@@ -158,7 +158,7 @@ fn sights(view: &View, guess: &Guess, mesh: &Mesh, texture: &Texture) -> Buffer<
         list: &nothing,
         strokes: Strokes::Style,
         spots: &[[0.5; 2]],
-        shift,
+        shifts: &[shift],
         depths_of_shifts: 0.0,
         along: &|_| 0.0,
         share: 0.0,

@@ -107,7 +107,7 @@ fn probed(settings: &Settings, view: &View, eye: &Eye) -> Buffer<Probed> {
         list: &nothing,
         strokes: Strokes::Style,
         spots: if wants_corners { &spots } else { &spots[..1] },
-        shift: eye.shift,
+        shifts: &[eye.shift],
         // How depths move points along their rays is the eye's matter.
         depths_of_shifts: 0.0,
         along: &|_| 0.0,
