@@ -134,7 +134,7 @@ fn open_pixels_that_all_go_one_way_pass_weakly_and_fail_where_that_is_asked() {
 
 #[test]
 fn a_cluster_of_failing_pixels_fails_though_so_many_are_allowed() {
-    let scattered = |x: usize, y: usize| y == 5 && x % 8 == 0;
+    let scattered = |x: usize, y: usize| y == 5 && x.is_multiple_of(8);
     let dense = |x: usize, y: usize| y == 5 && (10..15).contains(&x);
     let folder = |is_wrong: fn(usize, usize) -> bool| {
         with_frame(0, move |x, y, pixel| pixel[1] += u8::from(is_wrong(x, y)))

@@ -70,7 +70,8 @@ pub struct Stage {
 /// The values that a buffer may have.
 #[derive(Debug, Clone, PartialEq)]
 pub enum StageRange {
-    /// Each value between two, ends included; rows from the top, then columns, then components.
+    /// Each value between two, ends included; rows from the top, then columns, then components. A buffer of samples has a few a pixel: it is as
+    /// many times as wide and as high as the picture.
     Between {
         /// Values a pixel.
         components: usize,
@@ -79,7 +80,7 @@ pub enum StageRange {
         /// The most of each.
         hi: Vec<f64>,
     },
-    /// One of a pixel's values here, sorted by pixel (column + width * row); a pixel without any may have any value.
+    /// One of a place's values here, sorted by place (column + width * row of the buffer); a place without any may have any value.
     OneOf(Vec<(u32, f64)>),
 }
 

@@ -15,7 +15,7 @@ pub const RANGE: usize = 20;
 /// What the reference draws, in codes of 8 bits: by the first hypothesis, and by the second, which has other blues.
 pub fn code(x: usize, y: usize, hypothesis: usize) -> [u8; 4] {
     let red = match y {
-        FEW if x % 2 == 0 => 50,
+        FEW if x.is_multiple_of(2) => 50,
         FEW => 200,
         RANGE => 40 + 4 * x as u8,
         _ => x as u8,
@@ -133,8 +133,17 @@ pub fn write_unsigned(folder: &Path) {
     let runs = [[FEW, 0, SIZE.0 - 1, 0, 0], [RANGE, 0, 19, 1, 0], [RANGE, 10, 39, 1, 1]];
     let runs = Values::U32(runs.as_flattened().iter().map(|value| *value as u32).collect());
     write_plane(&allowed.join("features.npy"), 5, runs);
-    let feature = |layer: &str, name: &str| json!({ "type": "Feature", "properties": { "layer": layer, "name": name, "number": 3 } });
-    let features = json!({ "type": "FeatureCollection", "features": [feature("roads", "Main Street"), feature("lakes", "Mirror"), feature("lakes", "")] });
+    let feature = |layer: &str, [number, feature]: [u32; 2], name: &str| {
+        let properties =
+            json!({ "layer": layer, "layer-number": number, "feature": feature, "number": 3, "name": name });
+        json!({ "type": "Feature", "properties": properties, "geometry": null })
+    };
+    let features = [
+        feature("roads", [0, 0], "Main Street"),
+        feature("lakes", [1, 0], "Mirror"),
+        feature("lakes", [1, 1], ""),
+    ];
+    let features = json!({ "type": "FeatureCollection", "features": features });
     std::fs::write(folder.join("features.geojson"), features.to_string()).unwrap();
     let hypotheses = names.map(|name| {
         let file = |what: &str| format!("allowed/{name}.{what}");

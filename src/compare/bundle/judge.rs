@@ -144,7 +144,9 @@ impl Reader<'_> {
     fn stage(&self, files: &StageFiles, document: &Path) -> Result<Stage> {
         let range = match (&files.lo, &files.hi, &files.one_of) {
             (Some(lo), Some(hi), None) => self.between(lo, hi)?,
-            (None, None, Some(one_of)) => StageRange::OneOf(self.table(one_of, table::one_of)?),
+            (None, None, Some(one_of)) => {
+                StageRange::OneOf(self.table(one_of, |bytes, _| table::one_of(bytes))?)
+            }
             _ => {
                 let what = format!("the stage `{}` has neither `lo` and `hi` nor `one-of`", files.buffer);
                 return Err(Error::new(what).in_file(document));
@@ -155,7 +157,7 @@ impl Reader<'_> {
 
     fn between(&self, lo: &str, hi: &str) -> Result<StageRange> {
         let (low, high) = (self.table(lo, plane)?, self.table(hi, plane)?);
-        let is_wrong = |(lo, hi): (&f64, &f64)| !(lo <= hi);
+        let is_wrong = |(lo, hi): (&f64, &f64)| lo > hi || lo.is_nan() || hi.is_nan();
         let wrong =
             low.values.len() != high.values.len() || low.values.iter().zip(&high.values).any(is_wrong);
         if wrong {
@@ -176,7 +178,10 @@ struct Numbers {
 
 fn plane(bytes: &[u8], size: Size) -> Result<Numbers> {
     let plane = Array::of(bytes)?.plane()?;
-    check_size((plane.width(), plane.height()), size)?;
+    // A buffer of samples is so many times as wide and as high.
+    let finer = (plane.width() / size.width.max(1)).max(1);
+    let finer = Size { width: size.width.saturating_mul(finer), height: size.height.saturating_mul(finer) };
+    check_size((plane.width(), plane.height()), finer)?;
     Ok(Numbers { components: plane.channels(), values: plane.values().to_vec() })
 }
 

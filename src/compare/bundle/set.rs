@@ -22,7 +22,7 @@ pub struct ConformanceSet {
 pub struct ConformanceCase {
     /// Its name: that of its frames too.
     pub name: String,
-    /// Its folder in the set's.
+    /// Its folder in the set's, which may be in others.
     bundle: String,
     /// What it is there for, in a sentence.
     pub exposes: String,
@@ -53,11 +53,12 @@ impl ConformanceSet {
         }
         let mut names = BTreeSet::new();
         for case in &cases {
-            for name in [&case.name, &case.bundle] {
+            let inner = |name: &str| {
                 let mut parts = Path::new(name).components();
-                if !matches!(parts.next(), Some(Component::Normal(_))) || parts.next().is_some() {
-                    return refuse(format!("`{name}` is no name of a folder"));
-                }
+                !name.is_empty() && parts.all(|part| matches!(part, Component::Normal(_)))
+            };
+            if let Some(name) = [&case.name, &case.bundle].into_iter().find(|name| !inner(name)) {
+                return refuse(format!("`{name}` is no name of a folder"));
             }
             if !names.insert(&case.name) {
                 return refuse(format!("the case `{}` is there twice", case.name));
@@ -71,13 +72,15 @@ impl ConformanceSet {
         self.folder.join(&case.bundle)
     }
 
-    /// Where a case's frame is among those that were drawn: a folder of its name, or a picture.
+    /// Where a case's frame is among those that were drawn: a folder or a picture of its name, or of its bundle's place in the set.
     ///
     /// # Errors
-    /// When there is neither.
+    /// When there is none of these.
     pub fn frame(&self, case: &ConformanceCase, frames: &Path) -> Result<PathBuf> {
-        let names = ["", ".png", ".exr", ".npy"].map(|end| format!("{}{end}", case.name));
-        names.iter().map(|name| frames.join(name)).find(|path| path.exists()).ok_or_else(|| {
+        let ends = ["", ".png", ".exr", ".npy"];
+        let mut names =
+            [&case.name, &case.bundle].into_iter().flat_map(|name| ends.map(|end| format!("{name}{end}")));
+        names.find(|name| frames.join(name).exists()).map(|name| frames.join(name)).ok_or_else(|| {
             Error::new(format!("no frame of the case `{}`: neither a folder {0} nor {0}.png", case.name))
                 .in_file(frames)
         })

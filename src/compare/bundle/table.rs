@@ -6,6 +6,8 @@ use crate::error::{Error, Result};
 
 /// A row: pixel, four channels, four channels.
 type Row = [u32; 9];
+/// The same, read: a pixel and two colours.
+type Colors = (u32, [u16; 4], [u16; 4]);
 
 /// The pixels of a picture of a size.
 #[derive(Debug, Clone, Copy)]
@@ -40,7 +42,7 @@ pub(super) fn extremes(bytes: &[u8], size: Size) -> Result<Vec<Extremes>> {
     }
 }
 
-fn rows(bytes: &[u8], size: Size) -> Result<Vec<(u32, [u16; 4], [u16; 4])>> {
+fn rows(bytes: &[u8], size: Size) -> Result<Vec<Colors>> {
     let rows = Array::of(bytes)?.whole_rows::<9>()?;
     check_pixels(rows.iter().map(|row| row[0]), size)?;
     let read = |row: &Row| {
@@ -57,8 +59,8 @@ fn rows(bytes: &[u8], size: Size) -> Result<Vec<(u32, [u16; 4], [u16; 4])>> {
     rows.iter().map(read).collect()
 }
 
-/// Pixels and their values.
-pub(super) fn one_of(bytes: &[u8], size: Size) -> Result<Vec<(u32, f64)>> {
+/// Places in a buffer, which may be finer than the picture, and their values.
+pub(super) fn one_of(bytes: &[u8]) -> Result<Vec<(u32, f64)>> {
     let rows = Array::of(bytes)?.real_rows::<2>()?;
     if let Some([pixel, value]) =
         rows.iter().find(|[pixel, value]| f64::from(*pixel as u32) != *pixel || value.is_nan())
@@ -67,7 +69,7 @@ pub(super) fn one_of(bytes: &[u8], size: Size) -> Result<Vec<(u32, f64)>> {
     }
     // A cast keeps a whole number.
     let rows: Vec<(u32, f64)> = rows.into_iter().map(|[pixel, value]| (pixel as u32, value)).collect();
-    check_pixels(rows.iter().map(|(pixel, _)| *pixel), size)?;
+    check_sorted(rows.iter().map(|(pixel, _)| *pixel))?;
     Ok(rows)
 }
 
@@ -90,6 +92,10 @@ fn check_pixels(pixels: impl Iterator<Item = u32> + Clone, size: Size) -> Result
     if let Some(outside) = pixels.clone().find(|pixel| !size.holds(*pixel)) {
         return Err(Error::new(format!("the picture has no pixel {outside}")));
     }
+    check_sorted(pixels)
+}
+
+fn check_sorted(pixels: impl Iterator<Item = u32>) -> Result<()> {
     if !pixels.is_sorted() {
         return Err(Error::new("its rows are not sorted by pixel"));
     }

@@ -297,7 +297,7 @@ mod tests {
         let extremes = |pixel| Extremes { pixel, least: [0; 4], most: WHITE };
         let leaning = Hypothesis { extremes: (0..40).map(extremes).collect(), ..grey("a", [0, 10], 40) };
         let on = |others: &[Hypothesis]| {
-            let all = allowed(40, [&[leaning.clone()], others].concat());
+            let all = allowed(40, [std::slice::from_ref(&leaning), others].concat());
             Judgement::on(&all, &frame(&[5; 40]), Gates::default())
         };
         assert_eq!(best(&on(&[])), ("a", Ruling::Weak));

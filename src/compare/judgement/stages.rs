@@ -22,9 +22,9 @@ pub enum StageOutcome {
     Fits,
     /// Some pixels have a value that is not.
     Differs {
-        /// How many.
+        /// How many places of the buffer, pixels or samples.
         pixels: usize,
-        /// The first: column and row.
+        /// The first of them: column and row in the buffer.
         first: (usize, usize),
     },
     /// It has another size: columns, rows and values a pixel of what is expected, and of what was handed in.
@@ -66,42 +66,59 @@ fn outcome(
     buffer: &Image,
     ignored: Option<&[bool]>,
 ) -> StageOutcome {
-    let components = match range {
-        StageRange::Between { components, .. } => *components,
-        StageRange::OneOf(_) => 1,
-    };
-    let (expected, actual) =
-        ([width, height, components], [buffer.width(), buffer.height(), buffer.channels()]);
+    let finer = finer(range, width * height);
+    let components = components(range);
+    let expected = [width * finer, height * finer, components];
+    let actual = [buffer.width(), buffer.height(), buffer.channels()];
     if expected != actual {
         return StageOutcome::AnotherSize { expected, actual };
     }
     let wrong: Vec<usize> = match range {
         StageRange::Between { lo, hi, .. } => {
             let ends = lo.chunks_exact(components).zip(hi.chunks_exact(components));
-            let pixels = buffer.values().chunks_exact(components).zip(ends).enumerate();
+            let places = buffer.values().chunks_exact(components).zip(ends).enumerate();
             // What is not a number is nowhere.
             let fits = |v: &[f64], (lo, hi): (&[f64], &[f64])| {
                 (0..components).all(|k| v[k] >= lo[k] && v[k] <= hi[k])
             };
-            pixels.filter(|(_, (v, ends))| !fits(v, *ends)).map(|(pixel, _)| pixel).collect()
+            places.filter(|(_, (v, ends))| !fits(v, *ends)).map(|(at, _)| at).collect()
         }
         StageRange::OneOf(rows) => {
-            let pixels = rows.chunk_by(|a, b| a.0 == b.0);
-            let pixels = pixels.map(|rows| (rows[0].0 as usize, rows));
-            let is_one = |(pixel, rows): &(usize, &[(u32, f64)])| {
-                rows.iter().any(|row| row.1 == buffer.values()[*pixel])
-            };
-            pixels.filter(|found| !is_one(found)).map(|(pixel, _)| pixel).collect()
+            let places = rows.chunk_by(|a, b| a.0 == b.0).map(|rows| (rows[0].0 as usize, rows));
+            let is_one =
+                |(at, rows): &(usize, &[(u32, f64)])| rows.iter().any(|row| row.1 == buffer.values()[*at]);
+            places.filter(|found| !is_one(found)).map(|(at, _)| at).collect()
         }
     };
-    let counts = |pixel: &usize| ignored.is_none_or(|ignored| !ignored[*pixel]);
+    let row = width * finer;
+    let counts = |at: &usize| {
+        let pixel = at / row / finer * width + at % row / finer;
+        ignored.is_none_or(|ignored| !ignored[pixel])
+    };
     let mut wrong = wrong.into_iter().filter(counts);
     match wrong.next() {
         None => StageOutcome::Fits,
-        Some(first) => {
-            StageOutcome::Differs { pixels: 1 + wrong.count(), first: (first % width, first / width) }
-        }
+        Some(first) => StageOutcome::Differs { pixels: 1 + wrong.count(), first: (first % row, first / row) },
     }
+}
+
+fn components(range: &StageRange) -> usize {
+    match range {
+        StageRange::Between { components, .. } => *components,
+        StageRange::OneOf(_) => 1,
+    }
+}
+
+/// How many times as wide and as high as the picture a buffer is: one of samples has some a pixel.
+fn finer(range: &StageRange, pixels: usize) -> usize {
+    let places = match range {
+        StageRange::Between { components, lo, .. } => lo.len() / components,
+        // As a rule the last places have values.
+        StageRange::OneOf(rows) => rows.last().map_or(0, |row| row.0 as usize + 1),
+    };
+    let squared = places.div_ceil(pixels).max(1);
+    let root = squared.isqrt();
+    if root * root < squared { root + 1 } else { root }
 }
 
 #[cfg(test)]
@@ -139,6 +156,21 @@ mod tests {
         assert_eq!(found(rows(), wrong.clone(), None), StageOutcome::Differs { pixels: 2, first: (1, 0) });
         let ignored = [false, true, false, false];
         assert_eq!(found(rows(), wrong, Some(&ignored)), StageOutcome::Differs { pixels: 1, first: (0, 1) });
+    }
+
+    #[test]
+    fn a_buffer_of_samples_is_finer_than_the_picture() {
+        let samples = |values: Vec<f64>| Image::new(4, 4, 1, values).unwrap();
+        let one = |at: usize| (0..16).map(|k| if k == at { 1.0 } else { 0.0 }).collect::<Vec<f64>>();
+        let range = || StageRange::Between { components: 1, lo: vec![0.0; 16], hi: vec![0.5; 16] };
+        // In the third row, second column: in the pixel of the second row.
+        let ignored = [false, false, true, false];
+        assert_eq!(found(range(), samples(one(9)), None), StageOutcome::Differs { pixels: 1, first: (1, 2) });
+        assert_eq!(found(range(), samples(one(9)), Some(&ignored)), StageOutcome::Fits);
+        let rows = || StageRange::OneOf(vec![(9, 1.0), (14, 0.0)]);
+        assert_eq!(found(rows(), samples(one(9)), None), StageOutcome::Fits);
+        assert_eq!(found(rows(), samples(one(8)), None), StageOutcome::Differs { pixels: 1, first: (1, 2) });
+        assert!(matches!(found(rows(), buffer(1, &[0.0; 4]), None), StageOutcome::AnotherSize { .. }));
     }
 
     #[test]

@@ -190,7 +190,7 @@ fn stage_text(stage: &StageFound, is_first: bool) -> String {
         StageOutcome::NotGiven => format!("{buffer}: not given"),
         StageOutcome::Fits => format!("{buffer}: as allowed"),
         StageOutcome::Differs { pixels, first: (x, y) } => {
-            format!("{buffer}: {pixels} pixels are not allowed, first at {x},{y}{first}")
+            format!("{buffer}: not allowed in {pixels} places, first at {x},{y}{first}")
         }
         StageOutcome::AnotherSize { expected: e, actual: a } => format!(
             "{buffer}: another size: {} x {} pixels of {} values are expected, it has {} x {} of {}{first}",
