@@ -340,15 +340,16 @@ fn options_of_pictures_are_refused_for_bundles() {
 fn with_set() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
-    for name in ["caps", "order", "origin"] {
-        write_bundle(&at("set").join(name));
-    }
-    let case =
-        |name: &str| json!({ "name": name, "bundle": name, "exposes": format!("a mistake with <{name}>") });
-    let document = json!({ "schema": 1, "cases": [case("caps"), case("order"), case("origin")] });
+    let case = |(name, bundle): (&str, &str)| {
+        write_bundle(&at("set").join(bundle));
+        json!({ "name": name, "bundle": bundle, "exposes": format!("a mistake with <{name}>") })
+    };
+    let cases = [("caps", "caps"), ("order", "order"), ("origin", "far/origin")].map(case);
+    let document = json!({ "schema": 1, "cases": cases });
     std::fs::write(at("set/conformance.json"), document.to_string()).unwrap();
     write_picture(&at("frames/caps/clipmap.png"), &drawn(1, |_, _, _| {}));
-    write_picture(&at("frames/order.png"), &drawn(0, |x, y, pixel| pixel[1] += u8::from((x, y) == (30, 2))));
+    let wrong = drawn(0, |x, y, pixel| pixel[1] += u8::from((x, y) == (30, 2)));
+    write_picture(&at("frames/order.png"), &wrong);
     folder
 }
 
@@ -367,7 +368,7 @@ FAIL: 2 of 3 cases fail
     assert!(said.contains("exposes    a mistake with <order>"), "{said}");
     assert!(said.contains("no frame of the case `origin`"), "{said}");
     write_picture(&folder.path().join("frames/order.png"), &drawn(0, |_, _, _| {}));
-    write_picture(&folder.path().join("frames/origin.png"), &drawn(0, |_, _, _| {}));
+    write_picture(&folder.path().join("frames/far/origin/clipmap.png"), &drawn(0, |_, _, _| {}));
     let output = called_in(folder.path(), &["set", "frames", "--json", "-"]);
     let json: Value = serde_json::from_str(&judged(&output, 0)).unwrap();
     assert_eq!(
@@ -383,7 +384,7 @@ fn a_set_without_any_frame_or_with_a_broken_bundle_judges_nothing() {
     let said = refused(&called_in(folder.path(), &["set", "empty"]));
     assert!(said.contains("none of the 3 cases has a frame here") && said.contains("`caps`"), "{said}");
     assert!(refused(&called_in(folder.path(), &["set", "frames/order.png"])).contains("are in a folder"));
-    std::fs::remove_file(folder.path().join("set/origin/allowed.json")).unwrap();
+    std::fs::remove_file(folder.path().join("set/far/origin/allowed.json")).unwrap();
     assert!(
         refused(&called_in(folder.path(), &["set", "frames"])).contains("allowed.json: this file is missing")
     );
@@ -422,6 +423,19 @@ fn junit_has_a_case_each_with_its_failure_and_its_attachments() {
     }
     assert!(!xml.contains("[[ATTACHMENT|heat/origin.heat.png]]"));
     roxmltree::Document::parse(&xml).unwrap();
+}
+
+#[test]
+fn a_frame_on_stdin_is_judged() {
+    let folder = with_frame(0, |_, _, _| {});
+    let called = |file: &str| {
+        let stdin = std::fs::File::open(folder.path().join(file)).unwrap();
+        let mut command = Command::new(env!("CARGO_BIN_EXE_drapery"));
+        command.args(["compare", "bundle", "-"]).current_dir(folder.path()).stdin(stdin).output().unwrap()
+    };
+    judged(&called("frame.png"), 0);
+    #[cfg(unix)]
+    assert!(refused(&called("bundle/clipmap.png")).contains("the same file twice"));
 }
 
 #[test]

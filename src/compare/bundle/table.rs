@@ -101,3 +101,70 @@ fn check_sorted(pixels: impl Iterator<Item = u32>) -> Result<()> {
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::buffer::{Plane, Values};
+    use crate::output::Npy;
+    use proptest::prelude::{ProptestConfig, any, prop};
+
+    const SIZE: Size = Size { width: 4, height: 3 };
+
+    fn file(columns: usize, values: Values, rows: usize) -> Vec<u8> {
+        let plane = Plane { name: "table", width: columns, height: rows, components: 1, values };
+        let mut file = Vec::new();
+        Npy::new(&plane).unwrap().write(&mut file).unwrap();
+        file
+    }
+
+    #[test]
+    fn rows_are_read_as_they_are() {
+        let row = vec![11, 0, 1, 2, 3, 4, 5, 6, 65535];
+        let table = file(9, Values::U32(row), 1);
+        let (lo, hi) = ([0, 1, 2, 3], [4, 5, 6, 65535]);
+        assert_eq!(choices(&table, SIZE).unwrap(), [Choice { pixel: 11, lo, hi }]);
+        assert_eq!(extremes(&table, SIZE).unwrap(), [Extremes { pixel: 11, least: lo, most: hi }]);
+        let table = file(5, Values::U32(vec![2, 1, 3, 7, 8]), 1);
+        let run = FeatureRun { row: 2, first: 1, last: 3, layer: 7, feature: 8 };
+        assert_eq!(runs(&table, SIZE).unwrap(), [run]);
+        let table = file(2, Values::F64(vec![3.0, f64::INFINITY, 3.0, -1.5]), 2);
+        assert_eq!(one_of(&table).unwrap(), [(3, f64::INFINITY), (3, -1.5)]);
+    }
+
+    #[test]
+    fn a_place_is_a_whole_number() {
+        for place in [-1.0, 0.5, 4_294_967_296.0, f64::INFINITY] {
+            let error = one_of(&file(2, Values::F64(vec![place, 0.0]), 1)).unwrap_err();
+            assert!(error.what().starts_with("a row of the pixel"), "{error}");
+        }
+    }
+
+    proptest::proptest! {
+        #![proptest_config(ProptestConfig::with_cases(256))]
+
+        #[test]
+        fn damaged_tables_are_refused_or_hold_what_they_have_to(
+            changes in prop::collection::vec((any::<u32>(), any::<u8>()), 1..6),
+            cut in prop::option::of(any::<u32>()),
+        ) {
+            for columns in [9, 5, 2] {
+                let mut table = match columns {
+                    2 => file(2, Values::F64(vec![1.0; 4]), 2),
+                    _ => file(columns, Values::U32(vec![1; 2 * columns]), 2),
+                };
+                for (at, byte) in &changes {
+                    let at = *at as usize % table.len();
+                    table[at] = *byte;
+                }
+                if let Some(cut) = cut {
+                    table.truncate(cut as usize % table.len());
+                }
+                assert!(choices(&table, SIZE).map_or(true, |rows| rows.iter().all(|row| row.pixel < 12)));
+                assert!(extremes(&table, SIZE).map_or(true, |rows| rows.iter().all(|row| row.pixel < 12)));
+                assert!(one_of(&table).map_or(true, |rows| rows.is_sorted_by_key(|row| row.0)));
+                assert!(runs(&table, SIZE).map_or(true, |runs| runs.iter().all(|run| run.row < 3 && run.last < 4)));
+            }
+        }
+    }
+}
