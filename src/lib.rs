@@ -32,7 +32,7 @@
 //! 3. [`technique`] draws it, each beside its paper; [`truth`] certifies it;
 //! 4. [`compare`] says how far a picture is from what is expected, and judges a frame by what a bundle allows; [`golden`] replays what is known;
 //! 5. [`measure`] times; [`report`] sets error against time; [`export`] makes folders of pictures, and bundles for a program on a graphics
-//!    processor;
+//!    processor; [`calibrate`] tells which machine that is;
 //! 6. [`buffer`] holds images, [`output`] writes files, [`parallel`] says how many threads there are.
 //!
 //! Internals, public for the tests and benches of this repository, which may change in any version: [`crs`], [`source`] (files become
@@ -51,6 +51,8 @@
 #[cfg(feature = "render")]
 pub mod allowed;
 pub mod buffer;
+#[cfg(feature = "render")]
+pub mod calibrate;
 #[cfg(feature = "render")]
 pub mod canvas;
 #[cfg(feature = "render")]

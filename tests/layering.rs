@@ -171,6 +171,8 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "buffer",
         ],
     ),
+    // Its tests draw with the imitated machine.
+    ("calibrate", &["canvas", "scene", "parameter", "compare", "output", "buffer"]),
     (
         "export",
         &[

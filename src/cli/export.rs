@@ -2,6 +2,7 @@
 
 use super::bar::Bar;
 use super::reduce::SCENE;
+use super::device_argument::DeviceArgument;
 use super::render::techniques::{self, Name};
 use super::scene_input;
 use super::stop::{Outcome, Status};
@@ -22,6 +23,7 @@ const EXAMPLES: &str = "\
 Examples:
   drapery export scene.toml -t clipmap -o bundle
   drapery export scene.toml -t stencil-volume --set image.width=800 -o bundle
+  drapery export scene.toml -t clipmap --device lavapipe -o bundle
   drapery export --conformance -t stencil-volume -o set
   drapery compare bundle mine.png
 
@@ -52,6 +54,8 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "N", default_value_t = 0)]
     threads: usize,
     #[command(flatten)]
+    device: DeviceArgument,
+    #[command(flatten)]
     truth: TruthArguments,
 }
 
@@ -70,7 +74,8 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
 
 /// Writes the conformance set.
 fn conformance(arguments: &Arguments, technique: Option<Kind>, budget: Budget) -> Outcome {
-    let changes = arguments.overrides.iter().map(|text| Override::parse(text));
+    let overrides = arguments.device.before(&arguments.overrides)?;
+    let changes = overrides.iter().map(|text| Override::parse(text));
     let changes = changes.collect::<Result<Vec<Override>>>()?;
     let (batch, bar) = (Batch::into(&arguments.output)?, Bar::new());
     let set = Conformance { technique, changes: &changes, budget };
@@ -84,7 +89,8 @@ fn conformance(arguments: &Arguments, technique: Option<Kind>, budget: Budget) -
 
 /// Writes a scene's bundle.
 fn bundle(arguments: &Arguments, technique: Kind, budget: Budget) -> Outcome {
-    let text = scene_input::read(arguments.scene.as_deref(), &arguments.overrides)?;
+    let text =
+        scene_input::read(arguments.scene.as_deref(), &arguments.device.before(&arguments.overrides)?)?;
     let mut batch = Batch::into(&arguments.output)?;
     let bar = Bar::new();
     let export = || {

@@ -4,9 +4,11 @@
 //! 3 a bug of ours.
 
 mod bar;
+mod calibrate;
 mod columns;
 mod compare;
 mod completions;
+mod device_argument;
 mod export;
 mod golden;
 mod info;
@@ -69,6 +71,8 @@ enum Command {
     New(new::Arguments),
     /// Write a scene and its pictures for a program on a graphics processor that is to draw the same.
     Export(export::Arguments),
+    /// Find out how a graphics processor rounds, so that it can be imitated.
+    Calibrate(calibrate::Arguments),
     /// Judge a frame by a bundle, or a picture by another.
     Compare(compare::Arguments),
     /// Find the smallest scene that a program still draws wrong.
@@ -106,6 +110,7 @@ fn run(command: Command) -> Outcome {
         Command::Render(arguments) => render::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
+        Command::Calibrate(arguments) => calibrate::run(&arguments),
         Command::New(arguments) => new::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Reduce(arguments) => reduce::run(&arguments),

@@ -3,6 +3,7 @@
 pub(super) mod techniques;
 
 use super::bar::Bar;
+use super::device_argument::DeviceArgument;
 use super::scene_input;
 use super::stop::{Outcome, Status};
 use super::truth_arguments::TruthArguments;
@@ -56,13 +57,16 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
     repeat: u32,
     #[command(flatten)]
+    device: DeviceArgument,
+    #[command(flatten)]
     truth: TruthArguments,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Outcome {
     let asked = techniques::asked(&arguments.techniques)?;
     let budget = arguments.truth.budget()?;
-    let scene = scene_input::read(arguments.scene.as_deref(), &arguments.overrides)?;
+    let changes = arguments.device.before(&arguments.overrides)?;
+    let scene = scene_input::read(arguments.scene.as_deref(), &changes)?;
     let batch = Batch::into(&arguments.output)?;
     let bar = Bar::new();
     if !asked.truth && !arguments.errors && budget != Budget::default() {
