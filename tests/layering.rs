@@ -182,6 +182,8 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "canvas",
             "truth",
             "raster",
+            // Colours of glTF are linear.
+            "resolve",
             // The conformance set is scene files.
             "open",
             "scene_file",

@@ -115,8 +115,13 @@ pub(super) fn samples(sheet: &Sheet, count: u32) -> Result<String> {
             if here < 0 {
                 return Err(sheet.contradiction("a larger rectangle covers fewer samples"));
             }
+            if here > 1 {
+                return Err(sheet.contradiction(&format!(
+                    "{here} samples are at one place, so there are fewer than {count}"
+                )));
+            }
             let place = [column, row].map(|v| v as i8 - 9);
-            places.extend(std::iter::repeat_n(place, here as usize));
+            places.extend((here == 1).then_some(place));
         }
     }
     if places.len() != count as usize {

@@ -15,7 +15,7 @@ pub(super) const PARTS: f64 = 2048.0;
 /// How many places an edge is tried at: from a pixel's centre on, a part further each.
 pub(super) const EDGE_PLACES: usize = 128;
 /// How many places something is interpolated at.
-pub(super) const INTERPOLATED_PLACES: usize = 64;
+pub(super) const INTERPOLATED_PLACES: usize = 128;
 /// The depth that depths are compared with.
 pub(super) const DEPTH: f64 = 3.0 / 32.0;
 /// Differences of depth are powers of two: from 2^-8 on.

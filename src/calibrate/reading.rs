@@ -88,7 +88,7 @@ impl Findings {
             (None, _) => return Ok(()),
             (Some(answers::Corners::Unsnapped), bits) => (
                 "unsnapped",
-                "interpolation: as if corners were not moved, for all of 64 places.".to_owned(),
+                "interpolation: as if corners were not moved, at all places that were tried.".to_owned(),
                 bits,
             ),
             (Some(answers::Corners::Snapped(by)), Some(bits)) if by != bits => {
@@ -99,7 +99,7 @@ impl Findings {
             }
             (Some(answers::Corners::Snapped(by)), bits) => {
                 let seen = format!(
-                    "interpolation: from corners that are multiples of 2^-{by} pixels, for all of 64 places."
+                    "interpolation: from corners that are multiples of 2^-{by} pixels, at all places that were tried."
                 );
                 if bits.is_none() {
                     self.find("subpixel_bits", imitated(by).to_string(), seen.clone());

@@ -210,7 +210,8 @@ fn pictures_that_contradict_themselves_or_one_another_are_refused() {
     assert!(refusal(&DEVICE, &other, "depth").contains("a picture for each direction of depth"));
     // Any other picture under the name of one, and one of another size.
     for (name, under, what) in [
-        ("samples-4", "samples-8", "is no mean of 8 samples"),
+        ("samples-4", "samples-8", "2 samples are at one place"),
+        ("samples-8", "samples-4", "is no mean of 4 samples"),
         ("filter", "edges", "contradicts itself"),
         ("edges", "interpolation", "explained neither"),
         ("edges", "depth", "not 64 x 64"),

@@ -1,5 +1,6 @@
 //! A scene and its pictures as files for a program that draws the same on a graphics processor.
 
+use super::gltf::glb;
 use super::manifest::stage_manifest;
 use super::readme::readme;
 use super::run_files::RunFiles;
@@ -135,6 +136,8 @@ impl<'a> Bundle<'a> {
             let table = Npy::new(&table)?;
             batch.stage(&name, |to| table.write(to))?;
         }
+        let scene_in_one = glb(scene, draw_list, mesh)?;
+        batch.stage("scene.glb", |to| to.write_all(&scene_in_one))?;
         let (layers, list, plan_space) = (&scene.layers[..], draw_list, &scene.plan_space[..]);
         let origin = scene.origin.truncate();
         let (technique, said) = (self.technique, &scene.technique);

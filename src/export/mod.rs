@@ -10,6 +10,7 @@ mod buffers;
 mod bundle;
 pub mod conformance;
 mod features;
+mod gltf;
 mod manifest;
 mod mesh;
 mod parameters;
