@@ -121,8 +121,11 @@ impl Trial {
         })
     }
 
-    /// Bugs of the judged techniques that change no picture: they test nothing.
+    /// Bugs of the judged techniques that change no picture of the whole corpus: they test nothing.
     pub(super) fn idle(&self) -> Vec<&'static str> {
+        if !self.is_whole {
+            return Vec::new();
+        }
         let judged = self.judged();
         let asked = bugs::all().into_iter().filter(|bug| judged.iter().any(|kind| bug.can_be_of(*kind)));
         let changes = |bug: &&&Bug| {

@@ -39,6 +39,8 @@ impl Default for Plan {
 pub struct Trial {
     pub(super) shown: Vec<Shown>,
     pub(super) subjects: Vec<Judged>,
+    /// Whether it is the whole corpus.
+    pub(super) is_whole: bool,
     /// Techniques that nobody can judge, with the reason.
     pub(super) without_model: Vec<(Kind, String)>,
 }
@@ -92,7 +94,8 @@ pub fn run(plan: &Plan, progress: &(dyn Fn(f64) + Sync)) -> Result<Trial> {
         of_subject(plan, scene, kind)
             .map_err(|error| error.reworded(|what| format!("{}: {what}", scene.name)))
     });
-    let mut trial = Trial::default();
+    let is_whole = plan.scene.is_none() && plan.every <= 1;
+    let mut trial = Trial { is_whole, ..Trial::default() };
     for part in parts {
         let part = part?;
         trial.shown.extend(part.shown);
