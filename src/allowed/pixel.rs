@@ -79,17 +79,10 @@ impl PixelRange {
             items: items_of(samples),
             ..Self::default()
         };
-        let paints: Vec<Vec<PaintRange>> = samples.iter().map(different_paints).collect();
-        let count =
-            paints.iter().try_fold(1usize, |count, of| Some(count * of.len()).filter(|c| *c <= MOST_CHOICES));
-        if let Some(count) = count.filter(|count| *count > 1) {
-            for mut k in 0..count {
-                let mut picked = paints.iter().map(|of| {
-                    let paint = of[k % of.len()];
-                    k /= of.len();
-                    paint
-                });
-                let choice = widened(color(&mut picked), slack);
+        let mixtures = mixtures(samples);
+        if mixtures.len() > 1 {
+            for mixture in mixtures {
+                let choice = widened(color(&mut mixture.into_iter()), slack);
                 if !range.choices.contains(&choice) {
                     range.choices.push(choice);
                 }
@@ -149,6 +142,47 @@ fn items_of(samples: &[Sample]) -> Vec<u32> {
     items.sort_unstable();
     items.dedup();
     items
+}
+
+/// The different combinations of what samples' paints may be, whichever of alike samples has which; none where there are too many.
+fn mixtures(samples: &[Sample]) -> Vec<Vec<PaintRange>> {
+    let mut kinds: Vec<(Vec<PaintRange>, usize)> = Vec::new();
+    for paints in samples.iter().map(different_paints) {
+        match kinds.iter_mut().find(|(known, _)| *known == paints) {
+            Some((_, count)) => *count += 1,
+            None => kinds.push((paints, 1)),
+        }
+    }
+    let mut all: Vec<Vec<PaintRange>> = vec![Vec::new()];
+    for (paints, count) in kinds {
+        let shares = shares(&paints, count);
+        if all.len() * shares.len() > MOST_CHOICES {
+            return Vec::new();
+        }
+        let joined = |of: &Vec<PaintRange>| {
+            shares.iter().map(|share| [&of[..], &share[..]].concat()).collect::<Vec<_>>()
+        };
+        all = all.iter().flat_map(joined).collect();
+    }
+    all
+}
+
+/// The ways in which so many samples may share some paints, order aside; more than are listed where there are too many.
+fn shares(paints: &[PaintRange], count: usize) -> Vec<Vec<PaintRange>> {
+    let [first, rest @ ..] = paints else { return Vec::new() };
+    if rest.is_empty() || count == 0 {
+        return vec![vec![*first; count]];
+    }
+    let mut all = Vec::new();
+    for of_first in (0..=count).rev() {
+        for share in shares(rest, count - of_first) {
+            all.push([vec![*first; of_first], share].concat());
+            if all.len() > MOST_CHOICES {
+                return all;
+            }
+        }
+    }
+    all
 }
 
 fn different_paints(sample: &Sample) -> Vec<PaintRange> {

@@ -6,6 +6,9 @@ use crate::certainty::Known;
 use crate::space::{Plan, PlanBox};
 use crate::technique::inverse_projection::PointInPolygon;
 
+/// The plan point that was looked at last, and the areas that hold it.
+pub(super) type Last = Option<(Plan, Vec<Area>)>;
+
 /// Judges samples by the rule of a scene.
 pub(super) struct Judge<'a> {
     pub(super) outlines: &'a Outlines<'a>,
@@ -32,7 +35,7 @@ pub(super) struct Held {
     pub(super) is_partly: Known,
     /// How many edges meet it at least and at most.
     pub(super) edges: [usize; 2],
-    /// Of each area that may have a part in the pixel, whether it holds each sample (rows from the lower edge).
+    /// Of each area that may have a part in the pixel, where any edge may meet it, whether it holds each sample (rows from the lower edge).
     pub(super) areas: Vec<(Area, Vec<Known>)>,
 }
 
@@ -51,13 +54,22 @@ fn is_above(range: Range, limit: f64, slack: f64) -> Known {
 }
 
 impl Judge<'_> {
-    /// Which areas hold a place as a whole, by winding numbers; those that surely do not are left out.
-    pub(super) fn holding(&self, place: &Place) -> Vec<(Area, Known)> {
+    /// Which areas hold a place as a whole, by winding numbers; those that surely do not are left out. `last`: what held the point that was
+    /// looked at last.
+    pub(super) fn holding(&self, place: &Place, last: &mut Last) -> Vec<(Area, Known)> {
         let bounds = place.bounds().grown(self.slack);
+        let sure = |areas: &[Area]| areas.iter().map(|area| (*area, Known::In)).collect();
+        let mut between = bounds;
+        last.iter().for_each(|(at, _)| between.include(*at));
+        if let Some((_, areas)) = last.as_ref().filter(|_| self.outlines.is_clear(&between)) {
+            return sure(areas);
+        }
         let (mut edges, mut holding) = (Vec::new(), Vec::new());
         self.outlines.near(&bounds, &mut edges);
-        self.outlines.holding(place.point(), &mut holding);
-        let mut all: Vec<(Area, Known)> = holding.into_iter().map(|area| (area, Known::In)).collect();
+        let at = place.point();
+        self.outlines.holding(at, &mut holding);
+        let mut all: Vec<(Area, Known)> = sure(&holding);
+        *last = Some((at, holding));
         for edge in edges.into_iter().map(|edge| self.outlines.edge(edge)) {
             let outward = place.along(edge.from, edge.outward);
             let along = place.along(edge.from, edge.way);
@@ -82,6 +94,9 @@ impl Judge<'_> {
     /// Which areas hold the samples of a pixel whose centre may be at a place; `holding`: which hold the centre.
     pub(super) fn held(&self, quad: Quad, samples: u32, holding: &[(Area, Known)]) -> Held {
         let near = self.near(quad);
+        if near.is_empty() {
+            return Held { is_partly: Known::Out, edges: [0, 0], areas: Vec::new() };
+        }
         let mut held = Held { is_partly: Known::Out, edges: [0, near.len()], areas: Vec::new() };
         for edge in &near {
             held.is_partly = held.is_partly.or(edge.meets);
@@ -91,7 +106,7 @@ impl Judge<'_> {
         let places: Vec<[f64; 2]> =
             (0..samples).flat_map(|v| (0..samples).map(move |u| [place(u), place(v)])).collect();
         let area_of = |edge: &NearEdge| self.outlines.edge(edge.edge).area;
-        let holders = self.holders(quad, &near, &places);
+        let holders = self.holders(quad, &places);
         for of_area in near.chunk_by(|a, b| area_of(a) == area_of(b)) {
             let area = area_of(&of_area[0]);
             let whole = holding.iter().find(|(known, _)| *known == area).map_or(Known::Out, |(_, k)| *k);
@@ -116,8 +131,8 @@ impl Judge<'_> {
     }
 
     /// The areas that hold each sample if no edge crosses where it may be, where that is asked for.
-    fn holders(&self, quad: Quad, near: &[NearEdge], places: &[[f64; 2]]) -> Vec<Vec<Area>> {
-        if self.rule != PointInPolygon::Winding || near.is_empty() {
+    fn holders(&self, quad: Quad, places: &[[f64; 2]]) -> Vec<Vec<Area>> {
+        if self.rule != PointInPolygon::Winding {
             return Vec::new();
         }
         let corners = quad.map(Place::point);

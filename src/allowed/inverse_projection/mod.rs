@@ -77,7 +77,8 @@ pub(super) fn picture(
     let size @ [width, height] = [frame.width(), frame.height()];
     let progress = |share: f64| (view.progress)(0.5 + 0.5 * share);
     let rows = parallel::map_telling(height, &progress, |y| {
-        (0..width).map(|x| painter.judged(&rays(&probed, [x, y]))).collect::<Vec<Judged>>()
+        let mut last = None;
+        (0..width).map(|x| painter.judged(&rays(&probed, [x, y]), &mut last)).collect::<Vec<Judged>>()
     });
     let judged = rows.concat();
     let inner = |x: usize, y: usize| probed.at(x + BORDER, y + BORDER).seen.clone();

@@ -1,6 +1,6 @@
 //! What a pixel may be: its quadrilaterals (She 3.2), its classes (3.3), the means of its samples (3.4).
 
-use super::judgment::{Held, Judge};
+use super::judgment::{Held, Judge, Last};
 use super::outlines::{Area, Part};
 use super::place::Place;
 use super::sight::{Eye, Sight, Spread};
@@ -61,6 +61,7 @@ const BLEND: f64 = 0.5 / 255.0;
 /// What has been found of a pixel.
 struct Findings<'p> {
     painter: &'p Painter<'p>,
+    last: &'p mut Last,
     ranges: Vec<PixelRange>,
     classes: [bool; 3],
     quad: [[f64; 8]; 2],
@@ -72,10 +73,11 @@ const P: usize = 1;
 const F: usize = 2;
 
 impl Painter<'_> {
-    /// What a pixel may be.
-    pub(super) fn judged(&self, rays: &Rays) -> Judged {
+    /// What a pixel may be; `last` is what is known of the one before.
+    pub(super) fn judged(&self, rays: &Rays, last: &mut Last) -> Judged {
         let mut findings = Findings {
             painter: self,
+            last,
             ranges: Vec::new(),
             classes: [false; 3],
             quad: [[f64::INFINITY; 8], [f64::NEG_INFINITY; 8]],
@@ -116,7 +118,7 @@ impl Findings<'_> {
     /// Each combination of what centre and corners may see.
     fn add_all(&mut self, rays: &Rays) {
         for (k, centre) in rays.centre.spreads.iter().enumerate() {
-            let holding = self.painter.judge.holding(&centre.place);
+            let holding = self.painter.judge.holding(&centre.place, self.last);
             let mut is_refused = Known::Out;
             let mut is_first = true;
             let mut add = |found: Known| {
