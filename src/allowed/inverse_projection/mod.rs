@@ -10,6 +10,7 @@ mod pixel;
 mod place;
 mod sight;
 
+use super::envelope::COORDINATES;
 use super::model::{Guess, View};
 use super::picture;
 use super::pixel::PixelRange;
@@ -25,6 +26,7 @@ use crate::space::{Screen, ViewFrame};
 use crate::technique::inverse_projection::{Corners, Settings};
 use crate::terrain::Mesh;
 use crate::truth::{Probe, probe_around};
+use glam::DVec2;
 use ground::Ground;
 use judgment::Judge;
 use outlines::Outlines;
@@ -33,9 +35,6 @@ use sight::{Eye, Sight};
 
 /// Pixels around the picture whose rays are looked at too: neighbours of those at its border.
 const BORDER: usize = 1;
-
-/// What rounding in single precision may do to plan points, as a share of the coordinates that they are computed from.
-const SINGLE: f64 = 1.0 / (1 << 20) as f64;
 
 /// What a pixel's rays may end in.
 #[derive(Debug, Clone, Default)]
@@ -56,7 +55,7 @@ pub(super) fn picture(
 ) -> (Hypothesis, Vec<Stage>, Vec<FeatureRun>) {
     let (stage, frame) = (view.stage, view.frame);
     let mesh = &*stage.mesh_for(frame);
-    let slack = SINGLE * reach(mesh, frame);
+    let slack = 8.0 * COORDINATES * reach(mesh, frame);
     let along = |depth: f64| guess.envelope.along(frame, depth);
     let compositor = Compositor::new(stage.scene.compositing);
     let ground = Ground::new(&stage.scene.ground, mesh, compositor);
@@ -84,7 +83,7 @@ pub(super) fn picture(
     let inner = |x: usize, y: usize| probed.at(x + BORDER, y + BORDER).seen.clone();
     let seen = (0..height).flat_map(|y| (0..width).map(move |x| inner(x, y))).collect();
     let mut all = stages(&Buffer::from_values(width, height, seen));
-    all.extend(own_stages(&judged));
+    all.extend(own_stages(&judged, stage.scene.origin.truncate()));
     let ranges: Vec<PixelRange> = judged.into_iter().map(|of| of.range).collect();
     let ranges = Buffer::from_values(size[0], size[1], ranges);
     let features = picture::feature_runs(&ranges, &stage.draw_list);
@@ -150,13 +149,14 @@ fn rays(probed: &Buffer<Probed>, [x, y]: [usize; 2]) -> Rays<'_> {
     }
 }
 
-/// The stages that the technique has besides those of all: classes of pixels, their quadrilaterals (scene-local), their edges.
-fn own_stages(judged: &[Judged]) -> Vec<Stage> {
+/// The stages that the technique has besides those of all: pixels' quadrilaterals (absolute, as files have them), classes and edges.
+fn own_stages(judged: &[Judged], origin: DVec2) -> Vec<Stage> {
     let classes = (0..).zip(judged).flat_map(|(pixel, of)| {
         let possible = (0..3).filter(|class| of.classes[*class]);
         possible.map(move |class| (pixel, class as f64)).collect::<Vec<_>>()
     });
-    let quads = |end: usize| judged.iter().flat_map(move |of| of.quad[end]).collect();
+    let absolute = |of: [f64; 8]| std::array::from_fn::<f64, 8, _>(|k| of[k] + origin[k % 2]);
+    let quads = |end: usize| judged.iter().flat_map(|of| absolute(of.quad[end])).collect();
     let edges = |end: usize| judged.iter().map(move |of| of.edges[end] as f64).collect();
     let between = |components: usize, lo, hi| StageRange::Between { components, lo, hi };
     let stages = [
