@@ -1,8 +1,8 @@
 //! `drapery export [SCENE]`, `drapery export --conformance`
 
 use super::bar::Bar;
-use super::reduce::SCENE;
 use super::device_argument::DeviceArgument;
+use super::reduce::SCENE;
 use super::render::techniques::{self, Name};
 use super::scene_input;
 use super::stop::{Outcome, Status};
