@@ -88,12 +88,11 @@ impl Stage {
 
 impl ByView {
     fn new(mesh: &Mesh, wanted: LevelOfDetail) -> Result<Self> {
-        let Mesh::Grid(grid) = mesh else {
-            return Err(Error::unsupported("only a grid of posts over a plane has a level-of-detail mesh").help(
-                "leave `terrain.lod` out for scattered points, globes and surfaces that are given as triangles",
-            ));
-        };
-        let hierarchy = Hierarchy::new(Arc::clone(grid))?;
+        let lattice = mesh.lattice().ok_or_else(|| {
+            Error::unsupported("only a grid of posts has a level-of-detail mesh")
+                .help("leave `terrain.lod` out for scattered points and surfaces that are given as triangles")
+        })?;
+        let hierarchy = Hierarchy::new(lattice)?;
         hierarchy.check(&wanted)?;
         Ok(Self { hierarchy, wanted, last: Mutex::new(None) })
     }

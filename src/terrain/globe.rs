@@ -1,59 +1,187 @@
 //! Posts over a globe -> vertices along its normals, and triangles: of a cell two, of a column's end at a pole one.
 //!
+//! Input: [`GlobePosts`]. Output: [`GlobeMesh`]: all triangles, and the posts as a lattice whose first and last row are those at the poles, where the
+//! surface reaches them, and whose last column is the first one, where it goes all around. Refuses: more posts than can be numbered.
+//!
 //! - The vertices of both ends of a full circle have the same point of the world, to the bit, and plan points that are a turn apart.
 //! - All posts at a pole would be one point. The triangle from two neighbours of the last row to the pole has there the longitude of their
 //!   middle.
 
-use super::SurfaceVertex;
 use super::grid::{half_corners, splits_sw_ne};
+use super::lod::Post;
+use super::{SurfaceVertex, Tin};
 use crate::error::{Error, Result};
+use crate::math;
 use crate::scene::{Diagonal, GlobePosts};
-use crate::space::{Plan, World};
+use crate::space::{Plan, PlanBox, World};
+
+/// The triangles of all posts over a globe.
+#[derive(Debug)]
+pub struct GlobeMesh {
+    posts: GlobePosts,
+    diagonal: Diagonal,
+    tin: Tin,
+    plan_bounds: PlanBox,
+    /// The lowest and the highest post.
+    heights: (f64, f64),
+}
+
+impl GlobeMesh {
+    /// The triangles of all posts.
+    ///
+    /// # Errors
+    /// When there are too many to number, or none.
+    pub(super) fn new(posts: GlobePosts, diagonal: Diagonal) -> Result<Self> {
+        let (vertices, triangles) = surface(&posts, diagonal)?;
+        let plan_bounds = PlanBox::around(vertices.iter().map(|vertex| vertex.plan));
+        let tin = Tin::of_surface(vertices, triangles)?;
+        let known = posts.posts.heights().iter().chain(posts.poles.iter().flatten());
+        let heights = known.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &height| {
+            (math::min(height, low), math::max(height, high))
+        });
+        Ok(Self { posts, diagonal, tin, plan_bounds, heights })
+    }
+
+    /// All its triangles.
+    pub(super) fn tin(&self) -> &Tin {
+        &self.tin
+    }
+
+    /// The posts.
+    pub fn posts(&self) -> &GlobePosts {
+        &self.posts
+    }
+
+    pub(super) fn diagonal(&self) -> Diagonal {
+        self.diagonal
+    }
+
+    pub(super) fn plan_bounds(&self) -> PlanBox {
+        self.plan_bounds
+    }
+
+    /// The lowest and the highest post, above the ellipsoid.
+    pub(super) fn heights(&self) -> (f64, f64) {
+        self.heights
+    }
+
+    /// The smaller side of its cells in the plan.
+    pub(super) fn resolution(&self) -> f64 {
+        math::min(self.posts.posts.east().length(), self.posts.posts.north().length())
+    }
+
+    /// Columns and rows of the lattice.
+    pub fn size(&self) -> [usize; 2] {
+        lattice_size(&self.posts)
+    }
+
+    /// Whether its first and its last row are at a pole.
+    pub fn poles(&self) -> [bool; 2] {
+        self.posts.poles.map(|height| height.is_some())
+    }
+
+    /// The row among the posts of a row of the lattice, or the pole that it is at: 0 the southern one, 1 the northern one.
+    pub(super) fn row(&self, row: usize) -> std::result::Result<usize, usize> {
+        let [south, _] = self.poles();
+        match row.checked_sub(usize::from(south)) {
+            None => Err(0),
+            Some(row) if row < self.posts.posts.rows() => Ok(row),
+            Some(_) => Err(1),
+        }
+    }
+
+    /// A row's y in the plan.
+    pub fn y_of(&self, row: usize) -> f64 {
+        match self.row(row) {
+            Ok(row) => self.posts.posts.plan(0, row).y,
+            Err(pole) => self.posts.pole_rows()[pole],
+        }
+    }
+
+    /// The height of a post; NaN where there is none.
+    pub(super) fn height(&self, [column, row]: Post) -> f64 {
+        let (column, row, [columns, rows]) = (column as usize, row as usize, self.size());
+        let own = self.posts.posts.columns();
+        match self.row(row) {
+            _ if column >= columns || row >= rows => f64::NAN,
+            Ok(row) => self.posts.posts.heights()[row * own + column % own],
+            Err(pole) => self.posts.poles[pole].unwrap_or(f64::NAN),
+        }
+    }
+
+    /// The vertex of a post that is there; at a pole each column has one.
+    pub(super) fn vertex(&self, post: Post) -> SurfaceVertex {
+        let (column, row) = (post[0] as usize, post[1] as usize);
+        match self.row(row) {
+            Ok(row) => vertex(&self.posts, column, row),
+            Err(pole) => pole_vertex(&self.posts, pole, self.posts.column(column)),
+        }
+    }
+
+    /// The vertex at a pole of a triangle whose other corners stand in two columns: at the longitude between them.
+    pub(super) fn pole_between(&self, row: u32, columns: [u32; 2]) -> SurfaceVertex {
+        let [west, east] = columns.map(|column| self.posts.column(column as usize));
+        pole_vertex(&self.posts, usize::from(row > 0), 0.5 * (west + east))
+    }
+}
+
+fn lattice_size(posts: &GlobePosts) -> [usize; 2] {
+    let poles = posts.poles.iter().flatten().count();
+    [posts.posts.columns() + usize::from(posts.is_closed), posts.posts.rows() + poles]
+}
+
+/// The vertex of a post, of those of a full circle also behind the last column.
+fn vertex(posts: &GlobePosts, i: usize, j: usize) -> SurfaceVertex {
+    let own = posts.posts.columns();
+    let at = posts.posts.plan(i % own, j);
+    let height = posts.posts.heights()[j * own + i % own];
+    SurfaceVertex {
+        world: if height.is_nan() { World::default() } else { posts.globe.world(at, height) },
+        plan: Plan::new(posts.column(i), at.y),
+        up: posts.globe.up(at),
+    }
+}
+
+/// A vertex at a pole that the surface reaches, at a place x of the plan.
+fn pole_vertex(posts: &GlobePosts, pole: usize, x: f64) -> SurfaceVertex {
+    let (y, height) = (posts.pole_rows()[pole], posts.poles[pole].unwrap_or_default());
+    let at = Plan::new(posts.posts.first.x, y);
+    SurfaceVertex { world: posts.globe.world(at, height), plan: Plan::new(x, y), up: posts.globe.up(at) }
+}
 
 /// The vertices and triangles of a surface over a globe, triangles counter-clockwise in the plan.
-pub(super) fn surface(posts: &GlobePosts, diagonal: Diagonal) -> Result<(Vec<SurfaceVertex>, Vec<[u32; 3]>)> {
+fn surface(posts: &GlobePosts, diagonal: Diagonal) -> Result<(Vec<SurfaceVertex>, Vec<[u32; 3]>)> {
     let (own, rows) = (posts.posts.columns(), posts.posts.rows());
-    let columns = own + usize::from(posts.is_closed);
+    let [columns, _] = lattice_size(posts);
+    // A row at the southern pole is the lattice's first.
+    let south = usize::from(posts.poles[0].is_some());
     if (columns * (rows + 2)) as u64 * 2 >= u64::from(u32::MAX) {
         return Err(Error::unsupported(format!(
             "{own} x {rows} posts are more than this program can number"
         ))
         .help("give the terrain a `window`"));
     }
-    let vertex = |i: usize, j: usize| {
-        let at = posts.posts.plan(i % own, j);
-        let height = posts.posts.heights()[j * own + i % own];
-        SurfaceVertex {
-            world: if height.is_nan() { World::default() } else { posts.globe.world(at, height) },
-            plan: Plan::new(posts.column(i), at.y),
-            up: posts.globe.up(at),
-        }
-    };
     let exists = |i: usize, j: usize| !posts.posts.heights()[j * own + i % own].is_nan();
     let number = |i: usize, j: usize| (j * columns + i) as u32;
     let mut vertices: Vec<SurfaceVertex> =
-        (0..rows).flat_map(|j| (0..columns).map(move |i| (i, j))).map(|(i, j)| vertex(i, j)).collect();
+        (0..rows).flat_map(|j| (0..columns).map(move |i| (i, j))).map(|(i, j)| vertex(posts, i, j)).collect();
     let mut triangles = Vec::with_capacity(2 * columns * rows);
     for (i, j) in (0..rows - 1).flat_map(|j| (0..columns - 1).map(move |i| (i, j))) {
         for second in [false, true] {
-            let corners = half_corners(splits_sw_ne(diagonal, i, j), second);
+            let corners = half_corners(splits_sw_ne(diagonal, i, j + south), second);
             if corners.iter().all(|(di, dj)| exists(i + di, j + dj)) {
                 triangles.push(corners.map(|(di, dj)| number(i + di, j + dj)));
             }
         }
     }
-    for (side, (height, y)) in posts.poles.into_iter().zip(posts.pole_rows()).enumerate() {
-        let Some(height) = height else { continue };
-        let is_north = side == 1;
+    for pole in (0..2).filter(|pole| posts.poles[*pole].is_some()) {
+        let is_north = pole == 1;
         let row = if is_north { rows - 1 } else { 0 };
-        let at = Plan::new(posts.posts.first.x, y);
-        let (world, up) = (posts.globe.world(at, height), posts.globe.up(at));
         for i in (0..columns - 1).filter(|i| exists(*i, row) && exists(i + 1, row)) {
-            let pole = vertices.len() as u32;
+            let (west, east, at_pole) = (number(i, row), number(i + 1, row), vertices.len() as u32);
             let between = 0.5 * (posts.column(i) + posts.column(i + 1));
-            vertices.push(SurfaceVertex { world, plan: Plan::new(between, y), up });
-            let (west, east) = (number(i, row), number(i + 1, row));
-            triangles.push(if is_north { [west, east, pole] } else { [east, west, pole] });
+            vertices.push(pole_vertex(posts, pole, between));
+            triangles.push(if is_north { [west, east, at_pole] } else { [east, west, at_pole] });
         }
     }
     Ok((vertices, triangles))
@@ -132,14 +260,14 @@ mod tests {
 
     #[test]
     fn what_has_no_height_has_no_triangle() {
-        let (mut posts, _, all) = world(8, 4, Diagonal::Alternating);
+        let (mut posts, _, all) = world(8, 4, Diagonal::SwNe);
         posts.posts.heights_mut()[0] = f64::NAN;
-        let (vertices, triangles) = surface(&posts, Diagonal::Alternating).unwrap();
+        let (vertices, triangles) = surface(&posts, Diagonal::SwNe).unwrap();
         assert!(vertices.iter().all(|vertex| vertex.world.is_finite()));
         // The first post is at the seam: of the cells at both ends, and of two at the pole.
         assert!(triangles.len() + 4 <= all.len() && triangles.len() + 6 >= all.len());
         posts.poles = [None, None];
-        let (_, open) = surface(&posts, Diagonal::Alternating).unwrap();
+        let (_, open) = surface(&posts, Diagonal::SwNe).unwrap();
         assert_eq!(open.len() + 6 + 8, triangles.len());
     }
 }

@@ -13,11 +13,14 @@
 mod drape;
 mod globe;
 mod grid;
+mod lattice;
 pub mod lod;
 mod tin;
 
 pub use drape::{Drape, PlanMap, SurfaceTriangle, SurfaceVertex, TriangleDrape, upward_normal};
+pub use globe::GlobeMesh;
 pub use grid::Grid;
+pub use lattice::Lattice;
 pub use tin::Tin;
 
 use crate::error::Result;
@@ -42,7 +45,9 @@ pub enum Mesh {
     Grid(Arc<Grid>),
     /// Triangles over scattered points, or over vertices with plan points of their own.
     Tin(Tin),
-    /// Triangles over some posts of a grid, as many as a view needs.
+    /// Triangles over the posts of a globe.
+    Globe(Arc<GlobeMesh>),
+    /// Triangles over some posts of a grid or a globe, as many as a view needs.
     Lod(Box<LodMesh>),
 }
 
@@ -107,10 +112,7 @@ impl Mesh {
         match surface {
             Surface::Grid(posts) => Ok(Self::Grid(Arc::new(Grid::new(posts, diagonal)?))),
             Surface::Points(points) => Ok(Self::Tin(Tin::new(points)?)),
-            Surface::Globe(posts) => {
-                let (vertices, triangles) = globe::surface(&posts, diagonal)?;
-                Self::of_surface(vertices, triangles)
-            }
+            Surface::Globe(posts) => Ok(Self::Globe(Arc::new(GlobeMesh::new(posts, diagonal)?))),
         }
     }
 
@@ -131,7 +133,8 @@ impl Mesh {
         match self {
             Self::Grid(_) => Drape::Vertical,
             Self::Tin(tin) => tin.drape(),
-            Self::Lod(_) => Drape::Vertical,
+            Self::Globe(_) => Drape::Affine,
+            Self::Lod(lod) => lod.lattice().drape(),
         }
     }
 
@@ -144,6 +147,7 @@ impl Mesh {
         match self {
             Self::Grid(grid) => grid.triangle(id),
             Self::Tin(tin) => Some(tin.triangle(id)),
+            Self::Globe(globe) => Some(globe.tin().triangle(id)),
             Self::Lod(lod) => Some(lod.tin().triangle(id)),
         }
     }
@@ -157,6 +161,7 @@ impl Mesh {
         match self {
             Self::Grid(grid) => grid.triangle(id).map(SurfaceTriangle::vertical),
             Self::Tin(tin) => Some(tin.surface_triangle(id)),
+            Self::Globe(globe) => Some(globe.tin().surface_triangle(id)),
             Self::Lod(lod) => Some(lod.tin().surface_triangle(id)),
         }
     }
@@ -181,6 +186,7 @@ impl Mesh {
         match self {
             Self::Grid(grid) => grid.corners(id),
             Self::Tin(tin) => Some(tin.triangles()[id as usize]),
+            Self::Globe(globe) => Some(globe.tin().triangles()[id as usize]),
             Self::Lod(lod) => Some(lod.tin().triangles()[id as usize]),
         }
     }
@@ -198,11 +204,13 @@ impl Mesh {
         let count = match self {
             Self::Grid(grid) => grid.posts().heights().len(),
             Self::Tin(tin) => tin.vertices().len(),
+            Self::Globe(globe) => globe.tin().vertices().len(),
             Self::Lod(lod) => lod.tin().vertices().len(),
         };
         (0..count).map(move |number| match self {
             Self::Grid(grid) => SurfaceVertex::vertical(grid.vertex(number)),
             Self::Tin(tin) => tin.vertex(number),
+            Self::Globe(globe) => globe.tin().vertex(number),
             Self::Lod(lod) => lod.tin().vertex(number),
         })
     }
@@ -212,6 +220,7 @@ impl Mesh {
         match self {
             Self::Grid(grid) => grid.triangle_ids(),
             Self::Tin(tin) => tin.triangles().len() as u32,
+            Self::Globe(globe) => globe.tin().triangles().len() as u32,
             Self::Lod(lod) => lod.tin().triangles().len() as u32,
         }
     }
@@ -220,7 +229,8 @@ impl Mesh {
     pub fn plan_bounds(&self) -> PlanBox {
         match self {
             Self::Grid(grid) => grid.plan_bounds(),
-            Self::Lod(lod) => lod.grid().plan_bounds(),
+            Self::Globe(globe) => globe.plan_bounds(),
+            Self::Lod(lod) => lod.lattice().plan_bounds(),
             Self::Tin(_) => PlanBox::around(self.vertices().map(|vertex| vertex.plan)),
         }
     }
@@ -230,6 +240,7 @@ impl Mesh {
         let level = match self {
             Self::Grid(grid) => grid.levels() - 1,
             Self::Tin(tin) => tin.levels() - 1,
+            Self::Globe(globe) => globe.tin().levels() - 1,
             Self::Lod(lod) => lod.tin().levels() - 1,
         };
         Node { level: level as u32, x: 0, y: 0 }
@@ -241,6 +252,7 @@ impl Mesh {
         match self {
             Self::Grid(grid) => grid.bounds(node),
             Self::Tin(tin) => Some(tin.bounds(node)),
+            Self::Globe(globe) => Some(globe.tin().bounds(node)),
             Self::Lod(lod) => lod.bounds(node),
         }
     }
@@ -250,7 +262,8 @@ impl Mesh {
         match self {
             Self::Grid(grid) => grid.bounds(node).map(|bounds| bounds.below()),
             Self::Tin(tin) => Some(tin.plan_of(node)),
-            Self::Lod(lod) => lod.bounds(node).map(|bounds| bounds.below()),
+            Self::Globe(globe) => Some(globe.tin().plan_of(node)),
+            Self::Lod(lod) => lod.plan_of(node),
         }
     }
 
@@ -265,17 +278,19 @@ impl Mesh {
         match self {
             Self::Grid(grid) => grid.height_at(at),
             Self::Tin(tin) => tin.height_at(at),
+            Self::Globe(_) => None,
             Self::Lod(lod) => lod.height_at(at),
         }
     }
 
-    /// How far apart posts are, metres of the plan: the smaller side of a grid's cells, whatever of it a level-of-detail mesh
+    /// How far apart posts are, metres of the plan: the smaller side of the cells of a grid or a globe, whatever of it a level-of-detail mesh
     /// has; of a TIN the side of the square that two triangles cover
     /// on the average.
     pub fn resolution(&self) -> f64 {
         match self {
             Self::Grid(grid) => grid.resolution(),
-            Self::Lod(lod) => lod.grid().resolution(),
+            Self::Globe(globe) => globe.resolution(),
+            Self::Lod(lod) => lod.lattice().resolution(),
             Self::Tin(tin) => tin.resolution(),
         }
     }
@@ -294,6 +309,7 @@ impl Mesh {
         match self {
             Self::Grid(grid) => Leaf::Cells(grid),
             Self::Tin(tin) => Leaf::Triangles(tin.leaf(node)),
+            Self::Globe(globe) => Leaf::Triangles(globe.tin().leaf(node)),
             Self::Lod(lod) => Leaf::Triangles(lod.tin().leaf(node)),
         }
     }
@@ -317,14 +333,25 @@ impl Mesh {
         match self {
             Self::Grid(grid) => grid.for_each_child(node, visit),
             Self::Tin(tin) => tin.for_each_child(node, visit),
+            Self::Globe(globe) => globe.tin().for_each_child(node, visit),
             Self::Lod(lod) => lod.tin().for_each_child(node, visit),
+        }
+    }
+
+    /// The posts that it is a mesh of, as a lattice; `None` of scattered points and of surfaces that are given as triangles.
+    pub fn lattice(&self) -> Option<Lattice> {
+        match self {
+            Self::Grid(grid) => Some(Lattice::Plane(Arc::clone(grid))),
+            Self::Tin(_) => None,
+            Self::Globe(globe) => Some(Lattice::Globe(Arc::clone(globe))),
+            Self::Lod(lod) => Some(lod.lattice().clone()),
         }
     }
 
     /// How far a level-of-detail mesh is from all of the grid; `None`: it is all that is known of the terrain.
     pub fn deviation(&self) -> Option<lod::Deviation> {
         match self {
-            Self::Grid(_) | Self::Tin(_) => None,
+            Self::Grid(_) | Self::Tin(_) | Self::Globe(_) => None,
             Self::Lod(lod) => Some(lod.deviation()),
         }
     }
@@ -334,6 +361,7 @@ impl Mesh {
         match self {
             Self::Grid(grid) => grid.bytes(),
             Self::Tin(tin) => tin.bytes(),
+            Self::Globe(globe) => globe.tin().bytes() + size_of_val(globe.posts().posts.heights()),
             Self::Lod(lod) => lod.bytes(),
         }
     }

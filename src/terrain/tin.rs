@@ -87,22 +87,22 @@ impl Tin {
         check(&vertices, &triangles)?;
         let plan: Vec<Plan> = vertices.iter().map(|vertex| vertex.plan).collect();
         order_by_place(&plan, &mut triangles);
+        Ok(Self::in_order(vertices, triangles))
+    }
+
+    /// Triangles that are numbered as they are given: neighbours near one another.
+    pub(super) fn in_order(vertices: Vec<SurfaceVertex>, triangles: Vec<[u32; 3]>) -> Self {
         let is_vertical = vertices.iter().all(|vertex| *vertex == SurfaceVertex::vertical(vertex.world));
-        let (world, up): (Vec<World>, Vec<DVec3>) = vertices.iter().map(|v| (v.world, v.up)).unzip();
+        let world: Vec<World> = vertices.iter().map(|vertex| vertex.world).collect();
         let levels = box_levels(&world, &triangles);
         let draped = (!is_vertical).then(|| {
+            let (plan, up): (Vec<Plan>, Vec<DVec3>) = vertices.iter().map(|v| (v.plan, v.up)).unzip();
             let leaf = |c: &[[u32; 3]]| PlanBox::around(c.iter().flatten().map(|&v| plan[v as usize]));
             let join = |c: &[PlanBox]| PlanBox::around(c.iter().flat_map(|plan| [plan.min, plan.max]));
             let levels = levels_of(&triangles, leaf, join);
             Draped { plan, up, levels }
         });
-        Ok(Self { vertices: world, triangles, levels, draped })
-    }
-
-    /// Triangles that are draped vertically, numbered as they are given: neighbours near one another.
-    pub(super) fn in_order(vertices: Vec<World>, triangles: Vec<[u32; 3]>) -> Self {
-        let levels = box_levels(&vertices, &triangles);
-        Self { vertices, triangles, levels, draped: None }
+        Self { vertices: world, triangles, levels, draped }
     }
 
     pub(super) fn drape(&self) -> Drape {

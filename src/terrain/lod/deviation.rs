@@ -1,4 +1,4 @@
-//! How far a triangle of the hierarchy is from the full surface: exactly, over some of its posts.
+//! How far a triangle of the hierarchy over a plane is from the full surface: exactly, over some of its posts.
 //!
 //! Input: heights of posts, a triangle. Output: [`Deviation`]. Refuses: nothing; posts beyond the grid are missing, as those without a height.
 //!
@@ -7,7 +7,7 @@
 use super::right_triangle::{Post, RightTriangle};
 use crate::math;
 use crate::scene::Posts;
-use std::ops::Range;
+use std::ops::{Add, Div, Mul, Range, Sub};
 
 /// The distance of a triangle from the posts in it, and which there are.
 #[derive(Debug, Clone, Copy, Default)]
@@ -43,34 +43,37 @@ pub(super) struct Window {
     pub is_whole: bool,
 }
 
-/// The plane of a triangle over the grid: its height at a post is that at the apex and so much more for each column and row.
-struct Slope {
+/// The plane of a triangle over the grid: its height (or point) at a post is that at the apex and so much more for each column and row.
+pub(super) struct Slope<V> {
     apex: [f64; 2],
-    height: f64,
-    by: [f64; 2],
+    at_apex: V,
+    pub(super) by: [V; 2],
 }
 
-impl Slope {
-    fn of(triangle: &RightTriangle, [a, l, r]: [f64; 3]) -> Self {
+impl<V> Slope<V>
+where
+    V: Copy + Add<Output = V> + Sub<Output = V> + Mul<f64, Output = V> + Div<f64, Output = V>,
+{
+    pub(super) fn of(triangle: &RightTriangle, [a, l, r]: [V; 3]) -> Self {
         let apex = triangle.apex.map(f64::from);
         // The legs; a is right-angled, so each column and row is a combination of two with powers of two below the line.
         let leg = |end: Post| [0, 1].map(|k| f64::from(end[k]) - apex[k]);
         let ([lx, ly], [rx, ry]) = (leg(triangle.left), leg(triangle.right));
         let area = lx * ry - ly * rx;
         let (l, r) = (l - a, r - a);
-        Self { apex, height: a, by: [(l * ry - r * ly) / area, (r * lx - l * rx) / area] }
+        Self { apex, at_apex: a, by: [(l * ry - r * ly) / area, (r * lx - l * rx) / area] }
     }
 
     #[inline(always)]
-    fn at(&self, i: u32, j: u32) -> f64 {
-        self.height
-            + ((f64::from(i) - self.apex[0]) * self.by[0] + (f64::from(j) - self.apex[1]) * self.by[1])
+    pub(super) fn at(&self, i: u32, j: u32) -> V {
+        self.at_apex
+            + (self.by[0] * (f64::from(i) - self.apex[0]) + self.by[1] * (f64::from(j) - self.apex[1]))
     }
 }
 
 /// The first and last column of a row's posts in a triangle.
 #[inline(always)]
-fn columns(triangle: &RightTriangle, row: u32) -> (u32, u32) {
+pub(super) fn columns(triangle: &RightTriangle, row: u32) -> (u32, u32) {
     let [a, l, r] = triangle.corners();
     let (mut low, mut high) = (u32::MAX, 0);
     for ([ax, ay], [bx, by]) in [(a, l), (l, r), (r, a)] {
@@ -126,7 +129,7 @@ struct Over<'a> {
     posts: &'a Posts,
     triangle: &'a RightTriangle,
     window: &'a Window,
-    slope: Slope,
+    slope: Slope<f64>,
     rows: Range<u32>,
 }
 

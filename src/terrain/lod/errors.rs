@@ -1,18 +1,20 @@
-//! The error of every triangle of the hierarchy over a grid: how far it, and what it may be split into, is from the full surface at most.
+//! The error of every triangle of the hierarchy: how far it, and what it may be split into, is from the full surface at most.
 //!
-//! Input: the posts of a grid. Output: [`Errors`]. Refuses: nothing.
+//! Input: the posts of a grid or a globe. Output: [`Errors`]. Refuses: nothing.
 //!
-//! The largest distance of a triangle is exact (`deviation`), rounded up. Where a half has a larger one, its whole has that, too: an error
+//! The largest distance of a triangle is exact (`deviation`; over a globe as `places` has it), rounded up. Where a half has a larger one, its whole has that, too: an error
 //! bounds all that lies below (saturation, after Lindstrom and Pascucci 2002, cited as [9]). Posts of a tile, 128 cells a side, are
 //! looked at while they are near: first for all triangles inside of it, then for its share of all larger ones.
 
 use super::deviation::{Deviation, Window, deviation};
 use super::extent::Extent;
+use super::places::Places;
 use super::quad::{CELLS, Quad};
 use super::right_triangle::RightTriangle;
 use crate::math;
 use crate::parallel;
 use crate::scene::Posts;
+use crate::terrain::Lattice;
 
 /// The error of a triangle in which there is a post, and one is missing.
 pub(super) const MIXED: f32 = f32::INFINITY;
@@ -59,13 +61,58 @@ fn first_of(n: u32) -> usize {
     (1..n).map(|n| OF_A_SQUARE << (2 * (TILE - n))).sum()
 }
 
+/// Posts, by which deviations are measured.
+enum Measured<'p> {
+    /// By heights over a plane.
+    Plane(&'p Posts),
+    /// By places in space.
+    Globe(Places<'p>),
+}
+
+impl<'p> Measured<'p> {
+    /// The posts, and how far roundings may take a deviation.
+    fn of(lattice: &'p Lattice) -> (Self, f64) {
+        match lattice {
+            Lattice::Plane(grid) => {
+                let (low, high) = lattice.heights();
+                // A plane's coefficients and its heights at posts have a few roundings of numbers up to four times a height.
+                let slack = 32.0 * f64::EPSILON * math::max(low.abs(), high.abs());
+                (Self::Plane(grid.posts()), slack)
+            }
+            Lattice::Globe(globe) => {
+                let places = Places::new(globe);
+                let slack = places.slack();
+                (Self::Globe(places), slack)
+            }
+        }
+    }
+
+    fn is_row_whole(&self, row: u32, [low, high]: [u32; 2]) -> bool {
+        match self {
+            Self::Plane(posts) => {
+                let start = row as usize * posts.columns();
+                let line = &posts.heights()[start + low as usize..=start + high as usize];
+                line.iter().all(|height| !height.is_nan())
+            }
+            Self::Globe(places) => places.is_row_whole(row, [low, high]),
+        }
+    }
+
+    fn deviation(&self, triangle: &RightTriangle, window: &Window) -> Deviation {
+        match self {
+            Self::Plane(posts) => deviation(posts, triangle, window),
+            Self::Globe(places) => places.deviation(triangle, window),
+        }
+    }
+}
+
 impl Errors {
-    /// Those of a grid of posts between these heights.
-    pub fn new(posts: &Posts, (low, high): (f64, f64)) -> Self {
-        let extent = Extent::new(posts.columns(), posts.rows());
+    /// Those of the triangles over some posts.
+    pub fn new(lattice: &Lattice) -> Self {
+        let extent = Extent::of(lattice);
         let [columns, rows] = extent.cells(TILE);
-        // A plane's coefficients and its heights at posts have a few roundings of numbers up to four times a height.
-        let slack = 32.0 * f64::EPSILON * math::max(low.abs(), high.abs());
+        let (posts, slack) = Measured::of(lattice);
+        let posts = &posts;
         let made = parallel::map_indices((columns * rows) as usize, |k| {
             let tile = Tile { posts, extent, slack, place: [k as u32 % columns, k as u32 / columns] };
             (tile.errors(), tile.shares())
@@ -131,7 +178,7 @@ fn in_tile(n: u32, cell: [u32; 2], slot: usize) -> usize {
 
 /// A square of posts that is looked at in one piece.
 struct Tile<'p> {
-    posts: &'p Posts,
+    posts: &'p Measured<'p>,
     extent: Extent,
     slack: f64,
     /// Column and row among the tiles.
@@ -143,12 +190,8 @@ impl Tile<'_> {
     fn window(&self) -> Window {
         let low = self.place.map(|at| at * CELLS);
         let high = [0, 1].map(|k| (low[k] + CELLS).min(self.extent.last[k]));
-        let is_there = |row: u32| {
-            let start = row as usize * self.posts.columns();
-            let line = &self.posts.heights()[start + low[0] as usize..=start + high[0] as usize];
-            line.iter().all(|height| !height.is_nan())
-        };
-        Window { low, high, is_whole: (low[1]..=high[1]).all(is_there) }
+        let is_whole = (low[1]..=high[1]).all(|row| self.posts.is_row_whole(row, [low[0], high[0]]));
+        Window { low, high, is_whole }
     }
 
     /// The errors of the triangles in it.
@@ -167,7 +210,7 @@ impl Tile<'_> {
             return NOTHING;
         }
         let Some(halves) = triangle.halves() else { return NOTHING };
-        let own = rounded_up(deviation(self.posts, &triangle, window), self.slack);
+        let own = rounded_up(self.posts.deviation(&triangle, window), self.slack);
         let below = halves.map(|half| self.fill(window, half, errors));
         let error = below.into_iter().fold(own, math::max_f32);
         let (n, cell, slot) = place(&triangle);
@@ -184,7 +227,7 @@ impl Tile<'_> {
             for half in RightTriangle::of_cell(cell, 1 << n) {
                 let quarters = half.halves().into_iter().flatten();
                 for triangle in quarters.chain([half]) {
-                    share[place(&triangle).2] = deviation(self.posts, &triangle, &window);
+                    share[place(&triangle).2] = self.posts.deviation(&triangle, &window);
                 }
             }
             share

@@ -1,12 +1,13 @@
 //! The part of the squares' hierarchy that lies over a grid.
 //!
-//! Input: the posts of a grid. Output: [`Extent`]. Refuses: nothing.
+//! Input: the posts of a grid or a globe. Output: [`Extent`]. Refuses: nothing.
 //!
 //! The squares start at post (0, 0); the largest is the smallest quad that holds the grid. Triangles count that reach into the grid from
 //! the south-west; what only touches it is beside it.
 
 use super::quad::{CELLS, Quad};
 use super::right_triangle::{Post, RightTriangle};
+use crate::terrain::Lattice;
 
 /// The corner of no box over a grid.
 const NOWHERE: [i64; 2] = [i64::MAX; 2];
@@ -18,14 +19,39 @@ pub(super) struct Extent {
     pub last: Post,
     /// The level of the quad that holds all.
     pub root: u32,
+    /// Whether the last column is the first one.
+    is_closed: bool,
+    /// Whether the first and the last row are at a pole.
+    poles: [bool; 2],
 }
 
 impl Extent {
-    /// That of a grid of so many columns and rows.
-    pub fn new(columns: usize, rows: usize) -> Self {
-        let last = [columns as u32 - 1, rows as u32 - 1];
+    /// That of some posts.
+    pub fn of(lattice: &Lattice) -> Self {
+        let last = lattice.size().map(|count| count as u32 - 1);
         let side = last[0].max(last[1]).next_power_of_two().max(CELLS);
-        Self { last, root: side.trailing_zeros() - CELLS.trailing_zeros() }
+        let root = side.trailing_zeros() - CELLS.trailing_zeros();
+        Self { last, root, is_closed: lattice.is_closed(), poles: lattice.poles() }
+    }
+
+    /// The post that is the same place at the other end of a full circle.
+    pub fn twin(&self, [column, row]: Post) -> Option<Post> {
+        let twin = match column {
+            0 => self.last[0],
+            column if column == self.last[0] => 0,
+            _ => return None,
+        };
+        (self.is_closed && row <= self.last[1]).then_some([twin, row])
+    }
+
+    /// Whether a post is at a pole.
+    pub fn is_at_pole(&self, post: Post) -> bool {
+        (self.poles[0] && post[1] == 0) || (self.poles[1] && post[1] == self.last[1])
+    }
+
+    /// Whether a triangle reaches beyond the posts' last column or row.
+    pub fn is_beyond(&self, triangle: &RightTriangle) -> bool {
+        (0..2).any(|k| triangle.corners().iter().any(|corner| corner[k] > self.last[k]))
     }
 
     /// The quad that holds all.
@@ -119,10 +145,16 @@ mod tests {
         }
     }
 
+    fn of_size(columns: u32, rows: u32) -> Extent {
+        let last = [columns - 1, rows - 1];
+        let side = last[0].max(last[1]).next_power_of_two().max(CELLS);
+        Extent { last, root: (side / CELLS).trailing_zeros(), is_closed: false, poles: [false; 2] }
+    }
+
     #[test]
     fn the_right_angles_around_a_post_are_those_of_the_triangles_that_it_halves() {
         for (columns, rows) in [(129, 129), (130, 257), (5, 140), (300, 131)] {
-            let extent = Extent::new(columns, rows);
+            let extent = of_size(columns, rows);
             let mut expected: BTreeMap<Post, Vec<Post>> = BTreeMap::new();
             for root in extent.root().roots() {
                 for_each(&extent, root, &mut |triangle| {

@@ -1,20 +1,19 @@
 //! The level-of-detail mesh of a view.
 //!
-//! Input: a grid, which of its posts are vertices. Output: [`LodMesh`]. Refuses: nothing; it may have no triangle.
+//! Input: the posts of a grid or a globe, which of them are vertices. Output: [`LodMesh`]. Refuses: nothing; it may have no triangle.
 
 use super::extent::Extent;
 use super::quad::QuadInUse;
 use super::refinement::Refinement;
 use super::right_triangle::{Post, RightTriangle};
 use super::vertices::{Numbered, Vertices};
-use crate::space::Plan;
-use crate::terrain::{Bounds, Grid, Node, Tin};
-use std::sync::Arc;
+use crate::space::{Plan, PlanBox};
+use crate::terrain::{Bounds, Lattice, Node, SurfaceVertex, Tin};
 
 /// How far a mesh is from the full surface, over the triangles that its view may see.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Deviation {
-    /// No more than so many metres, up or down.
+    /// No more than so many metres: up or down, on a globe in any direction.
     pub metres: f64,
     /// No more than so many pixels, of their size where each triangle comes nearest to the eye; infinite where the eye may be in one.
     pub pixels: f64,
@@ -22,13 +21,13 @@ pub struct Deviation {
     pub left_out: u32,
 }
 
-/// A restricted quadtree triangulation of a grid (Wartell et al. 2003, 2.1), draped vertically: of its posts those that a view needs.
+/// A restricted quadtree triangulation of a grid or a globe (Wartell et al. 2003, 2.1): of its posts those that a view needs.
 #[derive(Debug, Clone)]
 pub struct LodMesh {
     tin: Tin,
     /// The post of each vertex.
     posts: Vec<Post>,
-    grid: Arc<Grid>,
+    lattice: Lattice,
     vertices: Vertices,
     quads: Vec<QuadInUse>,
     /// Sorted.
@@ -39,20 +38,25 @@ pub struct LodMesh {
 impl LodMesh {
     /// The mesh of a refinement's triangles, of which `collected` has those that are drawn.
     pub(super) fn new(
-        grid: &Arc<Grid>,
+        lattice: &Lattice,
         refinement: Refinement,
         collected: Collected,
         deviation: Deviation,
     ) -> Self {
-        let Collected { posts, triangles, mut left_out } = collected;
+        let Collected { posts, at_poles, triangles, mut left_out } = collected;
         left_out.sort_unstable();
-        let world = |post: &Post| grid.posts().world(post[0] as usize, post[1] as usize);
-        let tin = Tin::in_order(posts.iter().map(world).collect(), triangles);
+        let mut vertices: Vec<SurfaceVertex> = posts.iter().map(|post| lattice.vertex(*post)).collect();
+        for (vertex, columns) in at_poles {
+            if let Lattice::Globe(globe) = lattice {
+                vertices[vertex as usize] = globe.pole_between(posts[vertex as usize][1], columns);
+            }
+        }
+        let tin = Tin::in_order(vertices, triangles);
         let quads = refinement.quads();
         Self {
             tin,
             posts,
-            grid: Arc::clone(grid),
+            lattice: lattice.clone(),
             vertices: refinement.into_vertices(),
             quads,
             left_out,
@@ -65,9 +69,9 @@ impl LodMesh {
         &self.tin
     }
 
-    /// The grid that it is a mesh of.
-    pub fn grid(&self) -> &Grid {
-        &self.grid
+    /// The posts that it is a mesh of.
+    pub(in crate::terrain) fn lattice(&self) -> &Lattice {
+        &self.lattice
     }
 
     /// Whether a post is enabled (3.2.1): the triangles whose longest side it halves are split. Posts beyond the grid may be.
@@ -116,6 +120,11 @@ impl LodMesh {
         (!self.tin.triangles().is_empty()).then(|| self.tin.bounds(node))
     }
 
+    /// The rectangle of the plan around a node's triangles; `None` where there is no triangle.
+    pub(in crate::terrain) fn plan_of(&self, node: Node) -> Option<PlanBox> {
+        (!self.tin.triangles().is_empty()).then(|| self.tin.plan_of(node))
+    }
+
     /// The height over a plan point; `None` beside its triangles.
     pub(in crate::terrain) fn height_at(&self, at: Plan) -> Option<f64> {
         if self.tin.triangles().is_empty() { None } else { self.tin.height_at(at) }
@@ -138,6 +147,8 @@ const NO_NUMBER: u32 = u32::MAX;
 #[derive(Debug, Default)]
 pub(super) struct Collected {
     posts: Vec<Post>,
+    /// Vertices at a pole, each of one triangle, and the columns of the triangle's other corners.
+    at_poles: Vec<(u32, [u32; 2])>,
     triangles: Vec<[u32; 3]>,
     /// Triangles that are neither split nor drawn.
     left_out: Vec<RightTriangle>,
@@ -175,12 +186,28 @@ impl Collecting<'_> {
         let middle = triangle.middle().filter(|middle| self.vertices.contains(*middle));
         match middle.and_then(|_| triangle.halves()) {
             Some(halves) => halves.into_iter().for_each(|half| self.add(half)),
-            None if (self.is_drawn)(&triangle) => {
-                let corners = triangle.corners().map(|post| self.number_of(post));
-                self.all.triangles.push(corners);
-            }
+            None if (self.is_drawn)(&triangle) => self.draw(&triangle),
             None => self.all.left_out.push(triangle),
         }
+    }
+
+    /// Two corners at a pole are one point: such a triangle has no area, and is none.
+    fn draw(&mut self, triangle: &RightTriangle) {
+        let corners = triangle.corners();
+        let numbers = match (0..3).filter(|k| self.extent.is_at_pole(corners[*k])).collect::<Vec<_>>()[..] {
+            [] => corners.map(|post| self.number_of(post)),
+            [pole] => {
+                let columns = [1, 2].map(|k| corners[(pole + k) % 3][0]);
+                let own = self.all.posts.len() as u32;
+                self.all.posts.push(corners[pole]);
+                self.all.at_poles.push((own, columns));
+                let mut numbers = [own; 3];
+                [1, 2].map(|k| (pole + k) % 3).iter().for_each(|&k| numbers[k] = self.number_of(corners[k]));
+                numbers
+            }
+            _ => return,
+        };
+        self.all.triangles.push(numbers);
     }
 
     fn number_of(&mut self, post: Post) -> u32 {

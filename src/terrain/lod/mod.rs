@@ -1,6 +1,6 @@
-//! Level-of-detail meshes: restricted quadtree triangulations of a grid (Wartell et al. 2003, 2.1; Lindstrom et al. 1996).
+//! Level-of-detail meshes: restricted quadtree triangulations of a grid or a globe (Wartell et al. 2003, 2.1; Lindstrom et al. 1996).
 //!
-//! Input: a grid of posts, a view, what detail is wanted. Output: [`LodMesh`], a [`Mesh`](super::Mesh) of some of the posts; its triangles and quads as
+//! Input: the posts of a grid or a globe, a view, what detail is wanted. Output: [`LodMesh`], a [`Mesh`](super::Mesh) of some of the posts; its triangles and quads as
 //! posts. Refuses: grids that do not nest in the hierarchy, or are smaller than a quad.
 //!
 //! Each post is the middle of the longest sides of two triangles ([`RightTriangle`]). `errors` bounds how far each triangle is from the full
@@ -10,7 +10,10 @@ mod deviation;
 mod errors;
 mod extent;
 mod hierarchy;
+mod horizon;
+mod hull;
 mod mesh;
+mod places;
 mod quad;
 mod refinement;
 mod right_triangle;

@@ -5,8 +5,8 @@
 //!
 //! A vertex halves the longest side of two triangles, which are there only where their right angles are vertices (Lindstrom et al. 1996: the
 //! vertices that it depends on). It also divides all coarser quads that hold it, and a divided quad's quarters have their corners: a quad that is
-//! drawn is drawn by whole triangles, of vertices no finer than its own. All that a vertex needs is of a higher level, or of the same level
-//! and nearer to the middle of a square: the recursion ends.
+//! drawn is drawn by whole triangles, of vertices no finer than its own. Where posts go all around a globe, a vertex of the first column is one of the last,
+//! and the other way round. What is a vertex already is not asked again: the recursion ends, whatever needs whatever in a circle.
 
 use super::extent::Extent;
 use super::quad::{Quad, QuadInUse};
@@ -59,12 +59,19 @@ impl Quads {
     }
 }
 
-/// What is known of what may be a vertex, where some quads are not there.
+/// What is known of vertices where some quads are not there.
 #[derive(Debug)]
 struct Available {
     borrowing: Borrowing,
-    vertices: [Vertices; 2],
-    quads: [Quads; 2],
+    /// Posts that cannot be vertices, as far as that was found out.
+    impossible: Vertices,
+}
+
+/// What was added so far of what a vertex needs.
+#[derive(Debug, Default)]
+struct Added {
+    vertices: Vec<Post>,
+    quads: Vec<Quad>,
 }
 
 /// Vertices and divided quads that grow.
@@ -82,8 +89,7 @@ impl Refinement {
         let available = (borrow > 0.0).then(|| {
             Box::new(Available {
                 borrowing: Borrowing { root: extent.root, share: borrow },
-                vertices: [Vertices::none(extent), Vertices::none(extent)],
-                quads: [Quads::none(&extent), Quads::none(&extent)],
+                impossible: Vertices::none(extent),
             })
         });
         let mut vertices = Vertices::none(extent);
@@ -96,39 +102,56 @@ impl Refinement {
 
     /// Makes a post a vertex, and all that it needs; returns whether they are available.
     pub fn add(&mut self, post: Post) -> bool {
-        if self.vertices.contains(post) {
-            return true;
-        }
-        let is_available = self.is_available(post);
-        if is_available {
-            self.insert(post);
+        let mut added = Added::default();
+        let is_available = self.insert(post, &mut added);
+        if !is_available {
+            added.vertices.into_iter().for_each(|post| self.vertices.remove(post));
+            added.quads.into_iter().for_each(|quad| *self.divided.of(quad) = false);
         }
         is_available
     }
 
-    fn insert(&mut self, post: Post) {
+    /// Adds a post and all that it needs; `false`: some of it cannot be, and the rest is still to be taken out.
+    fn insert(&mut self, post: Post, added: &mut Added) -> bool {
+        if self.available.as_ref().is_some_and(|available| available.impossible.contains(post)) {
+            return false;
+        }
         if !self.vertices.insert(post) {
-            return;
+            return true;
+        }
+        if self.available.is_some() {
+            added.vertices.push(post);
         }
         let extent = self.extent;
-        extent.apexes(post).for_each(|apex| self.insert(apex));
-        finer_than(&extent, post).for_each(|quad| self.divide(quad));
+        let is_possible = self.is_there(post)
+            && extent.apexes(post).all(|apex| self.insert(apex, added))
+            && finer_than(&extent, post).all(|quad| self.divide(quad, added))
+            && extent.twin(post).is_none_or(|twin| self.insert(twin, added));
+        if let Some(available) = self.available.as_mut().filter(|_| !is_possible) {
+            available.impossible.insert(post);
+        }
+        is_possible
     }
 
-    fn divide(&mut self, quad: Quad) {
+    fn divide(&mut self, quad: Quad, added: &mut Added) -> bool {
         if std::mem::replace(self.divided.of(quad), true) {
-            return;
+            return true;
         }
-        if quad.level < self.extent.root {
-            self.divide(quad.parent());
+        if self.available.is_some() {
+            added.quads.push(quad);
         }
         let extent = self.extent;
-        corners_of_quarters(&extent, quad).for_each(|corner| self.insert(corner));
+        (quad.level >= extent.root || self.divide(quad.parent(), added))
+            && corners_of_quarters(&extent, quad).all(|corner| self.insert(corner, added))
     }
 
-    /// Whether a post and all that it needs may be vertices.
-    fn is_available(&mut self, post: Post) -> bool {
-        self.available.as_mut().is_none_or(|available| available.vertex(&self.extent, post))
+    /// Whether all quads are there whose vertex a post is.
+    fn is_there(&self, post: Post) -> bool {
+        let level = self.extent.level_of(post);
+        let is_there = |available: &Available| {
+            self.extent.quads_at(level, post).all(|quad| available.borrowing.is_there(quad))
+        };
+        level > self.extent.root || self.available.as_ref().is_none_or(|available| is_there(available))
     }
 
     /// The vertices.
@@ -164,34 +187,6 @@ impl Refinement {
             Some(available) if !available.borrowing.is_there(quad) => self.data_of(quad.parent()),
             _ => quad,
         }
-    }
-}
-
-impl Available {
-    fn vertex(&mut self, extent: &Extent, post: Post) -> bool {
-        let [possible, impossible] = &self.vertices;
-        if possible.contains(post) || impossible.contains(post) {
-            return possible.contains(post);
-        }
-        let level = extent.level_of(post);
-        let is_possible = level > extent.root
-            || (extent.quads_at(level, post).all(|quad| self.borrowing.is_there(quad))
-                && extent.apexes(post).all(|apex| self.vertex(extent, apex))
-                && finer_than(extent, post).all(|quad| self.quad(extent, quad)));
-        self.vertices[usize::from(!is_possible)].insert(post);
-        is_possible
-    }
-
-    /// Whether a quad may be divided.
-    fn quad(&mut self, extent: &Extent, quad: Quad) -> bool {
-        let [possible, impossible] = &self.quads;
-        if possible.contains(quad) || impossible.contains(quad) {
-            return possible.contains(quad);
-        }
-        let is_possible = (quad.level >= extent.root || self.quad(extent, quad.parent()))
-            && corners_of_quarters(extent, quad).all(|corner| self.vertex(extent, corner));
-        *self.quads[usize::from(!is_possible)].of(quad) = true;
-        is_possible
     }
 }
 

@@ -4,10 +4,12 @@
 //!
 //! A triangle in view is split where its error may be more than so many pixels, seen from the nearest point of the box around it and
 //! around the full surface over it (as Lindstrom et al. 1996 do with an approximation). One in which posts are missing is split down to the
-//! smallest, so that holes and the grid's border are where they are. What is not in view is split only where that closes the mesh.
+//! smallest, so that holes and the grid's border are where they are. What is not in view is split only where that closes the mesh. On a globe nothing beyond
+//! the horizon is in view, and the border of the posts is always where it is: a seam is none.
 
 use super::errors::{Errors, MIXED, NOTHING};
 use super::hierarchy::Hierarchy;
+use super::horizon::Horizon;
 use super::mesh::{Collected, Deviation, LodMesh};
 use super::refinement::Refinement;
 use super::right_triangle::RightTriangle;
@@ -16,6 +18,7 @@ use crate::error::{Error, Result};
 use crate::math;
 use crate::scene::{Detail, LevelOfDetail};
 use crate::space::ViewFrame;
+use crate::terrain::Lattice;
 
 /// What a view is shown of a hierarchy.
 struct Selection<'a> {
@@ -43,8 +46,21 @@ impl Hierarchy {
 
     /// The mesh that a view shows.
     pub fn mesh_for(&self, view: &ViewFrame, wanted: &LevelOfDetail) -> LodMesh {
-        let selection = Selection { hierarchy: self, errors: self.errors(), sight: Sight::of(view) };
+        // Where no mesh may keep to the error, the ball below it is not known.
+        let horizon = match wanted.detail {
+            Detail::ErrorPx(most) if wanted.borrow == 0.0 => {
+                self.core().and_then(|core| Horizon::of(view, core, most))
+            }
+            _ => None,
+        };
+        let sight = Sight::of(view, horizon);
+        let selection = Selection { hierarchy: self, errors: self.errors(), sight };
         let mut refinement = Refinement::new(self.extent(), wanted.borrow);
+        if let Lattice::Globe(_) = self.lattice() {
+            for root in self.extent().root().roots() {
+                selection.close_border(root, &mut refinement);
+            }
+        }
         let layer = match wanted.detail {
             Detail::ErrorPx(most) if most > 0.0 => return selection.mesh_within(most, refinement),
             Detail::ErrorPx(_) => 0,
@@ -56,11 +72,20 @@ impl Hierarchy {
         let mut deviation = Deviation::default();
         let is_drawn = &mut |triangle: &RightTriangle| selection.is_drawn(triangle, &mut deviation);
         let collected = Collected::of(self.extent(), refinement.vertices(), is_drawn);
-        LodMesh::new(self.grid(), refinement, collected, deviation)
+        LodMesh::new(self.lattice(), refinement, collected, deviation)
     }
 }
 
 impl Selection<'_> {
+    /// Splits what reaches beyond the posts until nothing does.
+    fn close_border(&self, triangle: RightTriangle, refinement: &mut Refinement) {
+        let extent = self.hierarchy.extent();
+        let Some((middle, halves)) = triangle.middle().zip(triangle.halves()) else { return };
+        if extent.holds(&triangle) && extent.is_beyond(&triangle) && refinement.add(middle) {
+            halves.into_iter().for_each(|half| self.close_border(half, refinement));
+        }
+    }
+
     /// Splits all triangles above a layer.
     fn split_to(&self, triangle: RightTriangle, layer: u32, refinement: &mut Refinement) {
         if triangle.layer() > layer && self.hierarchy.extent().holds(&triangle) {
@@ -91,7 +116,7 @@ impl Selection<'_> {
                 is_split |= self.split_seen(triangle, most, &mut refinement);
             }
             if !is_split {
-                return LodMesh::new(self.hierarchy.grid(), refinement, collected, deviation);
+                return LodMesh::new(self.hierarchy.lattice(), refinement, collected, deviation);
             }
         }
     }
@@ -114,8 +139,8 @@ impl Selection<'_> {
         if error == NOTHING {
             return false;
         }
-        let bounds = self.hierarchy.bounds(triangle, error);
-        self.sight.may_show(&bounds) && f64::from(error) > most * self.sight.pixel_m(&bounds)
+        let around = self.hierarchy.around(triangle, error);
+        self.sight.may_show(&around) && f64::from(error) > most * self.sight.pixel_m(&around)
     }
 
     /// Whether a triangle of the mesh is drawn: where all posts in it are there. Adds up what is told of it.
@@ -127,14 +152,14 @@ impl Selection<'_> {
         if error == NOTHING {
             return false;
         }
-        let bounds = self.hierarchy.bounds(triangle, error);
-        if self.sight.may_show(&bounds) {
+        let around = self.hierarchy.around(triangle, error);
+        if self.sight.may_show(&around) {
             if error == MIXED {
                 told.left_out += 1;
             } else {
                 let metres = f64::from(error);
                 told.metres = math::max(metres, told.metres);
-                told.pixels = math::max(metres / self.sight.pixel_m(&bounds), told.pixels);
+                told.pixels = math::max(metres / self.sight.pixel_m(&around), told.pixels);
             }
         }
         error < MIXED

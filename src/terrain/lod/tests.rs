@@ -6,7 +6,7 @@ mod sound;
 use super::{Hierarchy, LodMesh, Post, RightTriangle};
 use crate::scene::{Detail, Diagonal, LevelOfDetail, Posts};
 use crate::space::{Plan, ViewFrame, Viewpoint, World};
-use crate::terrain::Grid;
+use crate::terrain::{Grid, Lattice};
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
 
@@ -27,11 +27,11 @@ impl Dice {
 }
 
 /// A grid of posts three metres apart.
-fn grid(columns: usize, rows: usize, height: impl Fn(u32, u32) -> f64) -> Arc<Grid> {
+fn grid(columns: usize, rows: usize, height: impl Fn(u32, u32) -> f64) -> Lattice {
     let heights = (0..columns * rows).map(|k| height((k % columns) as u32, (k / columns) as u32));
     let steps = (DVec2::new(3.0, 0.25), DVec2::new(-0.5, 3.0));
     let posts = Posts::new((columns, rows), Plan::new(-100.0, 40.0), steps, heights.collect()).unwrap();
-    Arc::new(Grid::new(posts, Diagonal::Alternating).unwrap())
+    Lattice::Plane(Arc::new(Grid::new(posts, Diagonal::Alternating).unwrap()))
 }
 
 /// Hills with a rough part in the west.
@@ -65,6 +65,12 @@ fn within(error_px: f64, borrow: f64) -> LevelOfDetail {
 
 fn at_level(level: u32, borrow: f64) -> LevelOfDetail {
     LevelOfDetail { detail: Detail::Level(level), borrow }
+}
+
+/// The posts of a grid over a plane.
+fn posts(mesh: &LodMesh) -> &Posts {
+    let Lattice::Plane(grid) = mesh.lattice() else { panic!("a globe") };
+    grid.posts()
 }
 
 /// The triangles of a mesh, sorted.

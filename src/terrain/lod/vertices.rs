@@ -1,4 +1,4 @@
-//! Sets of vertices: posts of the hierarchy over a grid, a bit for each.
+//! Sets of vertices: posts of the hierarchy, a bit for each.
 //!
 //! Input: an [`Extent`]. Output: [`Vertices`]. Refuses: nothing; a post beyond the hierarchy is in no set.
 
@@ -50,6 +50,13 @@ impl Vertices {
         let before = *word;
         *word |= 1 << (bit % 64);
         *word != before
+    }
+
+    /// Takes a post out.
+    pub fn remove(&mut self, post: Post) {
+        if let Some(bit) = self.bit(post) {
+            self.words[(bit / 64) as usize] &= !(1 << (bit % 64));
+        }
     }
 
     /// Bytes held.

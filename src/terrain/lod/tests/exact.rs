@@ -4,11 +4,13 @@ use super::super::errors::{Errors, MIXED, NOTHING};
 use super::super::extent::Extent;
 use super::{Dice, for_each_below, posts_in};
 use crate::math;
-use crate::scene::Posts;
+use crate::scene::{Diagonal, Posts};
 use crate::space::Plan;
 use crate::terrain::lod::{Post, RightTriangle};
+use crate::terrain::{Grid, Lattice};
 use glam::DVec2;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// Heights are multiples of 2^-32 metres: all 53 bits of a double are used, and sums of them round.
 const UNIT: f64 = 1.0 / 4_294_967_296.0;
@@ -62,12 +64,10 @@ impl Whole {
 /// Checks what is stored of triangles from a layer on: the exact largest distances of themselves and of all below them. How many have a distance, are
 /// mixed, and have no post.
 fn check(whole: &Whole, least: u32) -> [usize; 3] {
-    let posts = whole.posts();
+    let lattice = Lattice::Plane(Arc::new(Grid::new(whole.posts(), Diagonal::Alternating).unwrap()));
     let heights = whole.heights.iter().flatten().map(|whole| *whole as f64 * UNIT);
-    let largest = heights.clone().map(f64::abs).fold(0.0, math::max);
-    let range = (heights.clone().fold(0.0, math::min), heights.fold(0.0, math::max));
-    let errors = Errors::new(&posts, range);
-    let extent = Extent::new(posts.columns(), posts.rows());
+    let largest = heights.map(f64::abs).fold(0.0, math::max);
+    let (errors, extent) = (Errors::new(&lattice), Extent::of(&lattice));
     let mut exact: BTreeMap<RightTriangle, f64> = BTreeMap::new();
     let mut all = Vec::new();
     for root in extent.root().roots() {

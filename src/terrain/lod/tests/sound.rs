@@ -18,7 +18,7 @@ fn check(hierarchy: &Hierarchy, mesh: &LodMesh) {
 
 /// The smallest triangles, each with the mesh's that lies over it: no two do, and none where a post is missing.
 fn covered(mesh: &LodMesh) -> BTreeMap<RightTriangle, RightTriangle> {
-    let posts = mesh.grid().posts();
+    let posts = posts(mesh);
     let is_there = |[i, j]: Post| {
         let (i, j) = (i as usize, j as usize);
         i < posts.columns() && j < posts.rows() && !posts.heights()[j * posts.columns() + i].is_nan()
@@ -97,7 +97,7 @@ fn quads(hierarchy: &Hierarchy, mesh: &LodMesh) {
 
 /// Every post that a view sees is within the error, seen from where it is.
 fn check_seen(mesh: &LodMesh, view: &ViewFrame, error_px: f64) {
-    let posts = mesh.grid().posts();
+    let posts = posts(mesh);
     for id in 0..mesh.tin().triangles().len() as u32 {
         let [a, b, c] = mesh.tin().triangle(id);
         for [i, j] in posts_in(&mesh.right_triangle(id)) {
@@ -176,8 +176,9 @@ fn a_smaller_error_keeps_all_vertices_of_a_larger_one() {
 
 #[test]
 fn without_error_there_are_all_triangles_of_the_grid_and_at_a_level_those_of_its_squares() {
-    let posts = grid(150, 139, with_holes);
-    let hierarchy = Hierarchy::new(Arc::clone(&posts)).unwrap();
+    let lattice = grid(150, 139, with_holes);
+    let Lattice::Plane(posts) = lattice.clone() else { panic!("a globe") };
+    let hierarchy = Hierarchy::new(lattice).unwrap();
     let view = view(&mut Dice(8));
     let mesh = hierarchy.mesh_for(&view, &within(0.0, 0.0));
     let full = crate::terrain::Mesh::Grid(posts);
