@@ -375,7 +375,9 @@ mod brute_force {
         scene.layers.iter().any(|layer| match &layer.features[0].shape {
             Shape::Polygon(rings) => is_inside(rings, plan),
             Shape::Points(_) => false,
-            Shape::MultiPolygon(members) => members.iter().any(|rings| is_inside(rings, plan)),
+            Shape::MultiPolygon(members) | Shape::Swath { members, .. } => {
+                members.iter().any(|rings| is_inside(rings, plan))
+            }
             Shape::Line(lines) => {
                 let width = match layer.styles[0].line.unwrap().width {
                     Width::Metres(width) => width,

@@ -92,7 +92,13 @@ fn styles() -> Vec<Style> {
     let mut all = Vec::new();
     for fill in [None, Some(fill)] {
         for outline in outlines.into_iter().chain([None]) {
-            all.extend([None, Some(line)].map(|line| Style { fill, outline, line, point: line }));
+            all.extend([None, Some(line)].map(|line| Style {
+                fill,
+                outline,
+                line,
+                point: line,
+                swath: None,
+            }));
         }
     }
     all
@@ -103,11 +109,11 @@ fn is_painted(shape: &Shape, has: Has, style: &Style) -> bool {
     match shape {
         Shape::Line(_) => style.line.is_some(),
         Shape::Points(_) => style.point.is_some(),
-        Shape::Polygon(_) | Shape::MultiPolygon(_) if has == Has::Inside => {
+        Shape::Polygon(_) | Shape::MultiPolygon(_) | Shape::Swath { .. } if has == Has::Inside => {
             style.fill.is_some() || style.outline.is_some()
         }
         // Nothing is inside.
-        Shape::Polygon(_) | Shape::MultiPolygon(_) => {
+        Shape::Polygon(_) | Shape::MultiPolygon(_) | Shape::Swath { .. } => {
             style.outline.is_some_and(|outline| outline.mode != OutlineMode::Inset)
         }
     }
@@ -132,7 +138,9 @@ fn truth_and_techniques_paint_the_same_items_of_every_shape_in_every_style_of_on
             let rings: Vec<&mut Vec<Plan>> = match &mut shape {
                 Shape::Polygon(parts) | Shape::Line(parts) => parts.iter_mut().collect(),
                 Shape::Points(points) => vec![points],
-                Shape::MultiPolygon(members) => members.iter_mut().flatten().collect(),
+                Shape::MultiPolygon(members) | Shape::Swath { members, .. } => {
+                    members.iter_mut().flatten().collect()
+                }
             };
             rings.into_iter().flatten().for_each(|p| *p = Plan::new(p.x + x, p.y + y));
             expected.push((is_painted(&shape, *has, style), *has));
@@ -303,7 +311,7 @@ fn style(has_pixels: bool, width: Range<f64>) -> impl Strategy<Value = Style> {
     let fill = (color(), rule).prop_map(|(color, rule)| Fill { color, rule });
     let outline = (line(has_pixels, width.clone()), mode).prop_map(|(line, mode)| Outline { line, mode });
     (prop::option::of(fill), prop::option::of(outline), prop::option::of(line(has_pixels, width)))
-        .prop_map(|(fill, outline, line)| Style { fill, outline, line, point: line })
+        .prop_map(|(fill, outline, line)| Style { fill, outline, line, point: line, swath: None })
 }
 
 fn points() -> impl Strategy<Value = Vec<Plan>> {

@@ -63,8 +63,11 @@ fn assert_twins(own: &Stage, other: &Stage) -> Truth {
         difference(&colors(&truth), &colors(&twin))
     );
     assert!(share(&truth).iter().filter(|share| **share > 0.4).count() > 100, "something is drawn");
-    assert_eq!(drawing::kinds_for(own), [Kind::Clipmap, Kind::InverseProjection, Kind::StaticDecal]);
-    for kind in drawing::kinds_for(own) {
+    assert_eq!(
+        drawing::kinds_of_footprints_for(own),
+        [Kind::Clipmap, Kind::InverseProjection, Kind::StaticDecal]
+    );
+    for kind in drawing::kinds_of_footprints_for(own) {
         let frame = drawing::frame_of(kind, own, &[]);
         let error = drawing::errors(&truth, &Image::from_rgba8(&frame.image).unwrap());
         assert!(error.mean < 0.01, "{kind:?} {}", error.mean);
@@ -128,6 +131,39 @@ fn a_lune_is_filled_to_the_pole() {
 }
 
 #[test]
+fn a_level_of_detail_mesh_across_the_antimeridian_and_at_a_pole_is_drawn_as_the_truth_says() {
+    let terrain =
+        r#"kind = "sine", posts = [145, 73], cell_deg = 2.5, height_m = 60000.0, wavelength_m = 4e6"#;
+    let layers = polygon("[150, 30], [-150, 30], [-120, 75], [120, 75]");
+    let text =
+        format!("plan = \"globe\"\n{}", drawing::scene(terrain, &straight_down(180.0, 65.0, 8e6), &layers));
+    let changes = ["image.width=60", "image.height=60", "terrain.diagonal=alternating"];
+    let full = drawing::stage(&text, &changes);
+    let stage = drawing::stage(&text, &[&changes[..], &["terrain.lod={ error_px = 0.5 }"]].concat());
+    let view = stage.view().unwrap();
+    let mesh = stage.mesh_for(&view);
+    assert!(mesh.triangle_ids() < full.mesh.triangle_ids() / 2, "{}", mesh.triangle_ids());
+    let deviation = mesh.deviation().unwrap();
+    assert!(deviation.pixels <= 0.5 && deviation.metres > 0.0 && deviation.left_out == 0, "{deviation:?}");
+    let truth = drawing::truth_of(&stage);
+    for kind in drawing::kinds_of_footprints_for(&stage) {
+        let frame = drawing::frame_of(kind, &stage, &[]);
+        let error = drawing::errors(&truth, &Image::from_rgba8(&frame.image).unwrap());
+        assert!(error.mean < 0.01, "{kind:?} {}", error.mean);
+    }
+    assert!(drawing::kinds_for(&stage).contains(&Kind::GeometryOverlay));
+    // What is draped is off by no more than the surface is: half a pixel, along its borders.
+    let (own, other) = (share(&truth), share(&drawing::truth_of(&full)));
+    let off: f64 = own.iter().zip(&other).map(|(a, b)| (a - b).abs()).sum();
+    let red: f64 = other.iter().sum();
+    assert!(red > 300.0 && off < 0.1 * red, "{off} of {red}");
+    // No crack shows the sky.
+    let is_sky = |c: &[f64]| c[2] > c[0] + 0.5 && c[2] > c[1] + 0.5;
+    let sky = |truth: &Truth| colors(truth).chunks_exact(4).filter(|c| is_sky(c)).count();
+    assert_eq!(sky(&truth), sky(&drawing::truth_of(&full)));
+}
+
+#[test]
 fn what_lies_on_the_far_side_is_hidden() {
     let camera = straight_down(0.0, 0.0, 2.0 * 6_378_137.0);
     let line = |lons: &str| {
@@ -146,7 +182,7 @@ fn what_lies_on_the_far_side_is_hidden() {
     );
     let red = |c: &[f64]| c[0] > c[2] + 1e-9;
     assert!(!colors(&truth).chunks_exact(4).any(red));
-    for kind in drawing::kinds_for(&hidden) {
+    for kind in drawing::kinds_of_footprints_for(&hidden) {
         let frame = drawing::frame_of(kind, &hidden, &[]);
         assert!(drawing::errors(&truth, &Image::from_rgba8(&frame.image).unwrap()).mean < 0.01, "{kind:?}");
     }

@@ -615,7 +615,7 @@ mod brute_force {
                         }
                     }
                     Shape::Points(_) => unreachable!("these scenes have none"),
-                    Shape::Polygon(_) | Shape::MultiPolygon(_) => {
+                    Shape::Polygon(_) | Shape::MultiPolygon(_) | Shape::Swath { .. } => {
                         let fill = style.fill.as_ref();
                         let rule = fill.map_or(Rule::EvenOdd, |f| f.rule);
                         let inside = match &feature.shape {

@@ -7,7 +7,7 @@ use drapery::raster::Lattice;
 use drapery::scene::{Detail, Diagonal, LevelOfDetail, Posts, Surface};
 use drapery::space::{Plan, Ray, ViewFrame, Viewpoint, World};
 use drapery::terrain::lod::Hierarchy;
-use drapery::terrain::{Grid, Mesh, SKY};
+use drapery::terrain::{Grid, Lattice as Posted, Mesh, SKY};
 use drapery::visibility::Visible;
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
@@ -249,7 +249,7 @@ fn hierarchy() -> Hierarchy {
     };
     let heights = (0..n * n).map(height).collect();
     let posts = Posts::new((n, n), Plan::new(-64.0, -64.0), (DVec2::X, DVec2::Y), heights).unwrap();
-    Hierarchy::new(Arc::new(Grid::new(posts, Diagonal::Alternating).unwrap())).unwrap()
+    Hierarchy::new(Posted::Plane(Arc::new(Grid::new(posts, Diagonal::Alternating).unwrap()))).unwrap()
 }
 
 #[test]

@@ -79,7 +79,7 @@ pub(super) fn of_layers(layers: &mut [Layer], terrain: &PlanBox) -> Result<DrawL
 fn members_of(layer: &Layer) -> Vec<Vec<Vec<Plan>>> {
     let members = layer.features.iter().flat_map(|feature| match &feature.shape {
         Shape::Polygon(rings) => std::slice::from_ref(rings),
-        Shape::MultiPolygon(members) => members,
+        Shape::MultiPolygon(members) | Shape::Swath { members, .. } => members,
         Shape::Line(_) | Shape::Points(_) => &[],
     });
     members.cloned().collect()
@@ -124,22 +124,39 @@ fn made((styles, parts, frame): (&[ItemStyle], &[StyleParts], &PlanBox), block: 
             area: 0..0,
             border: 0..0,
             strokes: 0..0,
+            centre_lines: 0..0,
         };
         let style = &parts[feature.style as usize];
         match feature.shape {
             Shape::Polygon(rings) => list.add_polygon(item, style, &[rings], None),
             Shape::MultiPolygon(members) => {
-                let border = style
-                    .area_rule(styles)
-                    .map_or(Ok(None), |rule| union_border(&members, &|turns| rule.contains(turns)));
-                let border = border.map_err(|error| error.in_feature(feature.index))?;
+                let border = union_of(&members, style.area_rule(styles), feature.index)?;
                 list.add_polygon(item, style, &members, border.as_deref());
+            }
+            Shape::Swath { members, lines } => {
+                let border = union_of(&members, style.area_rule(styles), feature.index)?;
+                let first = list.chains.len();
+                for (part, line) in (0..).zip(&lines) {
+                    list.add_stroke((part, 0), line, Ends::AsWritten);
+                }
+                let centre_lines = list.chains_from(first);
+                list.add_polygon(Item { centre_lines, ..item }, style, &members, border.as_deref());
             }
             Shape::Line(lines) => list.add_line(item, style, &lines),
             Shape::Points(points) => list.add_points(item, style, &points),
         }
     }
     Ok(list)
+}
+
+/// The border of the union of members, by a rule; `None` where it is that of the members, or no area counts.
+fn union_of(
+    members: &[Vec<Vec<Plan>>],
+    rule: Option<Rule>,
+    feature: usize,
+) -> Result<Option<Vec<Vec<Plan>>>> {
+    let border = rule.map_or(Ok(None), |rule| union_border(members, &|turns| rule.contains(turns)));
+    border.map_err(|error| error.in_feature(feature))
 }
 
 /// How many vertices of a shape are held, if none is left out or held twice.
@@ -195,6 +212,7 @@ impl DrawList {
             area,
             border,
             strokes: 0..0,
+            centre_lines: 0..0,
         });
         Ok(())
     }
@@ -302,6 +320,7 @@ impl DrawList {
             area: moved(&item.area),
             border: moved(&item.border),
             strokes: moved(&item.strokes),
+            centre_lines: moved(&item.centre_lines),
             ..item
         }));
         let chain = |chain: Chain| Chain { first: chain.first + vertices, ..chain };

@@ -3,7 +3,7 @@
 //! Input: the layers of a scene, whose features it takes, and the terrain's bounds. Output: a [`DrawList`]: items in draw order, the chains of vertices that they are
 //! made of, the styles that they share. Refuses: more items, chains or vertices than can be numbered. It holds data and decides nothing
 //! about coverage, so that the truth may stand on it and yet share no decision with what it judges. What it does decide:
-//! - *Items.* A polygon makes a fill, if its style has one, and over it an outline, if it has one; a line makes a line; points make one item, a dot of
+//! - *Items.* A polygon makes a fill, if its style has one, and over it an outline, if it has one; a line makes a line; a swath makes a fill; points make one item, a dot of
 //!   round caps for each. A feature whose
 //!   style has nothing for it makes nothing. An item's number is its place in the list.
 //! - *Outsides.* A layer that paints what lies outside of its polygons makes one item for that, before all others of it. Its area is
@@ -48,6 +48,8 @@ pub struct Item {
     pub border: Range<u32>,
     /// The chains that its stroke follows; none of a fill.
     pub strokes: Range<u32>,
+    /// Of a fill that is a stroke's area on a globe, the lines that the stroke is along.
+    pub centre_lines: Range<u32>,
 }
 
 /// The number of no feature.
@@ -133,6 +135,11 @@ impl DrawList {
     /// The chains that an item's stroke follows.
     pub fn strokes(&self, item: &Item) -> &[Chain] {
         &self.chains[item.strokes.start as usize..item.strokes.end as usize]
+    }
+
+    /// The lines that an item is along whose area is that of a stroke; none of other items.
+    pub fn centre_lines(&self, item: &Item) -> &[Chain] {
+        &self.chains[item.centre_lines.start as usize..item.centre_lines.end as usize]
     }
 
     /// All vertices, scene-local.

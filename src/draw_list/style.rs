@@ -1,6 +1,6 @@
 //! How items look: the styles of layers, taken apart.
 
-use crate::scene::{Cap, Color, Fill, Group, Join, Layer, Line, OutlineMode, Rule, Style, Width};
+use crate::scene::{Cap, Color, Fill, Group, Join, Layer, Line, OutlineMode, Rule, Style, Swath, Width};
 use std::collections::BTreeMap;
 
 /// What an item is of its feature.
@@ -40,14 +40,18 @@ pub struct ItemStyle {
     pub cut: Option<Side>,
     /// How its stroke is drawn; a fill has none.
     pub stroke: Option<Line>,
+    /// What stroke its area is; `None` of other areas.
+    pub swath: Option<Swath>,
     /// What it is composed with before it is drawn over what lies below; by itself where there is no group.
     pub group: Option<Group>,
 }
 
 impl ItemStyle {
     /// Numbers that two styles share only if they are equal.
-    fn key(&self) -> [u64; 10] {
+    fn key(&self) -> [u64; 11] {
         let [r, g, b, a] = self.paint.0.map(f64::to_bits);
+        // No width is negative.
+        let swath = self.swath.map_or(u64::MAX, |of| of.width_m.to_bits() << 1 | u64::from(of.is_of_points));
         let line = self.stroke.map_or([0; 3], |line| {
             let (unit, width) = match line.width {
                 Width::Metres(width) => (1, width),
@@ -68,7 +72,7 @@ impl ItemStyle {
         let words = [self.role as u64, self.rule as u64, self.cut.map_or(0, |side| 1 + side as u64)];
         // A layer has one opacity.
         let group = self.group.map_or(0, |group| 1 + u64::from(group.layer));
-        [r, g, b, a, line[0], line[1], line[2], words[0], words[1] + 4 * words[2], group]
+        [r, g, b, a, line[0], line[1], line[2], words[0], words[1] + 4 * words[2], group, swath]
     }
 }
 
@@ -100,7 +104,7 @@ impl StyleParts {
 #[derive(Debug, Default)]
 pub(super) struct StyleTable {
     pub(super) styles: Vec<ItemStyle>,
-    numbers: BTreeMap<[u64; 10], u32>,
+    numbers: BTreeMap<[u64; 11], u32>,
 }
 
 impl StyleTable {
@@ -120,9 +124,9 @@ impl StyleTable {
         let rule = style.fill.or(outside).map_or(Rule::EvenOdd, |fill| fill.rule);
         let stroked = |role: Role, line: Line, cut: Option<Side>| {
             let rule = if cut.is_some() { rule } else { Rule::EvenOdd };
-            ItemStyle { role, paint: line.color, rule, cut, stroke: Some(line), group }
+            ItemStyle { role, paint: line.color, rule, cut, stroke: Some(line), swath: None, group }
         };
-        let fill = style.fill.map(|fill| filled(Role::Fill, fill, group));
+        let fill = style.fill.map(|fill| ItemStyle { swath: style.swath, ..filled(Role::Fill, fill, group) });
         let outline = style.outline.map(|outline| {
             let cut = match outline.mode {
                 OutlineMode::Inset => Some(Side::Inside),
@@ -159,5 +163,5 @@ fn group_of(number: usize, layer: &Layer) -> Option<Group> {
 }
 
 fn filled(role: Role, fill: Fill, group: Option<Group>) -> ItemStyle {
-    ItemStyle { role, paint: fill.color, rule: fill.rule, cut: None, stroke: None, group }
+    ItemStyle { role, paint: fill.color, rule: fill.rule, cut: None, stroke: None, swath: None, group }
 }

@@ -77,26 +77,33 @@ pub enum Shape {
     Line(Vec<Vec<Plan>>),
     /// The points of a (multi-)point.
     Points(Vec<Plan>),
+    /// What a stroke covers on a globe: the rings of its members, and the lines (of rings closed ones) that it is along.
+    Swath {
+        /// Its area, as that of a multi-polygon.
+        members: Vec<Vec<Vec<Plan>>>,
+        /// Its centre lines.
+        lines: Vec<Vec<Plan>>,
+    },
 }
 
 impl Shape {
     /// Whether it bounds an area.
     pub fn is_area(&self) -> bool {
-        matches!(self, Self::Polygon(_) | Self::MultiPolygon(_))
+        matches!(self, Self::Polygon(_) | Self::MultiPolygon(_) | Self::Swath { .. })
     }
 
-    /// Its rings or polylines, those of all members one after the other; all points of points.
+    /// Its rings or polylines, those of all members one after the other; all points of points. Of a swath its rings alone.
     pub fn parts(&self) -> impl Iterator<Item = &Vec<Plan>> + Clone {
         let (own, members): (&[Vec<Plan>], &[Vec<Vec<Plan>>]) = match self {
             Self::Polygon(parts) | Self::Line(parts) => (parts, &[]),
             Self::Points(points) => (std::slice::from_ref(points), &[]),
-            Self::MultiPolygon(members) => (&[], members),
+            Self::MultiPolygon(members) | Self::Swath { members, .. } => (&[], members),
         };
         own.iter().chain(members.iter().flatten())
     }
 }
 
-/// How a layer's features look. Polygons take `fill` and `outline`, lines take `line`, points take `point`.
+/// How a layer's features look. Polygons take `fill` and `outline`, lines take `line`, points take `point`, swaths take `fill`, and have `swath`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Style {
     /// The inside of polygons.
@@ -107,6 +114,17 @@ pub struct Style {
     pub line: Option<Line>,
     /// Points: a disc around each, as wide as this line. (It is one of no length with round caps, whatever its join and cap.)
     pub point: Option<Line>,
+    /// What stroke a swath is.
+    pub swath: Option<Swath>,
+}
+
+/// What stroke a swath is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Swath {
+    /// Its width, metres on the ground.
+    pub width_m: f64,
+    /// Whether it is one of points.
+    pub is_of_points: bool,
 }
 
 /// The inside of polygons.

@@ -96,7 +96,7 @@ impl Lattice {
     }
 
     /// The lowest and the highest post; 0 where there is none.
-    pub(super) fn heights(&self) -> (f64, f64) {
+    pub fn heights(&self) -> (f64, f64) {
         match self {
             Self::Plane(grid) => grid.heights(),
             Self::Globe(globe) => globe.heights(),

@@ -96,6 +96,13 @@ impl<'a> Terrain<'a> {
         load::default_plan_space(crs, self.summary.bounds).ok()
     }
 
+    /// How many degrees it spans, where it is in degrees: the larger side.
+    pub(super) fn degrees(&self) -> Option<f64> {
+        let crs = load::crs_of(self.summary.crs_hint.as_ref()?).ok()?;
+        let size = self.bounds.max - self.bounds.min;
+        Some(size.max_element() * crs.degrees_per_unit()?)
+    }
+
     /// What is wrong with the CRS that the file states, where it cannot be used.
     pub(super) fn crs_not_read(&self) -> Option<String> {
         load::crs_of(self.summary.crs_hint.as_ref()?).err().map(|error| error.what().to_owned())

@@ -94,7 +94,12 @@ fn starter(files: &Files, output: Option<&Path>, progress: &dyn Fn(&str)) -> Res
     let place = output.map_or_else(|| Ok(Place::here()), Place::beside)?;
     let text = Starter { files, place: &place, told: Some(told) }.text()?;
     let scale = framing.scale_note().map(|note| format!("terrain: {note}"));
-    let notes = with_widths.iter().cloned().chain(scale).chain(draft.notes_of_left_out());
+    let notes = with_widths
+        .iter()
+        .cloned()
+        .chain(scale)
+        .chain(draft.note_of_globe())
+        .chain(draft.notes_of_left_out());
     Ok((text, notes.collect()))
 }
 

@@ -32,6 +32,9 @@ pub(super) struct Told<'a> {
     pub(super) notes: &'a [String],
 }
 
+/// A terrain that spans more degrees, one way or the other, is rather a globe.
+const GLOBAL: f64 = 60.0;
+
 const NO_LAYER: &str = r##"
 # [[layer]]
 # name = "roads"
@@ -119,7 +122,21 @@ shade = "hillshade"
     /// What the plan is.
     fn plan(&self) -> String {
         let words = self.told.map(|told| format!("# The plan: {}.\n", harmless(&told.scene.plan_space)));
-        words.unwrap_or_default()
+        let globe = self.files.terrain.degrees().filter(|degrees| *degrees > GLOBAL).map(|degrees| {
+            format!(
+                "# plan = \"globe\"                     # the terrain spans {degrees:.0} degrees, too many for a plane; widths are then \
+                 metres (width_m), places of the camera eye_geo and target_geo, or none\n"
+            )
+        });
+        words.unwrap_or_default() + &globe.unwrap_or_default()
+    }
+
+    /// What to say of a terrain that is rather a globe.
+    pub(super) fn note_of_globe(&self) -> Option<String> {
+        let degrees = self.files.terrain.degrees().filter(|degrees| *degrees > GLOBAL)?;
+        Some(format!(
+            "terrain: it spans {degrees:.0} degrees, and no plane shows that as it is: plan = \"globe\" stands in the scene as a comment"
+        ))
     }
 
     fn camera(&self) -> String {

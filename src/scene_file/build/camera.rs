@@ -4,16 +4,16 @@ use crate::error::{Error, Result};
 use crate::scene::Projection;
 use crate::scene_file::names::ProjectionName;
 use crate::scene_file::section::{Section, Taken};
-use crate::scene_file::spec::{CameraSpec, Spot, ViewSpec};
+use crate::scene_file::spec::{CameraSpec, PlanKind, Spot, ViewSpec};
 use glam::DVec3;
 
-pub(super) fn camera(section: &mut Section<'_>) -> Result<CameraSpec> {
+pub(super) fn camera(section: &mut Section<'_>, plan: PlanKind) -> Result<CameraSpec> {
     let eye = spot(section, "eye", "eye_geo")?;
     let target = spot(section, "target", "target_geo")?;
     let up = section.numbers_at::<3>("up")?;
     let projection = projection(section)?;
     let (near_m, far_m) = range(section)?;
-    let view = view(section, eye, target, up.as_ref())?;
+    let view = view(section, plan, (eye, target), up.as_ref())?;
     let up = up.map(|taken| DVec3::from_array(taken.value));
     Ok(CameraSpec { view, up, projection, near_m, far_m })
 }
@@ -37,8 +37,8 @@ fn spot(section: &mut Section<'_>, plan: &str, geo: &str) -> Result<Option<Taken
 
 fn view(
     section: &Section<'_>,
-    eye: Option<Taken<Spot>>,
-    target: Option<Taken<Spot>>,
+    plan: PlanKind,
+    (eye, target): (Option<Taken<Spot>>, Option<Taken<Spot>>),
     up: Option<&Taken<[f64; 3]>>,
 ) -> Result<Option<ViewSpec>> {
     let direction = up.map_or(DVec3::Z, |taken| DVec3::from_array(taken.value));
@@ -52,6 +52,8 @@ fn view(
     };
     let blamed = up.map_or(&target.place, |up| &up.place);
     match (eye.value, target.value) {
+        // Plan coordinates are refused there as what they are.
+        (Spot::Plan(_), Spot::Plan(_)) if plan == PlanKind::Globe => {}
         (Spot::Plan(from), Spot::Plan(to)) if from == to => {
             return Err(
                 section.error_at(&target.place, "`camera.eye` and `camera.target` are the same point")

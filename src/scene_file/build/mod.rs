@@ -26,13 +26,14 @@ pub(super) fn scene(origin: &Origin<'_>, root: Node) -> Result<SceneFile> {
     Section::read(origin, root, |root| {
         root.integer::<i64>("schema")?;
         let child = |root: &mut Section<'_>, key: &str| root.take_or_empty(key);
+        let plan = root.name("plan")?.unwrap_or_default();
         Ok(SceneFile {
             path: origin.path.map(Path::to_path_buf),
             name: root.text("name")?.unwrap_or_else(|| stem(origin.path, "scene")),
             crs: root.text("crs")?,
-            plan: root.name("plan")?.unwrap_or_default(),
+            plan,
             image: Section::read(origin, child(root, "image"), image)?,
-            camera: Section::read(origin, child(root, "camera"), camera::camera)?,
+            camera: Section::read(origin, child(root, "camera"), |section| camera::camera(section, plan))?,
             terrain: Section::read(origin, child(root, "terrain"), terrain::terrain)?,
             layers: layer::layers(root)?,
             compositing: root.settings()?,

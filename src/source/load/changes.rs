@@ -65,16 +65,42 @@ impl Changes {
         tell(
             self.edges_on_the_ground,
             format!(
-                "edges that are {kind}: {}, followed by {} more vertices, to {ground} m on the ground",
-                self.edges_on_the_ground, self.along_the_ground
+                "edges that are {kind}: {}, followed by {} more vertices, to {} m on the ground",
+                self.edges_on_the_ground,
+                self.along_the_ground,
+                rounded(ground)
             ),
         );
         tell(
             self.edges,
             format!(
-                "edges that are curves in the plan: {}, followed by {} more vertices, to {tolerance} m",
-                self.edges, self.along
+                "edges that are curves in the plan: {}, followed by {} more vertices, to {} m",
+                self.edges,
+                self.along,
+                rounded(tolerance)
             ),
         );
+    }
+}
+
+/// A number for people: three digits that count.
+fn rounded(number: f64) -> String {
+    let (mut decimals, mut size) = (0, number.abs());
+    while size > 0.0 && size < 100.0 && decimals < 9 {
+        (decimals, size) = (decimals + 1, size * 10.0);
+    }
+    let text = format!("{number:.decimals$}");
+    if decimals > 0 { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::rounded;
+
+    #[test]
+    fn numbers_for_people_have_three_digits_that_count() {
+        let numbers = [0.0, 0.3, 0.001, 11_131.949_079_327_358, 1.0, 12.345, 0.012_345, 123.456, 90.0];
+        let words = ["0", "0.3", "0.001", "11132", "1", "12.3", "0.0123", "123", "90"];
+        assert_eq!(numbers.map(rounded), words);
     }
 }

@@ -4,12 +4,14 @@ use super::blame::{Named, of_key};
 use super::columns::Columns;
 use super::filter::fulfilling;
 use super::globe;
+use super::ground_curve::GroundCurves;
 use super::off_terrain::{leave_out, reach_of};
 use super::order::ordered;
 use super::place::{Map, stretch};
 use super::reproject::{Onto, reproject};
 use super::styling::{outside, styled};
 use super::terrain::Terrain;
+use super::window::Region;
 use crate::crs::{Crs, CurveKind, Geodesy, PlanFrom};
 use crate::error::{Error, Result};
 use crate::scene::{Feature, Layer, Shape};
@@ -58,6 +60,7 @@ fn layer(
     };
     columns.require(spec)?;
     let mut features = fulfilling(features, spec, &columns, notes)?;
+    let count = features.len();
     let mut styles = styled(&mut features, spec, &columns)?;
     let outside = outside(spec);
     let mut map = map;
@@ -69,10 +72,15 @@ fn layer(
         features = globe::in_degrees(features, (&map, &own), place, tolerance, spec.edges)
             .map_err(|error| columns.blame(error))?;
         let turn = own.file().turn().ok_or_else(|| Error::internal("a globe without turns"))?;
-        (features, styles) = globe::stroked(features, styles, ground.globe.ellipsoid, turn);
-        map = Map::From(Box::new(own));
+        let near = globe::near_strokes(&ground.globe, &terrain.bounds, reach_of(&styles).unwrap_or_default());
+        let near = Region::of(&own, &PlanBox { min: near.min + -shift, max: near.max + -shift });
+        let own = Map::From(Box::new(own));
+        let curves = on_the_ground(scene, spec, &own)?;
+        let curves = curves.map(|kind| GroundCurves::new(kind, turn, tolerance, near));
+        let strokes = globe::Strokes { ellipsoid: ground.globe.ellipsoid, turn, curves };
+        (features, styles) = globe::stroked(features, styles, &strokes);
+        map = own;
     }
-    let count = features.len();
     let middle = (terrain.bounds.min.to_vec() + terrain.bounds.max.to_vec()) * 0.5;
     let middle = middle - terrain.place.shift(DVec2::ZERO);
     let onto = Onto {

@@ -12,7 +12,8 @@ pub(super) fn leave_out(terrain: &Terrain, layer: &mut Layer, count: usize, note
         let style = styles[feature.style as usize];
         can_touch(feature, &Style { fill: style.fill.or(outside), ..style }, &terrain.bounds)
     });
-    let kept = layer.features.len();
+    // On a globe a feature's stroke follows its fill.
+    let kept = layer.features.chunk_by(|one, next| one.index == next.index).count();
     if kept == 0 && count > 0 {
         notes.push(format!("none of its {count} features meets the terrain"));
     } else if kept < count {
@@ -50,6 +51,7 @@ fn can_touch(feature: &Feature, style: &Style, terrain: &PlanBox) -> bool {
         Shape::Polygon(_) | Shape::MultiPolygon(_) => style.outline.map(|outline| outline.line),
         Shape::Line(_) => style.line,
         Shape::Points(_) => style.point,
+        Shape::Swath { .. } => None,
     };
     let Some(reach) = stroke.map_or(Some(0.0), reach) else { return true };
     let around = terrain.grown(reach);
@@ -59,7 +61,9 @@ fn can_touch(feature: &Feature, style: &Style, terrain: &PlanBox) -> bool {
     follows && feature.shape.parts().any(|part| edges(part, is_area).any(|edge| meets(edge, &around)))
         || match &feature.shape {
             Shape::Polygon(rings) => encloses(rings),
-            Shape::MultiPolygon(members) => members.iter().any(|rings| encloses(rings)),
+            Shape::MultiPolygon(members) | Shape::Swath { members, .. } => {
+                members.iter().any(|rings| encloses(rings))
+            }
             Shape::Line(_) => false,
             Shape::Points(points) => points.iter().any(|point| meets((*point, *point), &around)),
         }

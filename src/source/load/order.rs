@@ -36,7 +36,7 @@ impl Key {
 fn key(order: &Order, feature: &Feature, rule: Rule, columns: &Columns<'_>) -> Key {
     let own_area = || match &feature.shape {
         Shape::Polygon(rings) => area(rings, rule),
-        Shape::MultiPolygon(members) => area_of_members(members, rule),
+        Shape::MultiPolygon(members) | Shape::Swath { members, .. } => area_of_members(members, rule),
         Shape::Line(_) | Shape::Points(_) => 0.0,
     };
     let own_length = || length(&feature.shape);
@@ -44,7 +44,9 @@ fn key(order: &Order, feature: &Feature, rule: Rule, columns: &Columns<'_>) -> K
         (Order::File, _) => (0, Attribute::Null),
         // Zechmeister 2020, 3.2.1, Bounding Volume Hierarchies: by default the line lengths and polygon areas are used as
         // sorting criteria, because long lines and large polygons are usually more important (and important ones on top).
-        (Order::Size, Shape::Polygon(_) | Shape::MultiPolygon(_)) => (0, Attribute::of_number(own_area())),
+        (Order::Size, Shape::Polygon(_) | Shape::MultiPolygon(_) | Shape::Swath { .. }) => {
+            (0, Attribute::of_number(own_area()))
+        }
         (Order::Size, Shape::Line(_)) => (1, Attribute::of_number(own_length())),
         (Order::Size, Shape::Points(_)) => (2, Attribute::Null),
         (Order::By { key: OrderKey::Area, .. }, _) => (0, Attribute::of_number(own_area())),

@@ -13,6 +13,7 @@
 
 use super::changes::Changes;
 use super::cut::{self, Side};
+use super::extent::{REACH, in_reach};
 use super::follow::{Follow, long};
 use super::ground_curve::GroundCurves;
 use super::place::Map;
@@ -66,12 +67,17 @@ pub(super) fn reproject(
     notes: &mut Vec<String>,
 ) -> Result<Vec<Feature>> {
     let way = Way::new(map, onto);
-    let count = features.len();
+    let numbers: Vec<usize> = features.iter().map(|feature| feature.index).collect();
+    let count = numbers.chunk_by(|one, next| one == next).count();
     let taken = parallel::map_owned(features, |feature| way.taken(feature));
-    let mut all = Vec::with_capacity(count);
+    let mut all = Vec::with_capacity(taken.len());
     let (mut changes, mut lost, mut first) = (Changes::default(), 0, None);
-    for feature in taken {
+    for (k, feature) in taken.into_iter().enumerate() {
+        // On a globe a feature's stroke follows its fill: what is told of features is told of one.
+        let is_stroke_of_last = k > 0 && numbers[k - 1] == numbers[k];
         match feature? {
+            Taken::Near(feature, _) if is_stroke_of_last => all.push(feature),
+            Taken::Away(_) | Taken::Nowhere(_) if is_stroke_of_last => {}
             Taken::Near(feature, own) => {
                 changes.add(&own);
                 all.push(feature);
@@ -92,6 +98,19 @@ pub(super) fn reproject(
     let tolerance = way.follow.as_ref().map_or(0.0, |follow| follow.tolerance);
     changes.tell(tolerance, way.curves.as_ref().map_or(("", 0.0), GroundCurves::words), notes);
     Ok(all)
+}
+
+fn too_far(p: Plan) -> Error {
+    Error::new(format!("the place ({:e}, {:e}) is more than {REACH:e} m off", p.x, p.y))
+        .help("check the file's coordinates, its CRS and the offsets; `where` leaves features out")
+}
+
+/// With the vertices of edges that are curves of the ground.
+fn followed(part: Unrolled, is_ring: bool, curves: Option<&GroundCurves>, changes: &mut Changes) -> Unrolled {
+    match curves {
+        Some(curves) => curves.followed(part, is_ring, changes),
+        None => part,
+    }
 }
 
 /// What became of a feature.
@@ -159,19 +178,25 @@ impl<'a> Way<'a> {
 
     fn taken(&self, feature: Feature) -> Result<Taken> {
         let Feature { index, style, shape } = feature;
-        let mut changes = Changes::default();
+        let (mut changes, curves) = (Changes::default(), self.curves.as_ref());
         let (beyond, turned) = match self.checked(&shape).map_err(|error| error.in_feature(index))? {
             Checked::Place { beyond, turned } => (beyond, turned),
             Checked::Nowhere(error) => return Ok(Taken::Nowhere(error.in_feature(index))),
         };
+        self.within_reach(&shape).map_err(|error| error.in_feature(index))?;
         let shape = match shape {
-            Shape::Polygon(rings) => self.rings(rings, &mut changes).map(Shape::Polygon),
+            Shape::Polygon(rings) => self.rings(rings, curves, &mut changes).map(Shape::Polygon),
             Shape::MultiPolygon(members) => {
-                let moved = members.into_iter().map(|rings| self.rings(rings, &mut changes));
-                let near = moved.filter(|rings| !matches!(rings, Ok(rings) if rings.is_empty()));
-                near.collect::<Result<_>>().map(Shape::MultiPolygon)
+                self.members(members, curves, &mut changes).map(Shape::MultiPolygon)
             }
-            Shape::Line(lines) => self.lines(lines, &mut changes).map(Shape::Line),
+            // Made here, and its edges with it: nothing that a person would look for in the file.
+            Shape::Swath { members, lines } => {
+                let own = &mut Changes::default();
+                self.members(members, None, own).and_then(|members| {
+                    self.lines(lines, None, own).map(|lines| Shape::Swath { members, lines })
+                })
+            }
+            Shape::Line(lines) => self.lines(lines, curves, &mut changes).map(Shape::Line),
             Shape::Points(points) => self.points(points, &mut changes).map(Shape::Points),
         };
         changes.cut = changes.cut.min(1);
@@ -184,13 +209,35 @@ impl<'a> Way<'a> {
         })
     }
 
+    /// Refuses coordinates so far from 0, or from the terrain's, that nothing near them could be told apart; those that are projected are left out there.
+    fn within_reach(&self, shape: &Shape) -> Result<()> {
+        let (scale, unit) = match self.map {
+            Map::From(map) => match (map.affine(), self.turn) {
+                (Some(affine), None) => (affine.scale, affine.origin),
+                _ => return Ok(()),
+            },
+            Map::AsIs => (DVec2::ONE, DVec2::ZERO),
+        };
+        let place = |p: &Plan| (p.to_vec() - unit) * scale;
+        let is_far = |p: &&Plan| {
+            let (absolute, local) = (place(p), place(p) + self.shift);
+            ![absolute.x, absolute.y, local.x, local.y].into_iter().all(in_reach)
+        };
+        shape.parts().flatten().find(is_far).map_or(Ok(()), |far| Err(too_far(*far)))
+    }
+
     /// Refuses latitudes that are none; tells whether a vertex lies beyond a pole, or many turns off.
     fn checked(&self, shape: &Shape) -> Result<Checked> {
         let (mut beyond, mut turned) = (false, false);
         let (Some(turn), Map::From(map)) = (self.turn, self.map) else {
             return Ok(Checked::Place { beyond, turned });
         };
-        for p in shape.parts().flatten() {
+        // Of a stroke the line is as it is written, and its area is not.
+        let lines: Vec<&Vec<Plan>> = match shape {
+            Shape::Swath { lines, .. } => lines.iter().collect(),
+            shape => shape.parts().collect(),
+        };
+        for p in lines.into_iter().flatten() {
             let (quarters, turns) = (p.y.abs() / turn.pole, p.x.abs() / turn.length);
             if quarters > MOST_QUARTERS {
                 map.apply(p.to_vec())?;
@@ -207,7 +254,22 @@ impl<'a> Way<'a> {
         Ok(Checked::Place { beyond, turned })
     }
 
-    fn rings(&self, rings: Vec<Vec<Plan>>, changes: &mut Changes) -> Result<Vec<Vec<Plan>>> {
+    fn members(
+        &self,
+        members: Vec<Vec<Vec<Plan>>>,
+        curves: Option<&GroundCurves>,
+        changes: &mut Changes,
+    ) -> Result<Vec<Vec<Vec<Plan>>>> {
+        let moved = members.into_iter().map(|rings| self.rings(rings, curves, changes));
+        moved.filter(|rings| !matches!(rings, Ok(rings) if rings.is_empty())).collect()
+    }
+
+    fn rings(
+        &self,
+        rings: Vec<Vec<Plan>>,
+        curves: Option<&GroundCurves>,
+        changes: &mut Changes,
+    ) -> Result<Vec<Vec<Plan>>> {
         let mut near: Vec<(Vec<Plan>, f64)> = Vec::new();
         match self.turn {
             None => {
@@ -216,7 +278,7 @@ impl<'a> Way<'a> {
             }
             Some(turn) => {
                 for ring in unroll::rings(rings, turn) {
-                    let ring = self.on_the_ground(ring, true, changes);
+                    let ring = followed(ring, true, curves, changes);
                     changes.around += usize::from(ring.around != 0);
                     self.near_rings(&ring, turn.length, (&mut near, changes));
                 }
@@ -225,13 +287,18 @@ impl<'a> Way<'a> {
         near.iter().map(|(ring, around)| self.placed(ring, Some(*around), changes)).collect()
     }
 
-    fn lines(&self, lines: Vec<Vec<Plan>>, changes: &mut Changes) -> Result<Vec<Vec<Plan>>> {
+    fn lines(
+        &self,
+        lines: Vec<Vec<Plan>>,
+        curves: Option<&GroundCurves>,
+        changes: &mut Changes,
+    ) -> Result<Vec<Vec<Plan>>> {
         let mut near: Vec<Vec<Plan>> = Vec::new();
         for line in lines {
             match self.turn {
                 None => near.extend(self.cut_line(line, changes)),
                 Some(turn) => {
-                    let line = self.on_the_ground(unroll::line(line, turn), false, changes);
+                    let line = followed(unroll::line(line, turn), false, curves, changes);
                     self.near_lines(&line, turn.length, (&mut near, changes));
                 }
             }
@@ -239,17 +306,9 @@ impl<'a> Way<'a> {
         near.iter().map(|line| self.placed(line, None, changes)).collect()
     }
 
-    /// With the vertices of edges that are curves of the ground.
-    fn on_the_ground(&self, part: Unrolled, is_ring: bool, changes: &mut Changes) -> Unrolled {
-        match &self.curves {
-            Some(curves) => curves.followed(part, is_ring, changes),
-            None => part,
-        }
-    }
-
     /// Points, each a line that goes nowhere.
     fn points(&self, points: Vec<Plan>, changes: &mut Changes) -> Result<Vec<Plan>> {
-        let lines = self.lines(points.into_iter().map(|p| vec![p, p]).collect(), changes)?;
+        let lines = self.lines(points.into_iter().map(|p| vec![p, p]).collect(), None, changes)?;
         Ok(lines.iter().filter_map(|line| line.first().copied()).collect())
     }
 
@@ -423,9 +482,13 @@ impl<'a> Way<'a> {
             changes.along += all.len() - before;
         }
         let mut local = all.into_iter().map(|p| p + self.shift);
-        let moved = local.by_ref().map(|p| p.is_finite().then_some(p)).collect::<Option<Vec<Plan>>>();
-        moved.ok_or_else(|| {
-            Error::new("a vertex is moved out of what numbers can tell").help("check the offsets")
+        let is_near = |p: Plan| in_reach(p.x) && in_reach(p.y);
+        local.try_fold(Vec::with_capacity(part.len()), |mut all, p| {
+            if !is_near(p) {
+                return Err(too_far(p));
+            }
+            all.push(p);
+            Ok(all)
         })
     }
 

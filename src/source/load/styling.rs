@@ -109,6 +109,7 @@ impl Settings<'_> {
             outline: outline.transpose()?,
             line: line.transpose()?,
             point: point.transpose()?,
+            swath: None,
         })
     }
 

@@ -79,13 +79,17 @@ pub(super) fn terrain(
         TerrainSource::Files(files) => from_files(scene, files, progress, notes)?,
     };
     stretch(&mut surface, scene.terrain.vertical_scale)?;
+    let blame = |error: Error| match scene.terrain.source.files() {
+        [file, ..] => Named::new(scene, file).blame(error),
+        [] => of_key(scene, "terrain", error),
+    };
+    if let Surface::Globe(posts) = &surface {
+        globe::above_the_middle(posts).map_err(blame)?;
+    }
     let offset = scene.terrain.offset;
     let bounds = bounds(&surface);
     let place = PlanFrame { space, anchor, offset };
-    within_reach(&surface, &bounds, place.origin()).map_err(|error| match scene.terrain.source.files() {
-        [file, ..] => Named::new(scene, file).blame(error),
-        [] => of_key(scene, "terrain", error),
-    })?;
+    within_reach(&surface, &bounds, place.origin()).map_err(blame)?;
     Ok(Terrain { bounds, surface, place })
 }
 

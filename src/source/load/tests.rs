@@ -5,6 +5,7 @@
 mod attributes;
 mod globe;
 mod ground_curve;
+mod on_a_globe;
 mod terrains;
 
 use super::load;

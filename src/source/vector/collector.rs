@@ -190,7 +190,7 @@ fn join(shape: &mut Shape, more: Shape) {
 
 fn members_of(shape: Shape) -> Vec<Vec<Vec<Plan>>> {
     match shape {
-        Shape::MultiPolygon(members) => members,
+        Shape::MultiPolygon(members) | Shape::Swath { members, .. } => members,
         Shape::Polygon(rings) | Shape::Line(rings) => vec![rings],
         Shape::Points(points) => vec![vec![points]],
     }
@@ -199,7 +199,7 @@ fn members_of(shape: Shape) -> Vec<Vec<Vec<Plan>>> {
 /// Whether a part has enough points to cover anything: 3 of a ring, 2 of a line, 1 of points.
 pub(in crate::source) fn is_drawable(shape: &Shape, part: &[Plan]) -> bool {
     let least = match shape {
-        Shape::Polygon(_) | Shape::MultiPolygon(_) => 3,
+        Shape::Polygon(_) | Shape::MultiPolygon(_) | Shape::Swath { .. } => 3,
         Shape::Line(_) => 2,
         Shape::Points(_) => 1,
     };

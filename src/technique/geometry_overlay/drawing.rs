@@ -102,20 +102,33 @@ impl LineDrawing {
         out
     }
 
-    /// How a strip is drawn. GL has one width for all of it: where it comes nearest to the eye.
+    /// How a strip is drawn.
     fn style(&self, strip: &Strip, list: &DrawList, view: &ViewFrame) -> LineStyle {
-        let stroke = list.style_of(strip.item).stroke;
+        let width = self.width(strip, list, view);
+        let stipple = Stipple { pattern: self.settings.stipple as u16, factor: self.settings.stipple_factor };
+        LineStyle::new(width, stipple, self.is_antialiased(), &self.device)
+    }
+
+    /// How wide a strip is to be, pixels. GL has one width for all of it: where it comes nearest to the eye.
+    fn width(&self, strip: &Strip, list: &DrawList, view: &ViewFrame) -> f64 {
+        let style = list.style_of(strip.item);
+        let swath = style.swath.map(|of| Width::Metres(of.width_m));
+        let stroke = style.stroke.map(|line| line.width).or(swath);
         let pixel = || {
             let sizes = strip.points.iter().map(|at| view.pixel_m(*at));
             sizes.fold(f64::INFINITY, crate::math::min)
         };
-        let width = match (self.settings.widths, stroke.map(|line| line.width)) {
+        match (self.settings.widths, stroke) {
             (Widths::One, _) | (_, None) => 1.0,
             (Widths::Style, Some(Width::Pixels(width))) => width,
             (Widths::Style, Some(Width::Metres(width))) => width / pixel(),
-        };
-        let stipple = Stipple { pattern: self.settings.stipple as u16, factor: self.settings.stipple_factor };
-        LineStyle::new(width, stipple, self.is_antialiased(), &self.device)
+        }
+    }
+
+    /// How many strips are to be wider than the device draws lines.
+    pub(super) fn clamped(&self, strips: &[Strip], list: &DrawList, view: &ViewFrame) -> u64 {
+        let is_clamped = |strip: &&Strip| LineStyle::is_clamped(self.width(strip, list, view), &self.device);
+        strips.iter().filter(is_clamped).count() as u64
     }
 }
 

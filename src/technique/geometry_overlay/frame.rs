@@ -31,6 +31,8 @@ const NO_LAYER: u32 = u32::MAX;
 struct Setup<'a, T> {
     context: FrameContext<'a, T>,
     overlay: Overlay,
+    /// Strips that are to be wider than the device's lines.
+    clamped: u64,
 }
 
 /// Draws a frame of a view.
@@ -117,6 +119,7 @@ impl<'a, T: Real> Setup<'a, T> {
         let pipeline = Pipeline::new(view, mesh, device);
         let drawing = LineDrawing::new(settings, device);
         let segments = drawing.segments(&overlay.strips, (&stage.draw_list, view, &pipeline));
+        let clamped = drawing.clamped(&overlay.strips, &stage.draw_list, view);
         let lattice = Lattice::centres(view, 0);
         let mut sight = Sight::new(view, mesh, device, lattice, tile).with_polygon_offset(offset);
         sight.see();
@@ -134,7 +137,7 @@ impl<'a, T: Real> Setup<'a, T> {
             drawing,
             segments,
         };
-        Self { context, overlay }
+        Self { context, overlay, clamped }
     }
 
     fn counts(&self, tiles: &[Drawn]) -> Vec<(&'static str, u64)> {
@@ -150,6 +153,7 @@ impl<'a, T: Real> Setup<'a, T> {
             ("primitives", overlay.strips.len() as u64),
             ("points", overlay.points),
             ("points_drawn", drawn_points),
+            ("clamped", self.clamped),
             ("segments", self.context.segments.len() as u64),
             ("fragments", sum(|tile| tile.counts.fragments)),
             ("fragments_drawn", sum(|tile| tile.counts.drawn)),

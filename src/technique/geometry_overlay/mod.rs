@@ -11,12 +11,15 @@
 //! it the style asks for. A mesh without levels (`terrain.lod`) has only
 //! the smallest triangles; cells may be split in any way then. Where the paper is silent, see `dag` and `docs/semantics.md`.
 //!
+//! Over a globe the places of lines among the posts are those of the plan; at a pole, where all columns meet, lines go along with them.
+//!
 //! Refuses: terrains that are no grid (there are no quads), points (there are no lines).
 
 mod dag;
 mod drawing;
 mod frame;
 mod line_strips;
+mod grid_map;
 mod mesh;
 mod settings;
 mod step;
@@ -42,8 +45,7 @@ use crate::error::{Error, Result};
 use crate::scene::{Line, StrokeForm, TechniqueSettings};
 use crate::space::ViewFrame;
 use crate::stage::Stage;
-use crate::terrain::Mesh;
-use mesh::GridMap;
+use grid_map::GridMap;
 use store::Store;
 
 /// The technique, said once.
@@ -85,7 +87,6 @@ fn stroke_form(_said: &TechniqueSettings, _line: &Line) -> StrokeForm {
 pub struct Prepare<'s> {
     stage: &'s Stage,
     settings: Settings,
-    map: GridMap,
     store: Store,
 }
 
@@ -96,16 +97,15 @@ impl<'s> Prepare<'s> {
     /// When the technique does not draw such a scene.
     pub fn new(stage: &'s Stage) -> Result<Self> {
         applies(stage)?;
-        let Mesh::Grid(grid) = &*stage.mesh else { return Err(no_quads()) };
-        let map = GridMap::new(grid.posts());
+        let map = GridMap::new(&stage.mesh.lattice().ok_or_else(no_quads)?);
         let store = Store::new(&stage.draw_list, &map);
-        Ok(Self { stage, settings: stage.scene.technique.get(), map, store })
+        Ok(Self { stage, settings: stage.scene.technique.get(), store })
     }
 }
 
 fn no_quads() -> Error {
     Error::unsupported(
-        "geometry-overlay cuts lines at the triangles of a grid's quads over a plane, this terrain is no grid there",
+        "geometry-overlay cuts lines at the triangles of a grid's quads, this terrain is of scattered points",
     )
     .help("leave the technique out")
 }
@@ -115,10 +115,13 @@ fn no_quads() -> Error {
 /// # Errors
 /// The reason why it cannot.
 pub fn applies(stage: &Stage) -> Result<()> {
-    if !matches!(&*stage.mesh, Mesh::Grid(_)) {
+    if stage.mesh.lattice().is_none() {
         return Err(no_quads());
     }
-    let is_point = |number: u32| stage.draw_list.style_of(number).role == Role::Point;
+    let is_point = |number: u32| {
+        let style = stage.draw_list.style_of(number);
+        style.role == Role::Point || style.swath.is_some_and(|of| of.is_of_points)
+    };
     match stage.draw_list.numbered().find(|(number, _)| is_point(*number)) {
         None => Ok(()),
         Some((_, item)) => Err(Error::unsupported(format!(

@@ -3,7 +3,8 @@
 //! Input: the scene's lines in grid coordinates. Output: a [`PolylineLods`] for each quad that is asked for. Refuses: nothing.
 
 use super::dag::{Arrays, Chains, Layers, PolylineLods, SubPolylineLods};
-use super::mesh::{GridMap, MeshInUse};
+use super::grid_map::GridMap;
+use super::mesh::MeshInUse;
 use crate::draw_list::{DrawList, Role};
 use crate::error::Result;
 use crate::parallel;
@@ -26,14 +27,16 @@ fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 }
 
 impl Store {
-    /// The lines of a draw list: an item's strokes, or the border of a fill.
+    /// The lines of a draw list: an item's strokes, what a stroke that is an area is along, or the border of a fill.
     pub(super) fn new(list: &DrawList, map: &GridMap) -> Self {
         let chains = list.numbered().flat_map(|(item, of)| {
-            let chains = match list.style_of(item).role {
+            let style = list.style_of(item);
+            let chains = match style.role {
+                Role::Fill if style.swath.is_some() => list.centre_lines(of),
                 Role::Fill | Role::Outside => list.border(of),
                 Role::Outline | Role::Line | Role::Point => list.strokes(of),
             };
-            chains.iter().map(move |chain| (item, list.path_of(chain).iter().map(|p| map.grid_from_plan(*p))))
+            chains.iter().map(move |chain| (item, map.path(list.path_of(chain))))
         });
         Self { chains: Chains::new(chains), quads: Mutex::default(), entrances: Mutex::default() }
     }

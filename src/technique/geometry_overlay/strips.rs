@@ -197,9 +197,8 @@ impl Strips<'_> {
         let Some(strip) = self.done.last_mut().filter(|_| self.walk.mesh.is_drawn(&clipping.triangle)) else {
             return;
         };
-        let points = of.points(clipping, |post| self.walk.mesh.height(post));
         let first = strip.points.len();
-        strip.points.extend(points.map(|point| prepared.map.world_from_grid(point)));
+        self.walk.mesh.add_points((of, clipping), &mut strip.points);
         self.points += (strip.points.len() - first) as u64;
         if prepared.settings.tolerance_px > 0.0 && strip.points.len() > first + 2 {
             let kept = self.walk.simplified(&strip.points[first..]);

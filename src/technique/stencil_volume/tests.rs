@@ -189,7 +189,7 @@ fn layers() -> impl Strategy<Value = Vec<Layer>> {
             fill: Some(Fill { color: Color([1.0, 0.0, 0.0, 0.5]), rule }),
             outline: Some(Outline { line: outline, mode }),
             line: Some(line),
-            point: None,
+            ..Style::default()
         };
         let points = points.into_iter().map(|(x, y)| Plan::new(x, y)).collect();
         let shapes = [Shape::Polygon(rings), Shape::Line(vec![points])];

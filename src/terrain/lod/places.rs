@@ -85,7 +85,7 @@ impl<'g> Places<'g> {
     }
 
     /// The deviation of a triangle over the posts of a window; of the smallest that can be split, what their halves' deviations do not tell. A triangle
-    /// with a corner at a pole is off by its side away from the pole, too: the corner's place in the plan is between the columns.
+    /// with a corner at a pole has its places beside those of the posts, too.
     pub(super) fn deviation(&self, triangle: &RightTriangle, window: &Window) -> Deviation {
         let corners = triangle.corners();
         let range = |k: usize| {
@@ -95,7 +95,7 @@ impl<'g> Places<'g> {
         let ((west, east), (south, north)) = (range(0), range(1));
         let is_inside = east <= self.last[0] && north <= self.last[1];
         let places = if is_inside { corners.map(|post| self.at(post)) } else { [DVec3::NAN; 3] };
-        let aside = if is_inside { self.side_away_from_a_pole(&corners, places) } else { 0.0 };
+        let aside = if is_inside { self.aside_at_a_pole(&corners, places) } else { 0.0 };
         if let Some(middle) =
             triangle.middle().filter(|_| is_inside && window.is_whole && triangle.layer() < 3)
         {
@@ -118,12 +118,16 @@ impl<'g> Places<'g> {
         found
     }
 
-    /// How long the side is that lies across from a single corner at a pole.
-    fn side_away_from_a_pole(&self, corners: &[Post; 3], places: [DVec3; 3]) -> f64 {
+    /// How far, on the ground, a triangle with a single corner at a pole has its places beside those of the posts. The corner stands between the columns of the
+    /// others and not in its own: with a share w of it a place moves by w of half the columns' distance at most, on a parallel that is no larger than pi/2 (1 - w) of the
+    /// others' largest: by pi/16 of the product at most.
+    fn aside_at_a_pole(&self, corners: &[Post; 3], places: [DVec3; 3]) -> f64 {
         let is_at_pole = |k: usize| self.rows[corners[k][1] as usize].first.is_none();
-        match (0..3).filter(|k| is_at_pole(*k)).collect::<Vec<_>>()[..] {
-            [k] => (places[(k + 1) % 3] - places[(k + 2) % 3]).length(),
-            _ => 0.0,
-        }
+        let [k] = (0..3).filter(|k| is_at_pole(*k)).collect::<Vec<_>>()[..] else { return 0.0 };
+        let others = [1, 2].map(|next| (k + next) % 3);
+        let [west, east] = others.map(|k| self.globe.posts().column(corners[k][0] as usize));
+        let [one, other] = others.map(|k| places[k].truncate().length());
+        let angle = (east - west).abs() / self.globe.posts().globe.ellipsoid.a;
+        0.25 * angle * math::max(one, other)
     }
 }

@@ -1,6 +1,7 @@
 //! Meshes against what they must be, post by post.
 
 mod exact;
+mod globe;
 mod sound;
 
 use super::{Hierarchy, LodMesh, Post, RightTriangle};

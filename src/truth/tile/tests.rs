@@ -425,7 +425,7 @@ fn items_at(layers: &[Layer], frame: &ViewFrame, seen: &Seen) -> Vec<bool> {
                     let line = style.point.as_ref().unwrap();
                     all.push(points.iter().any(|at| in_disc(*at, line, frame, seen)));
                 }
-                Shape::Polygon(_) | Shape::MultiPolygon(_) => {
+                Shape::Polygon(_) | Shape::MultiPolygon(_) | Shape::Swath { .. } => {
                     let rule = style.fill.map_or(Rule::EvenOdd, |fill| fill.rule);
                     let is_inside = match &feature.shape {
                         Shape::MultiPolygon(members) => {

@@ -38,6 +38,11 @@ impl LineStyle {
         Self { width: math::min(width_px, device.max_line_width_px), stipple, is_smooth }
     }
 
+    /// Whether a device draws lines of such a width less wide.
+    pub fn is_clamped(width_px: f64, device: &Device) -> bool {
+        width_px > device.max_line_width_px
+    }
+
     pub(super) fn width(&self) -> f64 {
         self.width
     }

@@ -16,7 +16,7 @@ use crate::scene_file::SceneText;
 use crate::space::ViewFrame;
 use crate::stage::Stage;
 use crate::technique::{FrameOptions, Prepared, geometry_overlay};
-use crate::terrain::{Mesh, lod};
+use crate::terrain::lod;
 use std::sync::Arc;
 
 /// Measures a scene's lines from its own camera, each thing `repeat` times (at least once).
@@ -26,12 +26,12 @@ use std::sync::Arc;
 pub fn measure(scene: Opened, repeat: u32, watch: &dyn Watch) -> Result<DataSet> {
     let Opened { text, mut stage } = scene;
     geometry_overlay::applies(&stage)?;
-    let (Some(_), Mesh::Grid(grid)) = (stage.scene.lod, &*stage.mesh) else {
+    let (Some(_), Some(lattice)) = (stage.scene.lod, stage.mesh.lattice()) else {
         return Err(Error::new("there is no level-of-detail mesh to measure").help(
             "write terrain.lod = { error_px = 1.0 } and terrain.diagonal = \"alternating\" (or `--set` them)",
         ));
     };
-    let posts = [grid.posts().columns(), grid.posts().rows()];
+    let posts = lattice.size();
     let (polylines, points) = counted(&stage.draw_list);
     if points == 0 {
         return Err(Error::new("there are no lines and no outlines to measure").help(
@@ -82,7 +82,9 @@ pub fn measure(scene: Opened, repeat: u32, watch: &dyn Watch) -> Result<DataSet>
 fn counted(list: &DrawList) -> (usize, usize) {
     let (mut lines, mut points) = (0, 0);
     for (number, item) in list.numbered() {
-        let chains = match list.style_of(number).role {
+        let style = list.style_of(number);
+        let chains = match style.role {
+            Role::Fill if style.swath.is_some() => list.centre_lines(item),
             Role::Fill | Role::Outside => list.border(item),
             Role::Outline | Role::Line | Role::Point => list.strokes(item),
         };

@@ -1,16 +1,20 @@
 //! The features of a layer on a globe: in longitude and latitude of its CRS, their strokes as areas.
 
 use super::super::blame::of_key;
+use super::super::changes::Changes;
 use super::super::follow::Follow;
+use super::super::ground_curve::GroundCurves;
 use super::super::place::Map;
-use super::super::unroll;
+use super::super::unroll::{self, Unrolled};
+use super::super::window::on_the_globe;
 use super::stroke::Brush;
 use crate::crs::{PlanFrom, Turn};
 use crate::error::{Error, Result};
+use crate::math::{cos, max};
 use crate::parallel;
-use crate::scene::{Cap, Feature, Fill, Line, OutlineMode, Rule, Shape, Style, Width};
+use crate::scene::{Cap, Feature, Fill, Line, OutlineMode, Rule, Shape, Style, Swath, Width};
 use crate::scene_file::{Edges, LayerSpec, SceneFile};
-use crate::space::{Ellipsoid, Plan, PlanBox};
+use crate::space::{Ellipsoid, Globe, Plan, PlanBox};
 use glam::DVec2;
 
 /// Refuses a style that a globe does not have.
@@ -33,13 +37,6 @@ pub(in crate::source::load) fn check_styles(
                     &format!("{part}.width_px"),
                     "strokes on a globe are areas on the ground, which do not depend on the view",
                     "give a width in metres: width_m",
-                );
-            }
-            if matches!(spec.edges, Edges::Geodesic | Edges::Rhumb) {
-                return refuse(
-                    part,
-                    "strokes on a globe follow edges that are straight in longitude and latitude, not curves of the ground",
-                    "give the layer a fill alone, or leave `edges` out",
                 );
             }
             if spec.style.fill.as_ref().is_some_and(|fill| fill.is_inverted) {
@@ -73,7 +70,7 @@ pub(in crate::source::load) fn in_degrees(
     let (None, Some(affine)) = (from.affine(), own.affine()) else { return Ok(features) };
     let near = PlanBox { min: terrain.min + -shift, max: terrain.max + -shift };
     let follow = Follow { tolerance, near, long: 0.0 };
-    let place = |p: Plan| map.apply(p);
+    let place = |p: Plan| placed(p, from, own);
     let part = |part: &Vec<Plan>, is_ring: bool| -> Result<Vec<Plan>> {
         let mut all = Vec::with_capacity(part.len());
         for (k, &here) in part.iter().enumerate() {
@@ -95,6 +92,8 @@ pub(in crate::source::load) fn in_degrees(
             Shape::Line(lines) => {
                 lines.iter().map(|line| part(line, false)).collect::<Result<_>>().map(Shape::Line)
             }
+            // Of files there are none.
+            Shape::Swath { .. } => Ok(feature.shape.clone()),
             Shape::Points(points) => points
                 .iter()
                 .map(|p| Ok(Plan::from(place(*p)?.to_vec() / affine.scale + affine.origin)))
@@ -106,15 +105,34 @@ pub(in crate::source::load) fn in_degrees(
     moved.into_iter().collect()
 }
 
+/// A place of another CRS in the globe's plan: on the turn that it is written on, and as far beyond a pole.
+fn placed(p: Plan, from: &PlanFrom, own: &PlanFrom) -> Result<Plan> {
+    let turns = from.file().turn().zip(own.file().turn()).zip(own.affine());
+    let Some(((turn, own_turn), affine)) = turns else { return from.apply(p.to_vec()).map(Plan::from) };
+    let on_globe = on_the_globe(p.to_vec(), Some(turn));
+    let placed = from.apply_unrolled(on_globe)?;
+    let length = own_turn.length * affine.scale.x;
+    let turns_off = p.x / turn.length - placed.x / length;
+    let beyond = if turn.pole.is_finite() { (p.y - on_globe.y) / turn.pole } else { 0.0 };
+    Ok(Plan::from(placed + DVec2::new(length * turns_off.round(), own_turn.pole * affine.scale.y * beyond)))
+}
+
+/// A rectangle of the plan from beyond which no stroke that reaches so far from its line, metres on the ground, gets to the terrain; near a pole, where that
+/// is any longitude, up to 64 times as far.
+pub(in crate::source::load) fn near_strokes(globe: &Globe, terrain: &PlanBox, reach: f64) -> PlanBox {
+    let [south, north] = [terrain.min, terrain.max].map(|at| globe.geographic(at).1.abs());
+    terrain.grown(reach / max(cos(max(south, north)), 1.0 / 64.0))
+}
+
 /// Features whose strokes are areas on the ground, each after its feature's fill, and the styles of both.
 pub(in crate::source::load) fn stroked(
     features: Vec<Feature>,
     styles: Vec<Style>,
-    ellipsoid: Ellipsoid,
-    turn: Turn,
+    ground: &Strokes,
 ) -> (Vec<Feature>, Vec<Style>) {
-    let area = |line: Line| Style {
+    let area = |(line, is_of_points): (Line, bool)| Style {
         fill: Some(Fill { color: line.color, rule: Rule::NonZero }),
+        swath: width_m(line).map(|width_m| Swath { width_m, is_of_points }),
         ..Style::default()
     };
     let fills = styles.iter().map(|style| Style { fill: style.fill, ..Style::default() });
@@ -122,9 +140,10 @@ pub(in crate::source::load) fn stroked(
     // Of each style its outline's, its line's, its points', where it has them.
     let mut strokes = Vec::with_capacity(styles.len());
     for style in &styles {
-        strokes.push([style.outline.map(|outline| outline.line), style.line, style.point].map(|line| {
+        let kinds = [style.outline.map(|outline| outline.line), style.line, style.point];
+        strokes.push([(kinds[0], false), (kinds[1], false), (kinds[2], true)].map(|(line, is_of_points)| {
             line.map(|line| {
-                all.push(area(line));
+                all.push(area((line, is_of_points)));
                 (line, all.len() as u32 - 1)
             })
         }));
@@ -135,9 +154,10 @@ pub(in crate::source::load) fn stroked(
             Shape::Polygon(_) | Shape::MultiPolygon(_) => outline,
             Shape::Line(_) => line,
             Shape::Points(_) => point.map(|(point, style)| (Line { cap: Cap::Round, ..point }, style)),
+            Shape::Swath { .. } => None,
         };
         let stroke = used.map(|(line, style)| {
-            let shape = Shape::MultiPolygon(members(&feature.shape, line, ellipsoid, turn));
+            let shape = ground.swath(&feature.shape, line);
             Feature { index: feature.index, style, shape }
         });
         let fill = Some(feature).filter(|feature| feature.shape.is_area());
@@ -146,35 +166,88 @@ pub(in crate::source::load) fn stroked(
     (made.into_iter().flatten().flatten().collect(), all)
 }
 
-/// The members of a shape's stroke, each a ring.
-fn members(shape: &Shape, line: Line, ellipsoid: Ellipsoid, turn: Turn) -> Vec<Vec<Vec<Plan>>> {
-    let Width::Metres(width) = line.width else { return Vec::new() };
-    let brush = Brush::new(ellipsoid, width, line.join, line.cap);
-    let radians = std::f64::consts::TAU / turn.length;
-    let path = |part: &mut dyn Iterator<Item = Plan>| part.map(|p| p.to_vec() * radians).collect::<Vec<_>>();
-    let mut rings = Vec::new();
-    let mut outlines = |of: &[Vec<Plan>]| {
-        for ring in unroll::rings(of.to_vec(), turn) {
-            let mut places = path(&mut ring.moved(0));
-            if let Some(first) = places.first().copied() {
-                places.push(first + DVec2::new(ring.way_around() * radians, 0.0));
-            }
-            rings.extend(brush.stroke(&places, true));
-        }
-    };
-    match shape {
-        Shape::Polygon(of) => outlines(of),
-        Shape::MultiPolygon(members) => members.iter().for_each(|of| outlines(of)),
-        Shape::Line(lines) => {
-            for line in lines {
-                let places = path(&mut unroll::line(line.clone(), turn).moved(0));
-                rings.extend(brush.stroke(&places, brush.is_ring(&places)));
-            }
-        }
-        Shape::Points(points) => {
-            path(&mut points.iter().copied()).into_iter().for_each(|place| brush.dot(place, &mut rings))
+fn width_m(line: Line) -> Option<f64> {
+    match line.width {
+        Width::Metres(width) => Some(width),
+        Width::Pixels(_) => None,
+    }
+}
+
+/// What strokes lie on, and what the edges are that they follow.
+pub(in crate::source::load) struct Strokes {
+    /// The ground.
+    pub(in crate::source::load) ellipsoid: Ellipsoid,
+    /// A turn of longitude in the features' unit.
+    pub(in crate::source::load) turn: Turn,
+    /// Curves of the ground; `None`: edges are straight in longitude and latitude.
+    pub(in crate::source::load) curves: Option<GroundCurves>,
+}
+
+impl Strokes {
+    fn followed(&self, part: Unrolled, is_ring: bool) -> Unrolled {
+        match &self.curves {
+            // The fill, or what is drawn instead, tells how many vertices that takes.
+            Some(curves) => curves.followed(part, is_ring, &mut Changes::default()),
+            None => part,
         }
     }
-    let own = |ring: Vec<DVec2>| vec![ring.into_iter().map(|p| Plan::from(p / radians)).collect()];
-    rings.into_iter().map(own).collect()
+
+    /// The area of a shape's stroke, each member a ring, and what it is along.
+    fn swath(&self, shape: &Shape, line: Line) -> Shape {
+        let mut swath = (Vec::new(), Vec::new());
+        if let Some(width) = width_m(line) {
+            let brush = Brush::new(self.ellipsoid, width, line.join, line.cap);
+            match shape {
+                Shape::Polygon(of) => self.outline(of, &brush, &mut swath),
+                Shape::MultiPolygon(members) => {
+                    members.iter().for_each(|of| self.outline(of, &brush, &mut swath));
+                }
+                Shape::Line(lines) => {
+                    for line in lines {
+                        let line = self.followed(unroll::line(line.clone(), self.turn), false);
+                        let places = self.radians(line.moved(0));
+                        let is_ring = brush.is_ring(&places);
+                        self.add(brush.stroke(&places, is_ring), &places, &mut swath);
+                    }
+                }
+                Shape::Points(points) => {
+                    let mut dots = Vec::new();
+                    self.radians(points.iter().copied()).into_iter().for_each(|at| brush.dot(at, &mut dots));
+                    self.add(dots, &[], &mut swath);
+                }
+                Shape::Swath { .. } => {}
+            }
+        }
+        let (members, lines) = swath;
+        Shape::Swath { members, lines }
+    }
+
+    fn outline(&self, rings: &[Vec<Plan>], brush: &Brush, swath: &mut Parts) {
+        for ring in unroll::rings(rings.to_vec(), self.turn) {
+            let ring = self.followed(ring, true);
+            let mut places = self.radians(ring.moved(0));
+            if let Some(first) = places.first().copied() {
+                places.push(first + DVec2::new(ring.way_around() * self.radian(), 0.0));
+            }
+            self.add(brush.stroke(&places, true), &places, swath);
+        }
+    }
+
+    fn radian(&self) -> f64 {
+        std::f64::consts::TAU / self.turn.length
+    }
+
+    fn radians(&self, part: impl Iterator<Item = Plan>) -> Vec<DVec2> {
+        part.map(|p| p.to_vec() * self.radian()).collect()
+    }
+
+    /// Adds rings and what they are the stroke of, in radians.
+    fn add(&self, rings: Vec<Vec<DVec2>>, along: &[DVec2], (members, lines): &mut Parts) {
+        let own = |part: &[DVec2]| part.iter().map(|p| Plan::from(*p / self.radian())).collect::<Vec<_>>();
+        members.extend(rings.iter().map(|ring| vec![own(ring)]));
+        lines.extend((!along.is_empty()).then(|| own(along)));
+    }
 }
+
+/// Members, and lines.
+type Parts = (Vec<Vec<Vec<Plan>>>, Vec<Vec<Plan>>);

@@ -12,8 +12,8 @@ mod terrain;
 mod unlike_planes;
 
 pub(super) use camera::{framing, place, up};
-pub(super) use features::{check_styles, in_degrees, stroked};
-pub(super) use terrain::{generated, terrain};
+pub(super) use features::{Strokes, check_styles, in_degrees, near_strokes, stroked};
+pub(super) use terrain::{above_the_middle, generated, terrain};
 pub(super) use unlike_planes::{check, without_crs};
 
 #[cfg(test)]

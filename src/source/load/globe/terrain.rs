@@ -50,6 +50,21 @@ pub(in crate::source::load) fn terrain(
     Ok((GlobePosts { posts, globe, ..placed }, space, anchor))
 }
 
+/// Refuses a terrain so deep that the ellipsoid's normals meet above it: its order would be another there than in the plan.
+pub(in crate::source::load) fn above_the_middle(posts: &GlobePosts) -> Result<()> {
+    let ellipsoid = posts.globe.ellipsoid;
+    // The least radius of curvature is that of a meridian at the equator, of a long ellipsoid that of the poles.
+    let deepest =
+        -min(ellipsoid.b() * ellipsoid.b() / ellipsoid.a, ellipsoid.a * ellipsoid.a / ellipsoid.b());
+    let heights = posts.posts.heights().iter().chain(posts.poles.iter().flatten());
+    let lowest = heights.fold(f64::INFINITY, |lowest, height| min(*height, lowest));
+    if lowest > deepest {
+        return Ok(());
+    }
+    Err(Error::new(format!("the terrain reaches {lowest:e} m, deeper than the middle of the globe"))
+        .help("check the file's heights and its nodata value, and `terrain.vertical_scale`"))
+}
+
 /// Generated posts, which stand in metres around (0, 0), as posts in degrees of WGS 84.
 pub(in crate::source::load) fn generated(posts: Posts) -> Result<(Surface, Crs)> {
     let crs = Crs::crs84()?;

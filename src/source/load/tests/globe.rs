@@ -451,6 +451,29 @@ fn points_in_degrees_are_where_they_are_on_every_turn_and_around_a_pole() {
 }
 
 #[test]
+fn coordinates_beyond_those_of_scenes_are_refused_as_a_terrains_are() {
+    let terrain = "terrain = { generate = { kind = \"plane\", posts = [9, 9], cell_m = 10 } }\n";
+    for far in ["1e100", "-1.1e12"] {
+        let text = format!(
+            "{terrain}[[layer]]\nfeatures = [{{ line = [[0, 0], [{far}, 5]] }}]\nline = {{ color = \"#000000\", width_m = 3 }}\n"
+        );
+        let error = Folder::new().refused(&text).to_string();
+        assert!(error.contains("is more than 1e12 m off"), "{error}");
+    }
+    // Of a file in the terrain's CRS, too; what another projection takes so far away is left out.
+    let line = r#"{"type":"LineString","coordinates":[[500000,5000000],[500000,4e13]]}"#;
+    let folder = Folder::new()
+        .with("d.asc", grid((5, 5), (498_000.0, 4_998_000.0), 1000.0, |_, _| 0.0))
+        .with("l.geojson", line);
+    let crs = "crs = \"EPSG:32632\"";
+    let text = format!(
+        "terrain = {{ source = \"d.asc\", {crs} }}\n[[layer]]\nsource = \"l.geojson\"\n{crs}\nline = {{ color = \"#000000\", width_m = 3 }}\n"
+    );
+    let error = folder.refused(&text).to_string();
+    assert!(error.contains("is more than 1e12 m off"), "{error}");
+}
+
+#[test]
 fn mercator_metres_may_be_written_on_any_turn_too() {
     const TURN: f64 = 40_075_016.685_578_49;
     let crs = r#""crs":{"type":"name","properties":{"name":"EPSG:3857"}},"#;

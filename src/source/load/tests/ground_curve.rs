@@ -35,7 +35,7 @@ fn away(p: Plan, line: &[Plan]) -> f64 {
 
 #[test]
 fn the_geodesic_edge_of_a_box_rises_as_far_as_the_globe_says() {
-    // Hard case 18 (RFC 7946 against geodesics): by 1.763 degrees.
+    // Hard case 18 (RFC 7946 against geodesics): on the sphere by 1.763 degrees, on WGS 84 by 1.770.
     let plans = [
         Globe::degrees(-100.0, 41.0).with_cell(0.6),
         Globe::around("EPSG:32614", -100.0, 41.0, 60_000.0),
@@ -43,7 +43,7 @@ fn the_geodesic_edge_of_a_box_rises_as_far_as_the_globe_says() {
         Globe::around("EPSG:3857", -100.0, 41.0, 90_000.0),
     ];
     for globe in &plans {
-        for (edges, top) in [("projected", 40.0), ("rhumb", 40.0), ("geodesic", 41.763)] {
+        for (edges, top) in [("projected", 40.0), ("rhumb", 40.0), ("geodesic", 41.770)] {
             let scene = filled(globe, edges, &rectangle(-120.0, 30.0, -80.0, 40.0));
             for (off, covered) in [(-0.02, true), (0.02, false)] {
                 assert_eq!(globe.covers(&scene, -100.0, top + off), covered, "{} {edges} {off}", globe.crs);

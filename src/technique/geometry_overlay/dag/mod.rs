@@ -38,6 +38,7 @@ pub use blg::BlgTree;
 pub use borrowed::{Borrowed, SubPolylineLods};
 pub use cells::Layers;
 pub use chains::Chains;
+pub use grid::GridPoint;
 pub use storage::{Bytes, Counts, PointForm, Storage, StoredLayers};
 pub use structure::{PolylineLods, QuadClipping, TriangleClipping};
 pub use traverse::Cost;

@@ -5,7 +5,7 @@
 use super::crossing::Crossing;
 use super::grid::{Block, GridPoint};
 use crate::terrain::lod::{Post, RightTriangle};
-use std::ops::Range;
+use std::ops::{Add, Mul, Range, Sub};
 
 /// The number of no clipping and of no crossing.
 pub(super) const NONE: u32 = u32::MAX;
@@ -102,25 +102,30 @@ impl TriangleClipping {
 }
 
 impl QuadClipping {
-    /// The points of a clipping in its triangle's plane, in order: grid coordinates and height. None where a corner's height is NaN (a hole).
+    /// The points of a clipping in its triangle's plane, in order: grid coordinates, and what the same combination of the corners has there that is known of
+    /// posts (a height, a point of space). None where that of a corner is not there (a hole).
     ///
-    /// A crossing is as high as the edge there, whichever of its two triangles asks.
-    pub fn points(
+    /// A crossing has what the edge has there, whichever of its two triangles asks.
+    pub fn points<V>(
         &self,
         clipping: &TriangleClipping,
-        height: impl Fn(Post) -> f64,
-    ) -> impl Iterator<Item = [f64; 3]> {
+        of: impl Fn(Post) -> V,
+        is_there: impl Fn(&V) -> bool,
+    ) -> impl Iterator<Item = (GridPoint, V)>
+    where
+        V: Copy + Add<Output = V> + Sub<Output = V> + Mul<f64, Output = V>,
+    {
         let triangle = clipping.triangle;
-        let [apex, left, right] = triangle.corners().map(&height);
-        let is_whole = [apex, left, right].iter().all(|z| !z.is_nan());
-        let heights = move |post: Post| match post {
+        let [apex, left, right] = triangle.corners().map(&of);
+        let is_whole = [apex, left, right].iter().all(is_there);
+        let corner = move |post: Post| match post {
             post if post == triangle.apex => apex,
             post if post == triangle.left => left,
             _ => right,
         };
         let [entrance, exit] = clipping.crossings().map(move |number| {
             let crossing = self.crossings.get(number? as usize)?;
-            Some(on_edge(crossing, crossing.direction.edge_of(&triangle)?, heights))
+            Some(on_edge(crossing, crossing.direction.edge_of(&triangle)?, corner))
         });
         let vertices = self.vertices[clipping.vertices()].iter().map(move |&[x, y]| {
             let [east, north] = [x - f64::from(triangle.apex[0]), y - f64::from(triangle.apex[1])];
@@ -129,18 +134,21 @@ impl QuadClipping {
                 let [u, v] = [0, 1].map(|k| f64::from(end[k]) - f64::from(triangle.apex[k]));
                 (u * east + v * north) / (u * u + v * v)
             };
-            [x, y, apex + share(triangle.left) * (left - apex) + share(triangle.right) * (right - apex)]
+            let along = (left - apex) * share(triangle.left);
+            ([x, y], apex + along + (right - apex) * share(triangle.right))
         });
         let all = entrance.into_iter().chain(vertices).chain(exit);
         all.filter(move |_| is_whole)
     }
 }
 
-/// A crossing with its height over an edge.
-fn on_edge(crossing: &Crossing, [low, high]: [Post; 2], height: impl Fn(Post) -> f64) -> [f64; 3] {
+/// A crossing with what an edge has there.
+fn on_edge<V>(crossing: &Crossing, [low, high]: [Post; 2], of: impl Fn(Post) -> V) -> (GridPoint, V)
+where
+    V: Copy + Add<Output = V> + Sub<Output = V> + Mul<f64, Output = V>,
+{
     let k = usize::from(low[0] == high[0]);
     let [from, to] = [low, high].map(|end| f64::from(end[k]));
-    let (start, end) = (height(low), height(high));
-    let [x, y] = crossing.at;
-    [x, y, start + (crossing.at[k] - from) / (to - from) * (end - start)]
+    let (start, end) = (of(low), of(high));
+    (crossing.at, start + (end - start) * ((crossing.at[k] - from) / (to - from)))
 }
