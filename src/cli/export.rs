@@ -98,7 +98,11 @@ fn bundle(arguments: &Arguments, technique: Kind, budget: Budget) -> Outcome {
         let attributes = load::attributes(&text.file, &|told| bar.note(told));
         let hash = &text.file.hash;
         let stage = &scene.stage;
-        stage_scene_file(&text, &mut batch, &bar)?;
+        if stage.draw_list.vertices().len() <= MOST_IN_A_SCENE_FILE {
+            stage_scene_file(&text, &mut batch, &bar)?;
+        } else {
+            bar.note(&format!("the bundle has no {SCENE}: more than {MOST_IN_A_SCENE_FILE} vertices"));
+        }
         Bundle { stage, hash, attributes: &attributes, technique, budget }.write(batch, &bar)
     };
     let done = parallel::with_threads(arguments.threads, export)?;
@@ -106,6 +110,9 @@ fn bundle(arguments: &Arguments, technique: Kind, budget: Budget) -> Outcome {
     bar.say(&format!("what is where: {}", arguments.output.join("README.md").display()));
     Ok(Status::Passed)
 }
+
+/// A scene of more vertices is not written into a bundle: a text of many megabytes is no small scene to start from.
+const MOST_IN_A_SCENE_FILE: usize = 200_000;
 
 /// Writes the scene file with all features in it, for `drapery reduce`; where there can be none, that is noted.
 fn stage_scene_file(text: &SceneText, batch: &mut Batch, bar: &Bar) -> Result<()> {

@@ -103,7 +103,8 @@ fn moved(shape: &Shape, by: glam::DVec2) -> Shape {
     let parts = |parts: &[Vec<Plan>]| -> Vec<Vec<Plan>> { parts.iter().map(part).collect() };
     match shape {
         Shape::Polygon(rings) => Shape::Polygon(parts(rings)),
-        Shape::MultiPolygon(members) => {
+        // No scene file has one: globes are refused.
+        Shape::MultiPolygon(members) | Shape::Swath { members, .. } => {
             Shape::MultiPolygon(members.iter().map(|member| parts(member)).collect())
         }
         Shape::Line(lines) => Shape::Line(parts(lines)),

@@ -14,7 +14,7 @@ pub(super) fn places(shape: &Shape) -> Vec<Place> {
 /// The shape with some of its vertices, sorted; `None`: too few are left to draw anything.
 pub(super) fn with(shape: &Shape, kept: &[Place]) -> Option<Shape> {
     let least = match shape {
-        Shape::Polygon(_) | Shape::MultiPolygon(_) => 3,
+        Shape::Polygon(_) | Shape::MultiPolygon(_) | Shape::Swath { .. } => 3,
         Shape::Line(_) => 2,
         Shape::Points(_) => 1,
     };
@@ -30,7 +30,7 @@ pub(super) fn with(shape: &Shape, kept: &[Place]) -> Option<Shape> {
     left.retain(|part| !part.is_empty());
     match shape {
         _ if left.is_empty() => None,
-        Shape::Polygon(_) | Shape::MultiPolygon(_) => Some(Shape::Polygon(left)),
+        Shape::Polygon(_) | Shape::MultiPolygon(_) | Shape::Swath { .. } => Some(Shape::Polygon(left)),
         Shape::Line(_) => Some(Shape::Line(left)),
         Shape::Points(_) => left.pop().map(Shape::Points),
     }
@@ -43,7 +43,7 @@ pub(super) fn in_whole_metres(shape: &Shape) -> Option<Shape> {
     let is_whole = parts.iter().eq(shape.parts());
     let new = match shape {
         Shape::Polygon(_) => Shape::Polygon(parts),
-        Shape::MultiPolygon(_) => return None,
+        Shape::MultiPolygon(_) | Shape::Swath { .. } => return None,
         Shape::Line(_) => Shape::Line(parts),
         Shape::Points(_) => Shape::Points(parts.concat()),
     };

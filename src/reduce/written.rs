@@ -58,7 +58,7 @@ fn layer_text(layer: &DraftLayer) -> String {
             Shape::Line(lines) => format!("line = {}", paths(lines)),
             Shape::Points(points) => format!("points = {}", path(points)),
             // Members are features of their own.
-            Shape::MultiPolygon(members) => {
+            Shape::MultiPolygon(members) | Shape::Swath { members, .. } => {
                 let members: Vec<String> = members.iter().map(|rings| paths(rings)).collect();
                 format!("polygon = {}", members.join(" },\n  { polygon = "))
             }

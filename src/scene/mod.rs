@@ -17,7 +17,8 @@ pub use detail::{Detail, LevelOfDetail};
 pub use globe::GlobePosts;
 pub use ground::{Ground, GroundColors, Imagery, Light};
 pub use layer::{
-    Cap, Feature, Fill, Group, Join, Layer, Line, Outline, OutlineMode, Rule, Shape, StrokeForm, Style, Swath, Width,
+    Cap, Feature, Fill, Group, Join, Layer, Line, Outline, OutlineMode, Rule, Shape, StrokeForm, Style,
+    Swath, Width,
 };
 pub use settings::{
     BlendMode, BlendSpace, Color, Compositing, DepthFormat, Device, ImageSettings, Interpolation, Precision,

@@ -21,6 +21,7 @@ fn parts(shape: &mut Shape) -> Vec<&mut Vec<Plan>> {
         Shape::Polygon(parts) | Shape::Line(parts) => parts.iter_mut().collect(),
         Shape::MultiPolygon(members) => members.iter_mut().flatten().collect(),
         Shape::Points(points) => vec![points],
+        Shape::Swath { members, lines } => members.iter_mut().flatten().chain(lines).collect(),
     }
 }
 

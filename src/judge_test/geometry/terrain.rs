@@ -222,5 +222,8 @@ fn move_shape(shape: &mut crate::scene::Shape, to: impl Fn(Plan) -> Plan) {
         Shape::Polygon(parts) | Shape::Line(parts) => parts.iter_mut().flatten().for_each(|p| *p = to(*p)),
         Shape::MultiPolygon(members) => members.iter_mut().flatten().flatten().for_each(|p| *p = to(*p)),
         Shape::Points(points) => points.iter_mut().for_each(|p| *p = to(*p)),
+        Shape::Swath { members, lines } => {
+            members.iter_mut().flatten().chain(lines).flatten().for_each(|p| *p = to(*p));
+        }
     }
 }

@@ -18,8 +18,8 @@
 mod dag;
 mod drawing;
 mod frame;
-mod line_strips;
 mod grid_map;
+mod line_strips;
 mod mesh;
 mod settings;
 mod step;
