@@ -70,7 +70,6 @@ fn assert_machines_are_inside(kind: Kind, name: &str, text: &str, changes: &[&st
         _ => 20,
     };
     assert!(widths[0] * share < all.width * all.height, "{name}: {widths:?}");
-}: {widths:?}");
 }
 
 #[test]
