@@ -203,7 +203,14 @@ fn what_machines_draw_of_lines_overlaid_is_allowed() {
         vec![set("stipple=0x3333"), set("primitives=\"strips\"")],
         vec![set("lines=\"antialiased\"")],
         vec![set("offset_factor=0.0"), set("offset_units=4.0")],
-        vec!["terrain.lod={ error_px = 2.0 }".to_owned(), "terrain.diagonal=\"alternating\"".to_owned()],
+        [
+            "terrain.lod={ error_px = 2.0 }",
+            "terrain.diagonal=\"alternating\"",
+            "terrain.generate.posts=[129, 129]",
+            "terrain.generate.cell_m=5.0",
+        ]
+        .map(str::to_owned)
+        .to_vec(),
     ];
     let cases = [
         ("hills", SOUTH, 0),

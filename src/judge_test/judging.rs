@@ -42,7 +42,7 @@ pub(super) fn wide(allowed: &Allowed) -> f64 {
     let Some(first) = allowed.hypotheses.first() else { return 0.0 };
     // A code value is 257 of these; the rounding of both ends is one each.
     let is_wide =
-        |(lo, hi): &(&[u16; 4], &[u16; 4])| (0..4).any(|c| hi[c].saturating_sub(lo[c]) > 2 * 257 + 2);
+        |(lo, hi): &(&[u16; 4], &[u16; 4])| (0..4).any(|c| hi[c].saturating_sub(lo[c]) > 2 * 257 + 26);
     let count = first.lo.iter().zip(&first.hi).filter(is_wide).count();
     count as f64 / first.lo.len().max(1) as f64
 }

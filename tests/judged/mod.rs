@@ -39,9 +39,9 @@ pub fn best(allowed: &Allowed, image: &Buffer<[u8; 4]>) -> usize {
     allowed.hypotheses.iter().map(|hypothesis| outside(hypothesis, image)).min().unwrap()
 }
 
-/// How many pixels may be more than two code values apart.
+/// How many pixels may be more than two code values apart (and the hair that arithmetic in single precision is given).
 pub fn wide(hypothesis: &Hypothesis) -> usize {
-    let is_wide = |(lo, hi): (&[u16; 4], &[u16; 4])| (0..4).any(|c| hi[c] - lo[c] > 2 * 257 + 2);
+    let is_wide = |(lo, hi): (&[u16; 4], &[u16; 4])| (0..4).any(|c| hi[c] - lo[c] > 2 * 257 + 26);
     hypothesis.lo.iter().zip(&hypothesis.hi).filter(|pixel| is_wide(*pixel)).count()
 }
 

@@ -36,23 +36,25 @@ fn lines(scene: &Scene) -> Vec<Vec<[f64; 2]>> {
 
 #[test]
 fn strokes_follow_the_curves_of_the_ground_that_a_layer_says_its_edges_are() {
-    let along = |edges: &str| {
-        let scene =
-            load(&layer("{ line = [[-120, 40], [-80, 40]] }", &format!("{LINE}edges = \"{edges}\"\n")));
-        let scene = scene.unwrap();
-        assert_eq!(says(&scene, "edges that are"), false, "of a line there is no fill that follows them");
-        lines(&scene).concat()
+    let along = |line: &str, edges: &str| {
+        let folder =
+            Folder::new().with("l.geojson", format!(r#"{{"type":"LineString","coordinates":{line}}}"#));
+        let text = format!(
+            "plan = \"globe\"\n{TERRAIN}[[layer]]\nname = \"l\"\nsource = \"l.geojson\"\nedges = \"{edges}\"\n{LINE}"
+        );
+        lines(&folder.load(&text).unwrap().0).concat()
     };
-    let top = |edges: &str| along(edges).iter().map(|at| at[1].to_degrees()).fold(0.0, crate::math::max);
+    let top = |line: &str, edges: &str| {
+        along(line, edges).iter().map(|at| at[1].to_degrees()).fold(0.0, crate::math::max)
+    };
+    let parallel = "[[-120, 40], [-80, 40]]";
     // Hard case 18, on WGS 84.
-    assert!((top("geodesic") - 41.770).abs() < 1e-3, "{}", top("geodesic"));
-    assert!((top("rhumb") - 40.0).abs() < 1e-9 && (top("projected") - 40.0).abs() < 1e-9);
-    assert!(along("geodesic").len() > 4 && along("projected").len() == 2);
+    assert!((top(parallel, "geodesic") - 41.770).abs() < 1e-3, "{}", top(parallel, "geodesic"));
+    assert!((top(parallel, "rhumb") - 40.0).abs() < 1e-9 && (top(parallel, "projected") - 40.0).abs() < 1e-9);
+    assert!(along(parallel, "geodesic").len() > 4 && along(parallel, "projected").len() == 2);
     // A great circle over the pole between opposite meridians.
-    let scene =
-        load(&layer("{ line = [[10, 60], [190, 60]] }", &format!("{LINE}edges = \"geodesic\"\n"))).unwrap();
-    let highest = lines(&scene).concat().iter().map(|at| at[1].to_degrees()).fold(0.0, crate::math::max);
-    assert!((highest - 90.0).abs() < 1e-9, "{highest}");
+    let over = top("[[10, 60], [190, 60]]", "geodesic");
+    assert!((over - 90.0).abs() < 1e-9, "{over}");
 }
 
 #[test]
@@ -110,17 +112,13 @@ fn a_pole_and_the_antimeridian_are_places_of_every_datum() {
 
 #[test]
 fn heights_deeper_than_where_normals_meet_are_refused() {
-    let deep = TERRAIN.replace("kind = \"plane\"", "kind = \"ramp\", height_m = 2e7");
-    for (terrain, is_refused) in [(deep.as_str(), true), (TERRAIN, false)] {
-        let text =
-            format!("schema = 1\nplan = \"globe\"\n{}", terrain.replace(" } }", " }, vertical_scale = -1 }"));
-        let loaded =
-            SceneFile::parse(&text, None, &[]).and_then(|file| super::load(&file, &|_| ()).map(|_| ()));
-        match loaded {
-            Err(error) if error.to_string().contains("deeper than the middle") => assert!(is_refused),
-            Err(error) => assert!(!is_refused, "{error}"),
-            Ok(()) => assert!(!is_refused),
-        }
+    for (lowest, is_refused) in [(-7e6, true), (-6.33e6, false)] {
+        let heights = super::grid((5, 5), (10.0, 20.0), 1.0, |x, _| if x > 12.0 { lowest } else { 0.0 });
+        let folder = Folder::new().with("d.asc", heights);
+        let loaded = folder.load("plan = \"globe\"\nterrain = { source = \"d.asc\", crs = \"EPSG:4326\" }\n");
+        let error = loaded.map_or_else(|error| error.to_string(), |_| String::new());
+        assert_eq!(error.contains("deeper than the middle of the globe"), is_refused, "{error}");
+        assert!(is_refused || error.is_empty(), "{error}");
     }
 }
 
