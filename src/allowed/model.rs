@@ -23,12 +23,20 @@ pub(super) struct Guess {
     /// Its name in files and reports.
     pub(super) name: String,
     pub(super) envelope: Envelope,
+    /// Whether a target of code values rounds what it blends before it does.
+    pub(super) has_coarse_blends: bool,
 }
 
 impl Guess {
     /// By an envelope alone.
     pub(super) fn of(envelope: Envelope) -> Self {
-        Self { name: format!("{}-bit-vertices", envelope.subpixel_bits), envelope }
+        let name = format!("{}-bit-vertices", envelope.subpixel_bits);
+        Self { name, envelope, has_coarse_blends: false }
+    }
+
+    /// The same on a machine that blends code values, not numbers.
+    pub(super) fn with_coarse_blends(self) -> Self {
+        Self { name: format!("{}-coarse-blends", self.name), has_coarse_blends: true, ..self }
     }
 
     /// What it assumes, in a sentence.
