@@ -180,9 +180,10 @@ impl Drawing<'_> {
             let end = corner.map(|v| v + 1.0 + slack);
             let length: f64 = near.iter().map(|edge| edge.length_in(start, end)).sum();
             let off = length * slack * std::f64::consts::SQRT_2 + AREA;
-            let found = share(&near, corner, (reference, winding), &|k| weight.of(k));
-            let shares = found
-                .map_or([least, most], |share| [math::max(share - off, least), math::min(share + off, most)]);
+            let [share, doubt] = share(&near, corner, (reference, winding), &|k| weight.of(k));
+            // A step of windings counts as much as the weight's span at most.
+            let off = (off + doubt) * math::max(most - least, 1.0);
+            let shares = [math::max(share - off, least), math::min(share + off, most)];
             all.insert(texel, shares);
         }
         windings.for_each(&mut |texel, winding, _| {

@@ -7,46 +7,58 @@ use super::edges::Edge;
 use crate::math;
 use crate::space::Texel;
 
-/// A texel with more edges than this is not looked at.
-const MOST_EDGES: usize = 40;
+/// In a texel with more edges than this, rows at even distances stand for the exact ones.
+const MOST_EDGES: usize = 24;
 
-/// The sum of `weight` of the winding over a texel with its corner at (column, row), as a share of its area; `reference` is a point of it with its
-/// winding. `None`: it has too many edges.
+/// So many of them.
+const ROWS: usize = 64;
+
+/// The sum of `weight` of the winding over a texel with its corner at (column, row), as a share of its area, and how far it may be off; `reference` is a
+/// point of it with its winding.
 pub(super) fn share(
     edges: &[Edge],
     [column, row]: [f64; 2],
-    (reference, winding): (Texel, i32),
+    reference: (Texel, i32),
     weight: &dyn Fn(i32) -> f64,
-) -> Option<f64> {
-    if edges.len() > MOST_EDGES {
-        return None;
-    }
-    let heights = heights(edges, [column, row]);
+) -> [f64; 2] {
+    let (heights, off) = match edges.len() <= MOST_EDGES {
+        true => (heights(edges, [column, row]), 0.0),
+        false => {
+            // Between two rows an edge moves by its slope.
+            let across = edges.iter().map(|edge| edge.columns_within(row, row + 1.0));
+            let across: f64 = across.flatten().map(|(west, east)| math::min(east - west, 1.0)).sum();
+            let at = |k: usize| row + k as f64 / ROWS as f64;
+            ((0..=ROWS).map(at).collect(), (across + 1.0) / ROWS as f64)
+        }
+    };
+    let mut cuts = Vec::new();
     let mut sum = 0.0;
-    let mut cuts: Vec<f64> = Vec::new();
-    for pair in heights.windows(2) {
-        let (height, y) = (pair[1] - pair[0], 0.5 * (pair[0] + pair[1]));
-        if height <= 0.0 {
-            continue;
-        }
+    for pair in heights.windows(2).filter(|pair| pair[0] < pair[1]) {
+        let y = 0.5 * (pair[0] + pair[1]);
         cuts.clear();
-        cuts.extend([column, column + 1.0]);
-        let at = edges.iter().filter(|edge| {
+        for edge in edges {
             let (low, high) = edge.rows();
-            low <= y && y <= high && low < high
-        });
-        let crossing = |edge: &Edge| {
-            edge.from.x + (edge.to.x - edge.from.x) * ((y - edge.from.y) / (edge.to.y - edge.from.y))
-        };
-        cuts.extend(at.map(crossing).filter(|x| *x > column && *x < column + 1.0));
-        cuts.sort_unstable_by(f64::total_cmp);
-        for piece in cuts.windows(2).filter(|piece| piece[1] > piece[0]) {
-            let middle = Texel::new(0.5 * (piece[0] + piece[1]), y);
-            let winding = winding + difference(edges, reference, middle);
-            sum += weight(winding) * (piece[1] - piece[0]) * height;
+            if low <= y && y < high {
+                let d = edge.to - edge.from;
+                let x = edge.from.x + d.x * ((y - edge.from.y) / d.y);
+                if x > column && x < column + 1.0 {
+                    cuts.push((x, if d.y > 0.0 { 1 } else { -1 }));
+                }
+            }
         }
+        cuts.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        let first = cuts.first().map_or(column + 1.0, |cut| cut.0);
+        let start = Texel::new(0.5 * (column + first), y);
+        let (mut at, mut winding) = (column, reference.1 + difference(edges, reference.0, start));
+        let mut width = 0.0;
+        for (x, by) in &cuts {
+            width += weight(winding) * (x - at);
+            (at, winding) = (*x, winding + by);
+        }
+        width += weight(winding) * (column + 1.0 - at);
+        sum += width * (pair[1] - pair[0]);
     }
-    Some(sum)
+    [sum, off]
 }
 
 /// The heights between which rows of a texel have the same edges in the same order.
@@ -123,7 +135,7 @@ mod tests {
     fn half_of_a_square_is_half() {
         let edges = ring(&[[0.0, 0.0], [0.0, 1.0], [1.0, 1.0]]);
         let once = |k: i32| f64::from(k.clamp(0, 1));
-        let found = share(&edges, [0.0, 0.0], (Texel::new(0.2, 0.7), 1), &once).unwrap();
+        let [found, _] = share(&edges, [0.0, 0.0], (Texel::new(0.2, 0.7), 1), &once);
         assert!((found - 0.5).abs() < 1e-12, "{found}");
         let square = [[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [0.5, 0.0]].map(|[x, y]| Texel::new(x, y));
         assert!((convex_area(&square, [0.0, 0.0]) - 0.75).abs() < 1e-12);
@@ -133,11 +145,25 @@ mod tests {
     fn overlaps_count_as_often_as_they_are_asked_to() {
         let mut edges = ring(&[[-1.0, -1.0], [-1.0, 0.6], [2.0, 0.6], [2.0, -1.0]]);
         edges.extend(ring(&[[-1.0, 0.3], [-1.0, 2.0], [2.0, 2.0], [2.0, 0.3]]));
-        let of = |weight: &dyn Fn(i32) -> f64| {
-            share(&edges, [0.0, 0.0], (Texel::new(0.4, 0.1), 1), weight).unwrap()
-        };
+        let of =
+            |weight: &dyn Fn(i32) -> f64| share(&edges, [0.0, 0.0], (Texel::new(0.4, 0.1), 1), weight)[0];
         assert!((of(&|k| f64::from(k.min(1))) - 1.0).abs() < 1e-12);
         assert!((of(&f64::from) - 1.3).abs() < 1e-12);
         assert!((of(&|k| f64::from(k % 2)) - 0.7).abs() < 1e-12);
+    }
+
+    #[test]
+    fn many_edges_are_told_to_within_their_doubt() {
+        // A comb of slanted teeth, each half a pitch wide.
+        let teeth = 20;
+        let pitch = 1.0 / f64::from(teeth);
+        let tooth = |k: i32| {
+            let x = pitch * f64::from(k);
+            ring(&[[x, -0.5], [x - 0.3 * pitch, 1.5], [x + 0.2 * pitch, 1.5], [x + 0.5 * pitch, -0.5]])
+        };
+        let edges: Vec<Edge> = (-2..teeth + 2).flat_map(tooth).collect();
+        let once = |k: i32| f64::from(k.clamp(0, 1));
+        let [found, off] = share(&edges, [0.0, 0.0], (Texel::new(0.2 * pitch, 0.0), 1), &once);
+        assert!((found - 0.5).abs() <= off && off < 0.05, "{found} {off}");
     }
 }

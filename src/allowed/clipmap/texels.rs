@@ -7,7 +7,7 @@ use crate::math;
 use crate::resolve::Paint;
 use crate::scene::{BlendMode, Group};
 use crate::technique::clipmap::TexelFormat;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A texel of more corners than this is boxed.
 const MOST_CORNERS: usize = 12;
@@ -36,10 +36,14 @@ const OPEN: SetId = 1 << 31;
 pub(super) struct Texels {
     known: Vec<Corner>,
     open: BTreeMap<u32, Vec<Corner>>,
+    /// Texels that may be anything between their corners.
+    ranges: BTreeSet<u32>,
     sets: Vec<SetId>,
     /// Each set's items; which set a set becomes with another item.
     items: Vec<Vec<u32>>,
     grown: BTreeMap<(SetId, u32), SetId>,
+    /// What was asked for last: neighbours mostly ask for the same.
+    last: Option<((SetId, u32), SetId)>,
     group: Option<Group>,
     format: TexelFormat,
     mode: BlendMode,
@@ -62,9 +66,11 @@ impl Texels {
         Self {
             known: vec![nothing; size * size],
             open: BTreeMap::new(),
+            ranges: BTreeSet::new(),
             sets: vec![0; size * size],
             items: vec![Vec::new()],
             grown: BTreeMap::new(),
+            last: None,
             group: None,
             format,
             mode,
@@ -78,7 +84,6 @@ impl Texels {
         }
         let done = std::mem::replace(&mut self.group, group);
         let share = done.map_or(1.0, |group| group.opacity);
-        let format = self.format;
         let change = |corner: &Corner| {
             let mixed = |k: usize| corner.before[k] * (1.0 - share) + corner.now[k] * share;
             let now = if done.is_some() { std::array::from_fn(mixed) } else { corner.now };
@@ -87,25 +92,21 @@ impl Texels {
         if done.is_none() && group.is_none() {
             return;
         }
-        for (texel, corner) in self.known.iter_mut().enumerate() {
-            if self.sets[texel] & OPEN != 0 {
-                continue;
-            }
-            let mixed =
-                rounded([change(corner)].to_vec(), if done.is_some() { format } else { TexelFormat::F32 });
-            match mixed[..] {
-                [one] => *corner = Corner { before: one.now, ..one },
+        let is_rounded = done.is_some() && self.format == TexelFormat::Unorm8;
+        for (texel, known) in (0u32..).zip(&mut self.known) {
+            let corners = match self.open.get(&texel) {
+                Some(corners) => corners.iter().map(change).collect(),
+                None => vec![change(known)],
+            };
+            let corners = if is_rounded { rounded(&corners, self.ranges.contains(&texel)) } else { corners };
+            let corners: Vec<Corner> = corners.iter().map(|one| Corner { before: one.now, ..*one }).collect();
+            match corners[..] {
+                [one] => *known = one,
                 _ => {
-                    self.sets[texel] |= OPEN;
-                    let all = mixed.iter().map(|one| Corner { before: one.now, ..*one });
-                    self.open.insert(texel as u32, all.collect());
+                    self.sets[texel as usize] |= OPEN;
+                    self.open.insert(texel, corners);
                 }
             }
-        }
-        for corners in self.open.values_mut() {
-            let mixed: Vec<Corner> = corners.iter().map(change).collect();
-            let mixed = rounded(mixed, if done.is_some() { format } else { TexelFormat::F32 });
-            *corners = mixed.iter().map(|one| Corner { before: one.now, ..*one }).collect();
         }
     }
 
@@ -115,6 +116,9 @@ impl Texels {
             return;
         }
         let covers = least == 1.0 && most == 1.0 && paint.0[3] == 1.0 && self.mode == BlendMode::Over;
+        if covers {
+            self.ranges.remove(&(texel as u32));
+        }
         let set = self.sets[texel] & !OPEN;
         self.sets[texel] = self.grow(if covers { 0 } else { set }, item) | (self.sets[texel] & OPEN);
         let drawn =
@@ -134,16 +138,25 @@ impl Texels {
                 }
             }
         }
-        // What is rounded between two shares is no line any more.
-        let is_range = least != most && (least != 0.0 || most != 1.0) && self.format == TexelFormat::Unorm8;
-        let mut after = rounded(after, self.format);
-        if after.len() > MOST_CORNERS || is_range {
+        let is_rounded = self.format == TexelFormat::Unorm8;
+        // What is between two shares stays between them, but for its rounding.
+        if is_rounded && least != most && (least != 0.0 || most != 1.0) {
+            self.ranges.insert(texel as u32);
+        }
+        let is_range = self.ranges.contains(&(texel as u32));
+        let mut after = match is_rounded {
+            true => rounded(&after, is_range),
+            false => after,
+        };
+        if after.len() > MOST_CORNERS {
             after = boxed(&after);
+            self.ranges.insert(texel as u32);
         }
         match after[..] {
             [one] => {
                 self.known[texel] = one;
                 self.open.remove(&(texel as u32));
+                self.ranges.remove(&(texel as u32));
                 self.sets[texel] &= !OPEN;
             }
             _ => {
@@ -166,11 +179,16 @@ impl Texels {
         if self.items[set as usize].last() == Some(&item) {
             return set;
         }
-        *self.grown.entry((set, item)).or_insert_with(|| {
+        if let Some((_, grown)) = self.last.filter(|(of, _)| *of == (set, item)) {
+            return grown;
+        }
+        let grown = *self.grown.entry((set, item)).or_insert_with(|| {
             let with = self.items[set as usize].iter().copied().chain([item]).collect();
             self.items.push(with);
             self.items.len() as SetId - 1
-        })
+        });
+        self.last = Some(((set, item), grown));
+        grown
     }
 
     /// The finished tile.
@@ -207,15 +225,17 @@ fn boxed(corners: &[Corner]) -> Vec<Corner> {
     vec![low, with(&low, &high), with(&high, &low), high]
 }
 
-/// Corners as a format holds them: where a value lies near a half, both ways.
-fn rounded(corners: Vec<Corner>, format: TexelFormat) -> Vec<Corner> {
-    if format == TexelFormat::F32 {
-        return corners;
-    }
+/// Corners as 8 bits hold them: where a value lies near a half, both ways; of those between which there may be more, what is half a step around them.
+fn rounded(corners: &[Corner], is_range: bool) -> Vec<Corner> {
     let mut out: Vec<Corner> = Vec::with_capacity(corners.len());
-    for corner in &corners {
-        let to = |off: f64, k: usize| ((corner.now[k] * STEPS + 0.5 + off).floor() / STEPS).clamp(0.0, 1.0);
-        for (colors, alpha) in [(-TIE, -TIE), (-TIE, TIE), (TIE, -TIE), (TIE, TIE)] {
+    for corner in corners {
+        let to = |off: f64, k: usize| {
+            let v = corner.now[k] * STEPS;
+            let v = if is_range { v + off } else { (v + 0.5 + off).floor() };
+            (v / STEPS).clamp(0.0, 1.0)
+        };
+        let off = if is_range { 0.5 + TIE } else { TIE };
+        for (colors, alpha) in [(-off, -off), (-off, off), (off, -off), (off, off)] {
             let now = [to(colors, 0), to(colors, 1), to(colors, 2), to(alpha, 3)];
             let one = Corner { now, ..*corner };
             if !out.contains(&one) {
@@ -261,7 +281,8 @@ mod tests {
         assert_eq!(drawn(TexelFormat::F32, &[[1.0, 1.0]]), [[0.5, 0.0, 0.0, 0.5]]);
         assert_eq!(drawn(TexelFormat::F32, &[[0.0, 1.0]]), [[0.0; 4], [0.5, 0.0, 0.0, 0.5]]);
         assert_eq!(drawn(TexelFormat::F32, &[[0.0, 1.0], [0.5, 1.0]]).len(), 4);
-        assert_eq!(drawn(TexelFormat::F32, &[[0.0, 0.9]; 9]).len(), 4, "boxed");
+        let many: Vec<[f64; 2]> = (1..5).map(|k| [0.0, 0.1 * f64::from(k)]).collect();
+        assert_eq!(drawn(TexelFormat::F32, &many).len(), 4, "boxed");
     }
 
     #[test]
