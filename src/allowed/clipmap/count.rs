@@ -66,7 +66,7 @@ impl Windings {
         let d = edge.to - edge.from;
         for row in between(low, high, point[1], self.size) {
             let y = row as f64 + point[1];
-            if !self.rows.contains(&row) || !(low <= y && y < high) {
+            if !(self.rows.contains(&row) && low <= y && y < high) {
                 continue;
             }
             let x = edge.from.x + d.x * ((y - edge.from.y) / d.y);

@@ -14,6 +14,7 @@
 //!   texels.rs   what paints a texel may have
 //!   draw.rs     a tile
 //!   surface.rs  where a pixel reads, and its footprint
+//!   reader.rs   probes and levels, and the texels that they may reach
 //!   reading.rs  what it may find there
 //! ```
 //!
@@ -24,6 +25,7 @@ mod draw;
 mod edges;
 mod items;
 mod lines;
+mod reader;
 mod reading;
 mod share;
 mod surface;
@@ -49,7 +51,7 @@ use crate::terrain::{Mesh, SKY};
 use crate::truth::{Outcome, Probe, Sample, probe};
 use draw::TileMaker;
 use items::Items;
-use reading::{Reader, Tiles};
+use reader::{Reader, Tiles};
 use surface::{Look, Stray};
 use texture::{Key, Texture, Window};
 
@@ -236,7 +238,7 @@ fn pixel(reader: &Reader, compositor: &Compositor, tiles: &Tiles, sight: &Sight)
     let mut paints: Vec<PaintRange> = Vec::new();
     let mut items = Vec::new();
     for look in &sight.looks {
-        paints.extend(reader.read(look, tiles));
+        paints.extend(reading::read(reader, look, tiles));
         reader.items(look, tiles, &mut |of| items.extend_from_slice(of));
     }
     items.sort_unstable();
