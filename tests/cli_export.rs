@@ -204,7 +204,7 @@ fn the_volumes_of_a_bundle_count_what_the_picture_shows() {
             let [first, number] = [objects[8 * object + 3] as usize, objects[8 * object + 4] as usize];
             (first..first + number).map(|volume| winding(volume, at)).sum()
         };
-        let last = (0..3).map(of_object).filter(|count| *count != 0).last().unwrap_or(0);
+        let last = (0..3).map(of_object).rfind(|count| *count != 0).unwrap_or(0);
         assert_eq!(i32::from(*count), last, "pixel {pixel}");
         counted += u32::from(last != 0);
     }
@@ -233,6 +233,77 @@ fn the_edges_of_a_bundle_meet_the_quads_that_say_so() {
         looked_at += ends;
     }
     assert!(looked_at > 10, "{looked_at}");
+}
+
+#[test]
+fn a_bundle_is_for_the_device_that_is_named_and_says_so_first() {
+    let device = |more: &[&str]| {
+        let folder = bundle("stencil-volume", &[&IN_METRES[..], more].concat());
+        let text = fs::read_to_string(folder.path().join("parameters.json")).unwrap();
+        assert_eq!(text.lines().nth(2).map(str::trim), Some("\"device\": {"));
+        json(&folder, "parameters.json")["device"].clone()
+    };
+    let swiftshader = device(&["--device", "swiftshader"]);
+    assert_eq!((&swiftshader["subpixel_bits"], &swiftshader["precision"]), (&4.into(), &"f32".into()));
+    let changed = device(&["--device", "llvmpipe", "--set", "device.subpixel_bits=4"]);
+    assert_eq!(
+        (&changed["subpixel_bits"], &changed["interpolation"]),
+        (&4.into(), &"unsnapped".into()),
+        "--set is over it"
+    );
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("mine.toml"), "[device]\nsub_bits = 8\n").unwrap();
+    for (asked, said) in [
+        ("mine.toml", "mine.toml: a device has no key `sub_bits`"),
+        ("voodoo", "there is no device `voodoo`"),
+    ] {
+        let done = export(folder.path(), &["-t", "clipmap", "--device", asked, "-o", "out"]);
+        let told = String::from_utf8_lossy(&done.stderr).into_owned();
+        assert_eq!(done.status.code(), Some(2), "{told}");
+        assert!(told.contains(said) && !folder.path().join("out").exists(), "{told}");
+    }
+}
+
+#[test]
+fn a_device_is_asked_for_pictures_and_none_is_no_answer() {
+    let folder = tempfile::tempdir().unwrap();
+    let call = |arguments: &[&str]| {
+        let program = env!("CARGO_BIN_EXE_drapery");
+        Command::new(program).arg("calibrate").args(arguments).current_dir(folder.path()).output().unwrap()
+    };
+    assert!(call(&["export", "-o", "asked"]).status.success());
+    assert!(folder.path().join("asked/edges.vertices.npy").is_file());
+    let done = call(&["read", "asked"]);
+    assert_eq!((done.status.code(), &done.stdout[..]), (Some(2), &b""[..]));
+    fs::write(folder.path().join("asked/edges.png"), "half a picture").unwrap();
+    assert_eq!(call(&["read", "asked"]).status.code(), Some(2));
+}
+
+#[test]
+fn the_conformance_set_of_a_technique_is_written_for_a_device() {
+    let folder = tempfile::tempdir().unwrap();
+    let program = env!("CARGO_BIN_EXE_drapery");
+    let coarse = ["--set", "image.width=40", "--set", "image.height=30", "--truth-width", "0.5"];
+    let mut call = Command::new(program);
+    call.args(["export", "--conformance", "-t", "dynamic-line", "--device", "lavapipe", "-o", "set"])
+        .args(coarse);
+    assert!(call.current_dir(folder.path()).status().unwrap().success());
+    let table: Value =
+        serde_json::from_slice(&fs::read(folder.path().join("set/conformance.json")).unwrap()).unwrap();
+    let cases = table["cases"].as_array().unwrap();
+    assert_eq!(
+        (cases[0]["name"].as_str(), cases[0]["bundle"].as_str()),
+        (Some("screen-widths.dynamic-line"), Some("screen-widths/dynamic-line"))
+    );
+    for case in cases {
+        let bundle = folder.path().join("set").join(case["bundle"].as_str().unwrap());
+        let parameters: Value =
+            serde_json::from_slice(&fs::read(bundle.join("parameters.json")).unwrap()).unwrap();
+        assert_eq!(parameters["device"]["interpolation"], "unsnapped");
+        assert!(bundle.join("manifest.json").is_file() && !case["exposes"].as_str().unwrap().is_empty());
+    }
+    let both = Command::new(program).args(["export", "scene.toml", "--conformance"]).output().unwrap();
+    assert_eq!(both.status.code(), Some(2), "a scene is not the set");
 }
 
 /// How often a ring winds around a point, counter-clockwise positive.

@@ -86,8 +86,7 @@ impl<'a> Bundle<'a> {
             view,
             certified: Some(&certified),
             buffers,
-            // They are in the pyramid of tiles.
-            is_elsewhere: &|name| name == "tiles",
+            is_elsewhere: &in_tiles,
             batch,
             watch,
         };
@@ -100,7 +99,7 @@ impl<'a> Bundle<'a> {
         let mesh = stage.mesh_for(view);
         self.stage_scene(&mesh, batch)?;
         let parameters = Parameters::new((&stage.scene, &mesh, view), self.technique).to_json()?;
-        let readme = readme(stage, self.technique, &run.buffers);
+        let readme = readme(stage, self.technique, &frame.planes, &in_tiles);
         let (scene, notes) = (view_result(stage, view, self.hash), stage.scene.notes.clone());
         let result =
             RenderResult { schema: RESULT_SCHEMA, scene, notes, runs: vec![truth, run] }.to_json()?;
@@ -157,6 +156,11 @@ impl<'a> Bundle<'a> {
         }
         Ok(())
     }
+}
+
+/// Whether a buffer is in the pyramid of tiles.
+fn in_tiles(name: &str) -> bool {
+    name == "tiles"
 }
 
 /// The tiles of a frame that has such.

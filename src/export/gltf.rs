@@ -237,7 +237,8 @@ mod tests {
             let accessor = &told["accessors"][primitive["attributes"]["POSITION"].as_u64().unwrap() as usize];
             let places = numbers(accessor);
             assert_eq!(Some(places.len() as u64), accessor["count"].as_u64().map(|count| 3 * count));
-            let east = places.iter().step_by(3).copied().fold(f32::NEG_INFINITY, f32::max);
+            let east =
+                places.iter().step_by(3).copied().fold(f32::NEG_INFINITY, |a, b| if b > a { b } else { a });
             assert_eq!(accessor["max"][0].as_f64(), Some(f64::from(east)));
             assert!(told["materials"][primitive["material"].as_u64().unwrap() as usize].is_object());
             if primitive["mode"] == LINE_STRIP {

@@ -1,7 +1,7 @@
 //! What the files of a bundle hold and how a client draws the same, for people: `common.md` and `judge.md`, which all bundles have, the part that
 //! its technique has written beside its code (`client.md`), and what is so in this bundle: the device, the settings, the buffers.
 
-use crate::output::BufferResult;
+use crate::buffer::{Plane, Values};
 use crate::parameter::{Settings, TableShape, Value};
 use crate::scene::Device;
 use crate::stage::Stage;
@@ -14,8 +14,13 @@ const COMMON: &str = include_str!("common.md");
 /// How a client's picture is judged.
 const JUDGE: &str = include_str!("judge.md");
 
-/// The `README.md` of a bundle of a technique, whose buffers these are.
-pub(super) fn readme(stage: &Stage, kind: Kind, buffers: &[BufferResult]) -> String {
+/// The `README.md` of a bundle of a technique, whose frame has these buffers; `is_elsewhere`: which of them are written in another way.
+pub(super) fn readme(
+    stage: &Stage,
+    kind: Kind,
+    planes: &[Plane],
+    is_elsewhere: &dyn Fn(&str) -> bool,
+) -> String {
     let declaration = kind.declaration();
     let mut text =
         format!("# {}: a scene for a GPU client, and the pictures that are right\n\n", declaration.title);
@@ -24,7 +29,7 @@ pub(super) fn readme(stage: &Stage, kind: Kind, buffers: &[BufferResult]) -> Str
     text += COMMON;
     text.push('\n');
     text += declaration.client;
-    add_buffers(&mut text, buffers);
+    add_buffers(&mut text, kind, planes.iter().filter(|plane| !is_elsewhere(plane.name)));
     for parameters in std::iter::once(&declaration.parameters).chain(declaration.further) {
         let _ = write!(text, "\n## Settings: `technique.{}`\n\n", parameters.name);
         add_values(&mut text, parameters.table, &(parameters.values)(&stage.scene.technique));
@@ -68,10 +73,20 @@ fn add_values(text: &mut String, table: &TableShape, values: &[(&'static str, Va
 }
 
 /// What there is of each buffer in this bundle.
-fn add_buffers(text: &mut String, buffers: &[BufferResult]) {
-    text.push_str("\nIn this bundle:\n\n| file | bytes of values |\n| --- | --- |\n");
-    for buffer in buffers {
-        let _ = writeln!(text, "| `{}` | {} |", buffer.path, buffer.bytes);
+fn add_buffers<'p>(text: &mut String, kind: Kind, planes: impl Iterator<Item = &'p Plane>) {
+    text.push_str(
+        "\nIn this bundle:\n\n| file | numbers | rows x columns (x components) |\n| --- | --- | --- |\n",
+    );
+    for Plane { name, width, height, components, values } in planes {
+        let numbers = match values {
+            Values::F64(_) => "f64",
+            Values::F32(_) => "f32",
+            Values::U32(_) => "u32",
+            Values::U16(_) => "u16",
+            Values::U8(_) => "u8",
+        };
+        let more = if *components > 1 { format!(" x {components}") } else { String::new() };
+        let _ = writeln!(text, "| `{}.{name}.npy` | {numbers} | {height} x {width}{more} |", kind.name());
     }
 }
 
@@ -87,7 +102,7 @@ mod tests {
     fn written(kind: Kind, change: impl FnOnce(&mut Stage)) -> String {
         let mut stage = stage();
         change(&mut stage);
-        readme(&stage, kind, &[])
+        readme(&stage, kind, &[], &|_| false)
     }
 
     #[test]
@@ -100,6 +115,16 @@ mod tests {
         }
         let text = written(Kind::StencilVolume, |_| {});
         assert!(text.contains("| `joins` | `\"none\"` | How the segments of a line meet; \"style\": as `join` and `cap` say. Here: Each segment is a box of its own and nothing more (4.1). | Schneider & Klein 4.1 |"), "{text}");
+    }
+
+    #[test]
+    fn what_there_is_of_a_buffer_stands_there_with_its_type_and_its_shape() {
+        let values = Values::U16(vec![0; 6 * 4]);
+        let plane = Plane { name: "stencil", width: 6, height: 4, components: 1, values };
+        let left_out = Plane { name: "tiles", ..plane.clone() };
+        let text = readme(&stage(), Kind::StencilVolume, &[plane, left_out], &|name| name == "tiles");
+        assert!(text.contains("| `stencil-volume.stencil.npy` | u16 | 4 x 6 |"), "{text}");
+        assert!(!text.contains("stencil-volume.tiles.npy"));
     }
 
     #[test]
