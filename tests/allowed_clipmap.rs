@@ -6,7 +6,7 @@ mod judged;
 
 use drapery::technique::Kind;
 use drawing::{frame_of, scene, stage};
-use judged::{allowed_of, best, outside, wide};
+use judged::{allowed_of, best, outside, outside_of_stage, wide};
 
 const HILLS: &str = r#"kind = "fbm", seed = 3, posts = [65, 65], cell_m = 10.0, height_m = 120.0"#;
 
@@ -48,9 +48,10 @@ fn what_machines_draw_of_a_clipmap_is_allowed() {
         let all = allowed_of(Kind::Clipmap, &stage(&text, &[]));
         let time = start.elapsed();
         for machine in TEXTURE_MACHINES {
-            let image = frame_of(Kind::Clipmap, &stage(&text, machine), &[]).image;
-            let missed: Vec<usize> = all.hypotheses.iter().map(|h| outside(h, &image)).collect();
-            assert_eq!(best(&all, &image), 0, "{name} {machine:?}: {missed:?}");
+            let frame = frame_of(Kind::Clipmap, &stage(&text, machine), &["level"]);
+            let missed: Vec<usize> = all.hypotheses.iter().map(|h| outside(h, &frame.image)).collect();
+            assert_eq!(best(&all, &frame.image), 0, "{name} {machine:?}: {missed:?}");
+            assert_eq!(outside_of_stage(&all, &frame, "level"), 0, "{name} {machine:?}");
         }
         let start = std::time::Instant::now();
         drawing::truth_of(&stage(&text, &[]));

@@ -42,7 +42,7 @@ pub fn allowed(
     progress: &(dyn Fn(f64) + Sync),
 ) -> Result<Allowed> {
     technique::applies(kind, stage)?;
-    let guesses: Vec<Guess> = Envelope::of(&stage.scene.device).into_iter().map(Guess::of).collect();
+    let guesses = guesses(kind, &stage.scene.device);
     let view = View { stage, frame, progress };
     let settings = &stage.scene.technique;
     let Pictures { mut hypotheses, stages, features } = match kind {
@@ -61,6 +61,17 @@ pub fn allowed(
     };
     hypotheses.iter_mut().zip(&guesses).for_each(|(hypothesis, guess)| hypothesis.says = guess.says());
     Ok(Allowed { width: frame.width(), height: frame.height(), hypotheses, stages, features })
+}
+
+/// What machines may choose once for a whole picture, from what is likely to what is coarse.
+fn guesses(kind: Kind, device: &Device) -> Vec<Guess> {
+    let has_blends = matches!(kind, Kind::StencilVolume | Kind::GeometryOverlay);
+    let of_envelope = |envelope| {
+        let guess = Guess::of(envelope);
+        let coarse = has_blends.then(|| guess.clone().with_coarse_blends());
+        std::iter::once(guess).chain(coarse)
+    };
+    Envelope::of(device).into_iter().flat_map(of_envelope).collect()
 }
 
 /// A picture by a guess, and another that is looked at with it.

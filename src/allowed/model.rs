@@ -42,6 +42,12 @@ impl Guess {
     /// What it assumes, in a sentence.
     pub(super) fn says(&self) -> String {
         let Envelope { subpixel_bits, .. } = self.envelope;
-        format!("vertices are snapped to {subpixel_bits} bits behind a pixel's point, or less")
+        let blends = match self.has_coarse_blends {
+            true => {
+                ", and blends are of code values: colours and opacities are rounded before they are multiplied, and after"
+            }
+            false => "",
+        };
+        format!("vertices are snapped to {subpixel_bits} bits behind a pixel's point, or less{blends}")
     }
 }

@@ -1,7 +1,8 @@
 //! What a pixel may be, from what its samples may see.
 
 use super::composition::Composed;
-use crate::certainty::{PaintMean, PaintRange};
+use crate::certainty::{Known, PaintMean, PaintRange};
+use crate::draw_list::DrawList;
 use crate::math;
 use crate::resolve::Compositor;
 use crate::truth::{Outcome, Sample};
@@ -35,6 +36,8 @@ pub(super) enum Blending {
     Shader,
     /// In a target of code values: they are rounded at each blend.
     Target,
+    /// The same by a machine that rounds colours and opacities to code values before it multiplies them, too.
+    CoarseTarget,
 }
 
 impl PixelRange {
@@ -57,10 +60,17 @@ impl PixelRange {
     }
 
     /// The mean of samples.
-    pub(super) fn of_samples(samples: &[Sample], compositor: &Compositor, blending: Blending) -> Self {
+    pub(super) fn of_samples(
+        samples: &[Sample],
+        (list, compositor): (&DrawList, &Compositor),
+        blending: Blending,
+    ) -> Self {
         let slack = match blending {
             Blending::Shader => BLEND,
             Blending::Target => BLEND * blends(samples),
+            Blending::CoarseTarget => {
+                BLEND * (coarse_blends(samples, list) + f64::from(u8::from(samples.len() > 1)))
+            }
         };
         Self::of_means(samples, compositor, slack)
     }
@@ -129,6 +139,29 @@ fn blends(samples: &[Sample]) -> f64 {
     let outcomes = samples.iter().flat_map(|sample| &sample.outcomes);
     let most = outcomes.map(|outcome| outcome.items.as_ref().map_or(4, Vec::len)).max().unwrap_or(0);
     most.clamp(1, 4) as f64 + f64::from(u8::from(samples.len() > 1))
+}
+
+/// How many roundings a sample's colour is off by at most where each blend rounds the source's colour, its opacity and what is left of what lies
+/// below; less of it shows through what comes above.
+fn coarse_blends(samples: &[Sample], list: &DrawList) -> f64 {
+    const OF_A_BLEND: f64 = 3.0;
+    // One more blend, of both colours by a factor that is rounded, too.
+    const OF_A_GROUP: f64 = 4.0;
+    // Of items that were not told apart.
+    const OF_A_CROWD: f64 = 12.0;
+    let of_outcome = |outcome: &Outcome| {
+        let Some(items) = &outcome.items else { return OF_A_CROWD };
+        let mut off = 1.0;
+        for (item, known) in items {
+            let style = list.style_of(*item);
+            let alpha = style.paint.0[3];
+            let blended = if alpha < 1.0 { off * (1.0 - alpha) + OF_A_BLEND } else { 1.0 };
+            off = if *known == Known::Open { math::max(off, blended) } else { blended };
+            off += if style.group.is_some() { OF_A_GROUP } else { 0.0 };
+        }
+        off
+    };
+    samples.iter().flat_map(|sample| &sample.outcomes).map(of_outcome).fold(1.0, math::max)
 }
 
 pub(super) fn widened([low, high]: ColorRange, slack: f64) -> ColorRange {

@@ -34,7 +34,8 @@ impl Sampling {
     pub(super) fn pictures(&self, view: &View, guesses: &[Guess]) -> Pictures {
         let stage = view.stage;
         let compositor = Compositor::new(stage.scene.compositing);
-        let shifts: Vec<f64> = guesses.iter().map(|guess| guess.envelope.shift()).collect();
+        let mut shifts: Vec<f64> = guesses.iter().map(|guess| guess.envelope.shift()).collect();
+        shifts.dedup();
         let along = |depth: f64| guesses.last().map_or(0.0, |guess| guess.envelope.along(view.frame, depth));
         // The centre's own depth is wanted.
         let count = self.spots.len();
@@ -49,10 +50,15 @@ impl Sampling {
             share: COORDINATES,
         };
         let judge = |_: [usize; 2], samples: &[Sample]| {
-            let of_guesses = samples.chunks(of.spots.len());
-            let range = |of: &[Sample]| PixelRange::of_samples(&of[..count], &compositor, self.blending);
+            let range = |guess: &Guess| {
+                let shift = guess.envelope.shift();
+                let first = shifts.iter().position(|of| *of == shift).unwrap_or(0) * of.spots.len();
+                let blending = if guess.has_coarse_blends { Blending::CoarseTarget } else { self.blending };
+                let samples = &samples[first..first + count];
+                PixelRange::of_samples(samples, (&stage.draw_list, &compositor), blending)
+            };
             Judged {
-                ranges: of_guesses.map(range).collect(),
+                ranges: guesses.iter().map(range).collect(),
                 centre: samples.last().map(|sample| Seen::of(sample, &along)).unwrap_or_default(),
             }
         };

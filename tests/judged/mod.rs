@@ -4,9 +4,10 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests are no tests to the lint")]
 
 use drapery::buffer::Buffer;
-use drapery::compare::{Allowed, Hypothesis};
+use drapery::buffer::Values;
+use drapery::compare::{Allowed, Hypothesis, StageRange};
 use drapery::stage::Stage;
-use drapery::technique::Kind;
+use drapery::technique::{Frame, Kind};
 
 /// How many pixels of a picture a hypothesis does not allow.
 pub fn outside(hypothesis: &Hypothesis, image: &Buffer<[u8; 4]>) -> usize {
@@ -53,3 +54,12 @@ pub const MACHINES: [&[&str]; 5] = [
     &["device.subpixel_bits=4", "device.precision=\"f32\"", "device.depth=\"unorm24\""],
     &["device.subpixel_bits=4"],
 ];
+
+/// How many values of a buffer lie out of what is allowed of it.
+pub fn outside_of_stage(allowed: &Allowed, frame: &Frame, name: &str) -> usize {
+    let plane = frame.planes.iter().find(|plane| plane.name == name).unwrap();
+    let Values::F64(values) = &plane.values else { panic!("{name}") };
+    let stage = allowed.stages.iter().find(|stage| stage.buffer == name).unwrap();
+    let StageRange::Between { lo, hi, .. } = &stage.range else { panic!("{name}") };
+    values.iter().zip(lo).zip(hi).filter(|((v, lo), hi)| !(*lo..=*hi).contains(v)).count()
+}

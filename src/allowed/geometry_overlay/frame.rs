@@ -267,7 +267,8 @@ impl Overlay<'_> {
         }
         let mut items: Vec<u32> = fragments.iter().map(|fragment| fragment.item).collect();
         items.dedup();
-        let slack = BLEND * f64::from(blends.min(MOST_BLENDS));
+        let roundings = if self.guess.has_coarse_blends { 3 } else { 1 };
+        let slack = BLEND * f64::from(roundings * blends.min(MOST_BLENDS));
         PixelRange::of_composed(&all, items, slack, &self.composer.compositor)
     }
 
