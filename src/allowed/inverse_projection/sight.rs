@@ -109,17 +109,18 @@ impl Eye<'_> {
         let triangle = self.mesh.surface_triangle(outcome.triangle);
         let shift = self.shift * EASE;
         let around = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
-        let corners = triangle.as_ref().and_then(|triangle| {
+        let plane = triangle.as_ref().map(|triangle| (triangle, TrianglePlane::new(&triangle.world)));
+        let corners = plane.as_ref().and_then(|plane| {
             let mut corners = [Plan::default(); 4];
             for (to, (x, y)) in corners.iter_mut().zip(around) {
                 let ray = self.view.ray(Screen::new(at.x + x * shift, at.y + y * shift));
-                *to = self.hit(triangle, &ray)?;
+                *to = hit(plane, &ray)?;
             }
             Some(corners)
         });
         // Attributes of a triangle that a sample just misses are taken beyond its sides; depths are of other places, and rounded.
         let ray = self.view.ray(at);
-        let on_plane = triangle.as_ref().and_then(|triangle| self.hit(triangle, &ray));
+        let on_plane = plane.as_ref().and_then(|plane| hit(plane, &ray));
         let is_vertical = triangle.is_some_and(|t| matches!(t.drape, TriangleDrape::Vertical));
         let on_ray = is_vertical.then(|| {
             let (near, far) = outcome.depth;
@@ -133,25 +134,20 @@ impl Eye<'_> {
         }
     }
 
-    /// The plan point in which a ray meets a triangle's plane before the eye.
-    fn hit(&self, triangle: &SurfaceTriangle, ray: &Ray) -> Option<Plan> {
-        let share = TrianglePlane::new(&triangle.world).hit_parameter(ray);
-        let world = ray.from + (ray.through - ray.from) * share;
-        let plan = match &triangle.drape {
-            TriangleDrape::Vertical => world.plan(),
-            TriangleDrape::Affine { plan, .. } => PlanMap::new(&triangle.world, plan).at(world),
-        };
-        (share > 0.0 && plan.is_finite()).then_some(plan)
-    }
-
     /// Whether the side between what two neighbouring rays may end in spans a silhouette.
     pub(super) fn silhouette(&self, [from, to]: [(&Spread, Screen); 2]) -> Known {
+        if let ([one], [other]) = (&from.0.triangles[..], &to.0.triangles[..])
+            && one == other
+        {
+            return Known::Out;
+        }
         let rays = [from, to].map(|(_, at)| self.view.ray(at));
         let expected: [Vec<Range>; 2] = [(from.0, &rays[1]), (to.0, &rays[0])].map(|(spread, other)| {
             let plane = |triangle: u32| self.mesh.surface_triangle(triangle);
             let reach = |(triangle, place): (u32, PlanBox)| {
                 // A plane that the neighbour's ray misses would reach to the horizon.
-                let hit = plane(triangle).and_then(|triangle| self.hit(&triangle, other));
+                let hit = plane(triangle)
+                    .and_then(|triangle| hit(&(&triangle, TrianglePlane::new(&triangle.world)), other));
                 hit.map_or([f64::INFINITY; 2], |hit| distances(&PlanBox::around([hit]), &place))
             };
             spread.patches().map(reach).collect()
@@ -183,4 +179,15 @@ impl Eye<'_> {
             _ => Known::Open,
         }
     }
+}
+
+/// The plan point in which a ray meets a triangle's plane before the eye.
+fn hit((triangle, plane): &(&SurfaceTriangle, TrianglePlane), ray: &Ray) -> Option<Plan> {
+    let share = plane.hit_parameter(ray);
+    let world = ray.from + (ray.through - ray.from) * share;
+    let plan = match &triangle.drape {
+        TriangleDrape::Vertical => world.plan(),
+        TriangleDrape::Affine { plan, .. } => PlanMap::new(&triangle.world, plan).at(world),
+    };
+    (share > 0.0 && plan.is_finite()).then_some(plan)
 }
