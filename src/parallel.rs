@@ -116,6 +116,11 @@ pub fn sort_by_key<T: Send, K: Ord>(values: &mut [T], key: impl Fn(&T) -> K + Sy
 /// More threads than this only wait for one another.
 const MOST_THREADS: usize = 1024;
 
+/// Lets the thread rest for so long.
+pub fn pause(time: Duration) {
+    std::thread::sleep(time);
+}
+
 /// Runs `f` with `threads` threads (0: as many as the machine has). On a machine that has none (WebAssembly) `f` does everything
 /// itself, to the same result.
 ///

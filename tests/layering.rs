@@ -96,6 +96,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
         "allowed",
         &[
             "technique",
+            "decal",
             "canvas",
             "truth",
             "footprint",

@@ -3,10 +3,10 @@
 use super::pixel::Blending;
 use super::sampled::Sampling;
 use crate::canvas::SamplePattern;
+use crate::decal::{Edges, Joins, Outlines, Overlaps, Settings};
 use crate::draw_list::{DrawList, ItemStyle};
 use crate::error::{Error, Result};
 use crate::footprint::Strokes;
-use crate::technique::static_decal::{Edges, Joins, Outlines, Overlaps, Settings};
 
 /// Where the technique takes samples, and its strokes.
 ///

@@ -1,8 +1,7 @@
-//! `drapery export [SCENE]`, `drapery export --conformance`
+//! `drapery export [SCENE_FILE]`, `drapery export --conformance`
 
 use super::bar::Bar;
 use super::device_argument::DeviceArgument;
-use super::reduce::SCENE;
 use super::render::techniques::{self, Name};
 use super::scene_input;
 use super::stop::{Outcome, Status};
@@ -10,7 +9,7 @@ use super::truth_arguments::TruthArguments;
 use drapery::export::{Bundle, Conformance};
 use drapery::measure::Watch;
 use drapery::output::Batch;
-use drapery::reduce::Draft;
+use drapery::reduce::{Draft, SCENE_FILE};
 use drapery::scene_file::Override;
 use drapery::scene_file::SceneText;
 use drapery::source::load;
@@ -101,7 +100,7 @@ fn bundle(arguments: &Arguments, technique: Kind, budget: Budget) -> Outcome {
         if stage.draw_list.vertices().len() <= MOST_IN_A_SCENE_FILE {
             stage_scene_file(&text, &mut batch, &bar)?;
         } else {
-            bar.note(&format!("the bundle has no {SCENE}: more than {MOST_IN_A_SCENE_FILE} vertices"));
+            bar.note(&format!("the bundle has no {SCENE_FILE}: more than {MOST_IN_A_SCENE_FILE} vertices"));
         }
         Bundle { stage, hash, attributes: &attributes, technique, budget }.write(batch, &bar)
     };
@@ -119,9 +118,9 @@ fn stage_scene_file(text: &SceneText, batch: &mut Batch, bar: &Bar) -> Result<()
     // Loaded once more: of a stage the layers have no features any more.
     let (scene, _) = load::load(&text.file, &|_| {})?;
     match Draft::of(text, &scene) {
-        Ok(draft) => batch.stage(SCENE, |to| to.write_all(draft.text().as_bytes())),
+        Ok(draft) => batch.stage(SCENE_FILE, |to| to.write_all(draft.text().as_bytes())),
         Err(error) => {
-            bar.note(&format!("the bundle has no {SCENE}: {}", error.what()));
+            bar.note(&format!("the bundle has no {SCENE_FILE}: {}", error.what()));
             Ok(())
         }
     }

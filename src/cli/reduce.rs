@@ -10,7 +10,7 @@ use client::{Client, Drawing};
 use drapery::compare::Judge;
 use drapery::measure::Watch;
 use drapery::output::write_whole;
-use drapery::reduce::{Draft, Failing, reduce};
+use drapery::reduce::{Draft, Failing, SCENE_FILE, reduce};
 use drapery::scene_file::SceneText;
 use drapery::source::load;
 use drapery::technique::Kind;
@@ -29,9 +29,6 @@ the bundle's scene and leaves TECHNIQUE.png there.
 
 Exit status: 0 the smallest scene that fails was written, 1 what CMD draws of the scene is right, 2 the call is wrong, or CMD fails or does \
 not end.";
-
-/// A bundle's scene file with all features in it.
-pub(super) const SCENE: &str = "scene.inline.toml";
 
 #[derive(Debug, clap::Args)]
 #[command(after_long_help = EXAMPLES)]
@@ -135,9 +132,9 @@ fn input(arguments: &Arguments) -> Result<(SceneText, Kind)> {
         })?;
         return Ok((SceneText::read(input, &[])?, kind));
     }
-    let scene = input.join(SCENE);
+    let scene = input.join(SCENE_FILE);
     if !scene.is_file() {
-        return Err(Error::new(format!("this bundle has no {SCENE}"))
+        return Err(Error::new(format!("this bundle has no {SCENE_FILE}"))
             .in_file(input)
             .help("name the scene file"));
     }

@@ -1,6 +1,5 @@
 //! A scene in pieces that can be left out.
 
-use super::written;
 use crate::error::{Error, Result};
 use crate::scene::{Camera, Fill, ImageSettings, Layer, Scene, Shape, Style};
 use crate::scene_file::SceneText;
@@ -33,6 +32,9 @@ pub struct DraftLayer {
     pub features: Vec<Shape>,
 }
 
+/// The scene file with all features in it, as bundles have it.
+pub const SCENE_FILE: &str = "scene.inline.toml";
+
 /// The keys that stay as they are written.
 const KEPT: [&str; 7] = ["schema", "name", "crs", "terrain", "compositing", "device", "technique"];
 
@@ -62,11 +64,6 @@ impl Draft {
             camera: Camera { eye: absolute(camera.eye), target: absolute(camera.target), ..camera },
             layers: scene.layers.iter().flat_map(|layer| of_one_style(layer, origin.truncate())).collect(),
         })
-    }
-
-    /// The scene file.
-    pub fn text(&self) -> String {
-        written::text(self)
     }
 
     /// How many features there are.

@@ -15,5 +15,5 @@ mod shrink;
 mod vertices;
 mod written;
 
-pub use draft::{Draft, DraftLayer};
+pub use draft::{Draft, DraftLayer, SCENE_FILE};
 pub use shrink::{Failing, Reduced, reduce};

@@ -5,22 +5,24 @@ use crate::scene::{Camera, Cap, Color, Fill, Join, Line, OutlineMode, Projection
 use crate::space::Plan;
 use std::fmt::Write;
 
-/// The whole file.
-pub(super) fn text(draft: &Draft) -> String {
-    // Tables come after plain values, and layers after tables: nothing that follows belongs to a table above it.
-    let mut text = toml::to_string(&draft.head).unwrap_or_default();
-    let image = draft.image;
-    let [color, opacity] = color(image.background);
-    let alpha = if opacity == "1.0" { String::new() } else { format!(" # opacity {opacity}") };
-    let background = with_alpha(image.background).unwrap_or(color);
-    let _ = writeln!(
-        text,
-        "\n[image]\nwidth = {}\nheight = {}\nbackground = {background}{alpha}",
-        image.width, image.height
-    );
-    text += &camera(&draft.camera);
-    draft.layers.iter().filter(|layer| is_painted(layer)).for_each(|layer| text += &layer_text(layer));
-    text
+impl Draft {
+    /// The scene file.
+    pub fn text(&self) -> String {
+        // Tables come after plain values, and layers after tables: nothing that follows belongs to a table above it.
+        let mut text = toml::to_string(&self.head).unwrap_or_default();
+        let image = self.image;
+        let [color, opacity] = color(image.background);
+        let alpha = if opacity == "1.0" { String::new() } else { format!(" # opacity {opacity}") };
+        let background = with_alpha(image.background).unwrap_or(color);
+        let _ = writeln!(
+            text,
+            "\n[image]\nwidth = {}\nheight = {}\nbackground = {background}{alpha}",
+            image.width, image.height
+        );
+        text += &camera(&self.camera);
+        self.layers.iter().filter(|layer| is_painted(layer)).for_each(|layer| text += &layer_text(layer));
+        text
+    }
 }
 
 fn is_painted(layer: &DraftLayer) -> bool {

@@ -1,9 +1,9 @@
 //! What a sample may see and be held by, when it may lie anywhere in a small square.
 
 use crate::certainty::{Known, PaintRange};
+use crate::math;
 use crate::space::PlanBox;
 use crate::terrain::SKY;
-use crate::{math, resolve::Paint};
 
 /// One thing that a sample may see, with what may hold it there.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,14 +50,6 @@ impl Sample {
             }
             None => self.outcomes.push(outcome),
         }
-    }
-
-    /// Whether it has one paint whatever it sees.
-    pub fn has_one_paint(&self) -> bool {
-        let first = self.outcomes.first().map(|outcome| outcome.paint);
-        first.is_some_and(|paint| {
-            paint == PaintRange::exact(Paint(paint.low)) && self.outcomes.iter().all(|o| o.paint == paint)
-        })
     }
 
     /// Around all paints that it may have.

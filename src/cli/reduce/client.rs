@@ -3,7 +3,7 @@
 use super::folder::Folder;
 use drapery::compare::{Gates, Judge, Judgement, Submitted};
 use drapery::output::Batch;
-use drapery::reduce::{Draft, Failing};
+use drapery::reduce::{Draft, Failing, SCENE_FILE};
 use drapery::technique::Kind;
 use drapery::{Budget, Bundle, Error, Opened, Result};
 use std::fs::File;
@@ -60,7 +60,7 @@ impl Client {
         let (bundle, frames) = (self.place.empty("bundle")?, self.place.empty("frames")?);
         let mut batch = Batch::into(&bundle)?;
         let text = draft.text();
-        batch.stage(super::SCENE, |to| to.write_all(text.as_bytes()))?;
+        batch.stage(SCENE_FILE, |to| to.write_all(text.as_bytes()))?;
         let made =
             Bundle { budget: BUDGET, hash: &scene.text.file.hash, ..Bundle::of(&scene.stage, self.kind) };
         if let Err(error) = made.write(batch, &drapery::measure::Unwatched) {
@@ -113,7 +113,7 @@ impl Client {
                 stop(child)?;
                 return Ok(None);
             }
-            std::thread::sleep(LOOK);
+            drapery::parallel::pause(LOOK);
         }
     }
 }
