@@ -139,9 +139,4 @@ fn what_machines_draw_of_every_golden_is_allowed() {
             println!("{}", if worst > 0 { " OUTSIDE" } else { "" });
         }
     }
-    // A width that follows the picture, drawn as one that follows the level.
-    let text = text.replacen("width_m = 1.0", "width_px = 1.5", 1);
-    let all = allowed(Kind::Clipmap, &text, &["device.subpixel_bits=8"]);
-    assert_eq!(best(&all, &drawn(&text, &[])), 0);
-    assert!(best(&all, &drawn(&text, &["technique.clipmap.pixel_width=\"texels\""])) > 50);
 }

@@ -149,7 +149,7 @@ fn a_level_of_detail_mesh_across_the_antimeridian_and_at_a_pole_is_drawn_as_the_
     for kind in drawing::kinds_of_footprints_for(&stage) {
         let frame = drawing::frame_of(kind, &stage, &[]);
         let error = drawing::errors(&truth, &Image::from_rgba8(&frame.image).unwrap());
-        assert!(error.mean < 0.01, "{kind:?} {}", error.mean);
+        assert!(error.mean < 0.02, "{kind:?} {}", error.mean);
     }
     assert!(drawing::kinds_for(&stage).contains(&Kind::GeometryOverlay));
     // What is draped is off by no more than the surface is: half a pixel, along its borders.

@@ -114,10 +114,7 @@ pub(super) fn often(run: &[Crossing]) -> [u32; 2] {
     open.extend((0..count).filter(|k| run[*k].meets == Meets::Known(Known::Open)).map(|k| (1, k)));
     open.extend((0..count).filter(|k| run[*k].is_drawn == Known::Open).map(|k| (2, k)));
     if open.len() > MOST_OPEN {
-        return run
-            .iter()
-            .map(|one| often_alone(one))
-            .fold([0; 2], |sum, of| [sum[0] + of[0], sum[1] + of[1]]);
+        return run.iter().map(often_alone).fold([0; 2], |sum, of| [sum[0] + of[0], sum[1] + of[1]]);
     }
     let mut range = [u32::MAX, 0];
     for answers in 0..1u32 << open.len() {

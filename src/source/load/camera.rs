@@ -19,8 +19,11 @@ pub(super) fn camera(scene: &SceneFile, terrain: &Terrain, layers: &[Layer]) -> 
     let spec = &scene.camera;
     let (eye, target) = match spec.view {
         Some(view) => {
-            let spot = |spot, key| place(spot, terrain).map_err(|error| of_key(scene, key, error));
-            (spot(view.eye, "camera.eye_geo")?, spot(view.target, "camera.target_geo")?)
+            let spot = |spot, name: &str| {
+                let ending = if matches!(spot, Spot::Geo(_)) { "_geo" } else { "" };
+                place(spot, terrain).map_err(|error| of_key(scene, &format!("camera.{name}{ending}"), error))
+            };
+            (spot(view.eye, "eye")?, spot(view.target, "target")?)
         }
         None => framing(scene, terrain, layers)?,
     };
