@@ -12,6 +12,8 @@ pub struct Outcome {
     pub triangle: u32,
     /// Around all paints that it may have.
     pub paint: PaintRange,
+    /// Those of what lies below all items.
+    pub ground: PaintRange,
     /// The items that hold it or may hold it, in draw order; `None`: any.
     pub items: Option<Vec<(u32, Known)>>,
     /// Around its places in the plan; empty in the sky.
@@ -24,7 +26,7 @@ impl Outcome {
     /// The sky.
     pub(super) fn of_sky(paint: PaintRange) -> Self {
         let depth = (f64::INFINITY, f64::INFINITY);
-        Self { triangle: SKY, paint, items: Some(Vec::new()), plan: PlanBox::EMPTY, depth }
+        Self { triangle: SKY, paint, ground: paint, items: Some(Vec::new()), plan: PlanBox::EMPTY, depth }
     }
 
     /// Whether it differs from another in nothing but where exactly it is.

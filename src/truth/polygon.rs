@@ -34,7 +34,7 @@ impl Pieces {
 
     /// A square.
     pub(super) fn square(&mut self, [x, y]: [f64; 2], side: f64) -> Polygon {
-        self.push(&[[x, y], [x + side, y], [x + side, y + side], [x, y + side]])
+        self.push(&corners(([x, y], side)))
     }
 
     fn push(&mut self, points: &[[f64; 2]]) -> Polygon {
@@ -109,11 +109,16 @@ pub(super) fn middle(piece: &[[f64; 2]]) -> [f64; 2] {
     [x / piece.len() as f64, y / piece.len() as f64]
 }
 
+/// The corners of a square, around it.
+pub(super) fn corners(([x, y], side): ([f64; 2], f64)) -> [[f64; 2]; 4] {
+    [[x, y], [x + side, y], [x + side, y + side], [x, y + side]]
+}
+
 /// Whether a convex piece may meet a square; false where they are surely apart.
 pub(super) fn meets_square(piece: &[[f64; 2]], [x, y]: [f64; 2], side: f64) -> bool {
     // Far above the rounding of coordinates of a pixel.
     const SLACK: f64 = 1e-12;
-    let square = [[x, y], [x + side, y], [x + side, y + side], [x, y + side]];
+    let square = corners(([x, y], side));
     let reach = |points: &[[f64; 2]], axis: usize| {
         points.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| {
             (crate::math::min(p[axis], low), crate::math::max(p[axis], high))

@@ -6,7 +6,7 @@
 use super::form::Line;
 use super::knowledge::{Edges, Pixel, State, first_state, polygon_at};
 use super::outcome::{Outcome, Sample};
-use super::polygon::{Halves, Pieces, Polygon, ROUNDING};
+use super::polygon::{self, Halves, Pieces, Polygon, ROUNDING};
 use super::setting::Setting;
 use super::shape::{PixelGround, PixelPrimitive, Verdict};
 use super::visible::{Fragment, SPECK, Sight};
@@ -16,6 +16,7 @@ use crate::footprint::{BorderPart, Primitive};
 use crate::math;
 use crate::resolve::{Compositor, Paint, Stack};
 use crate::space::PlanBox;
+use crate::terrain::SKY;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
@@ -226,15 +227,29 @@ impl Refinery {
         all
     }
 
-    /// What may be seen and held in a square, however small, that sees this.
-    pub(super) fn outcomes(&mut self, pixel: &Pixel, pieces: &mut Pieces, sight: &Sight) -> Sample {
+    /// What may be seen and held in a square, however small, that sees this; depths are those of the triangles' planes all over the square: a
+    /// machine that snaps which triangle covers a sample need not snap what it interpolates.
+    pub(super) fn outcomes(
+        &mut self,
+        pixel: &Pixel,
+        pieces: &mut Pieces,
+        sight: &Sight,
+        square: ([f64; 2], f64),
+    ) -> Sample {
         self.refine(pixel, pieces, sight);
         let mut sample = Sample::default();
         if !sight.sky.is_empty() {
             sample.add(Outcome::of_sky(PaintRange::exact(pixel.setting.sky)));
         }
+        let corners = polygon::corners(square);
         for piece in self.closed.iter().chain(&self.heap) {
-            sample.add(self.outcome_of(pixel, pieces, piece));
+            let mut outcome = self.outcome_of(pixel, pieces, piece);
+            let on_plane = depths(&pixel.ground(piece.facet), &corners);
+            // A plane may pass the eye beside the triangle.
+            if on_plane.0 > 0.0 && on_plane.1.is_finite() {
+                outcome.depth = on_plane;
+            }
+            sample.add(outcome);
         }
         sample
     }
@@ -242,15 +257,13 @@ impl Refinery {
     fn outcome_of(&self, pixel: &Pixel, pieces: &Pieces, piece: &FragmentPiece) -> Outcome {
         let ground = pixel.ground(piece.facet);
         let points = pieces.of(piece.shape);
-        let depths = points.iter().map(|p| ground.rays.frame.depth(ground.hit(*p).world));
-        let depth = depths.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
-            (math::min(v, low), math::max(v, high))
-        });
+        let depth = depths(&ground, points);
         let states =
             piece.states.map(|(first, count)| &self.states[first as usize..(first + count) as usize]);
         let items = states.map(|states| states.iter().map(|s| (s.item, s.known())).collect());
         let (triangle, plan) = (ground.facet.id, ground.plan_box(points));
-        Outcome { triangle, paint: piece.paint, items, plan, depth }
+        let (bare, _) = pixel.setting.ground_paint(&ground, points, &mut 0.0);
+        Outcome { triangle, paint: piece.paint, ground: bare, items, plan, depth }
     }
 
     /// The pieces of the pixel refined last, and its sky.
@@ -553,14 +566,43 @@ impl Refinery {
 #[cfg(test)]
 pub(super) type Claim = (Polygon, u32, Vec<(u32, Option<bool>)>);
 
+/// The least and the largest view depth of a triangle's plane at some points.
+fn depths(ground: &PixelGround, points: &[[f64; 2]]) -> (f64, f64) {
+    let depths = points.iter().map(|p| ground.rays.frame.depth(ground.hit(*p).world));
+    depths.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (math::min(v, low), math::max(v, high)))
+}
+
+/// Adds to what a sample may see each of its triangles with each of its sets of items: a machine decides on the one by the terrain's vertices and on
+/// the other by other vertices, or by a point of the triangle's plane beyond its border.
+pub(super) fn cross(setting: &Setting, sample: &mut Sample) {
+    const MOST: usize = 256;
+    let ground = |outcome: &&Outcome| outcome.triangle != SKY;
+    let first = sample.outcomes.iter().find(ground).map(|outcome| outcome.ground);
+    if sample.outcomes.iter().filter(ground).all(|outcome| Some(outcome.ground) == first) {
+        return;
+    }
+    let all: Vec<Outcome> = sample.outcomes.iter().filter(ground).cloned().collect();
+    if all.len() * all.len() > MOST {
+        return;
+    }
+    for seen in &all {
+        for items in all.iter().filter_map(|outcome| outcome.items.as_ref()) {
+            let paint = composed_of(setting, seen.ground, items.iter().copied());
+            sample.add(Outcome { paint, items: Some(items.clone()), ..seen.clone() });
+        }
+    }
+}
+
 /// The paint of a piece's items over a base.
 fn composed(setting: &Setting, base: PaintRange, states: &[State]) -> PaintRange {
+    composed_of(setting, base, states.iter().map(|state| (state.item, state.known())))
+}
+
+fn composed_of(setting: &Setting, base: PaintRange, items: impl Iterator<Item = (u32, Known)>) -> PaintRange {
     let mut stack = Stack::on(base);
-    for state in states {
-        let paint = setting.paint_of(state.item);
-        stack.draw(setting.group_of(state.item), |below| {
-            below.under_known(state.known(), paint, setting.mode)
-        });
+    for (item, known) in items {
+        let paint = setting.paint_of(item);
+        stack.draw(setting.group_of(item), |below| below.under_known(known, paint, setting.mode));
     }
     stack.finished()
 }

@@ -4,7 +4,7 @@ use super::facet::{Facet, Hit};
 use super::knowledge::Pixel;
 use super::outcome::Sample;
 use super::polygon::{self, Pieces};
-use super::refine::{Part, PartSum, Refinery};
+use super::refine::{Part, PartSum, Refinery, cross};
 use super::setting::Setting;
 use super::tile_rays::TileRays;
 use super::visible::Sight;
@@ -564,6 +564,7 @@ impl<'a> Work<'a> {
             if is_known && self.nearly_seen(at, side, near).is_empty() {
                 let mut all = Sample::default();
                 met.into_iter().filter_map(|part| part.outcome.clone()).for_each(|outcome| all.add(outcome));
+                cross(self.setting, &mut all);
                 *sample = Some(all);
             }
         }
@@ -573,15 +574,17 @@ impl<'a> Work<'a> {
     fn outcomes(&mut self, pixel: [f64; 2], (corner, side): ([f64; 2], f64), near: &[u32]) -> Sample {
         let hidden = self.nearly_seen([pixel[0] + corner[0], pixel[1] + corner[1]], side, near);
         let of = Pixel { setting: self.setting, rays: &self.rays, facets: &self.facets, corner: pixel };
-        let mut sample = self.refinery.outcomes(&of, &mut self.pieces, &self.sight);
+        let square = (corner, side);
+        let mut sample = self.refinery.outcomes(&of, &mut self.pieces, &self.sight, square);
         for facet in hidden {
             self.pieces.clear();
             self.sight.clear();
             self.sight.see(&mut self.pieces, &self.facets, &[facet], (pixel, corner, side));
             self.sight.sky.clear();
-            let of_facet = self.refinery.outcomes(&of, &mut self.pieces, &self.sight);
+            let of_facet = self.refinery.outcomes(&of, &mut self.pieces, &self.sight, square);
             of_facet.outcomes.into_iter().for_each(|outcome| sample.add(outcome));
         }
+        cross(self.setting, &mut sample);
         sample
     }
 

@@ -105,6 +105,7 @@ impl Findings<'_> {
         let sky = Outcome {
             triangle: SKY,
             paint,
+            ground: paint,
             items: Some(Vec::new()),
             plan: PlanBox::EMPTY,
             depth: (f64::INFINITY, f64::INFINITY),
@@ -279,7 +280,7 @@ impl Painter<'_> {
         let (plan, depth) = (PlanBox::EMPTY, (0.0, 0.0));
         let outcome = |items: Vec<(u32, Known)>| {
             let paint = self.composed(ground, &items);
-            Outcome { triangle, paint, items: Some(items), plan, depth }
+            Outcome { triangle, paint, ground, items: Some(items), plan, depth }
         };
         if open.len() > MOST_OPEN {
             return Sample { outcomes: vec![outcome(held)] };
