@@ -72,11 +72,13 @@ impl Metrics {
         }
         let values = || failing.iter().flat_map(|(_, distances)| distances).copied();
         let n = pixels * N;
+        // A sum of nothing is -0 to the standard library.
+        let sum = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |sum, value| sum + value);
         Self {
             max,
             worst,
-            mean: values().sum::<f64>() / n as f64,
-            rmse: (values().map(|d| d * d).sum::<f64>() / n as f64).sqrt(),
+            mean: sum(&mut values()) / n as f64,
+            rmse: (sum(&mut values().map(|d| d * d)) / n as f64).sqrt(),
             p99: p99(values().filter(|d| *d > 0.0).collect(), n),
             channel_max,
             over_one_code_value: over_one as f64 / pixels as f64,
@@ -195,6 +197,13 @@ mod tests {
         let metrics = of(3, 2, 4, vec![0.0; 24], 0.0);
         assert_eq!((metrics.max, metrics.mean, metrics.rmse, metrics.p99), (0.0, 0.0, 0.0, 0.0));
         assert_eq!((metrics.worst, metrics.failing, metrics.densest), (None, 0, None));
+    }
+
+    #[test]
+    fn without_failing_pixels_all_numbers_are_0_and_none_is_below() {
+        let metrics = Metrics::of_few::<4>(&[], (6, 3), None);
+        assert_eq!(metrics, of(3, 2, 4, vec![0.0; 24], 0.0));
+        assert!(metrics.mean.is_sign_positive() && metrics.rmse.is_sign_positive());
     }
 
     #[test]
