@@ -77,8 +77,13 @@ impl Machine {
     }
 }
 
-/// Lines of the screen begin and end at vertices: other vertices are other lines.
-const SCREEN_LINES: &[Kind] = &[Kind::GeometryOverlay];
+/// Lines of the screen begin and end at vertices: other vertices are other lines. Dynamic lines are simplified from one end to the other:
+/// other vertices are left out from the other end.
+const FROM_END_TO_END: &[Kind] = &[Kind::GeometryOverlay, Kind::DynamicLine];
+
+/// Those, and what looks at segments one by one: a clipmap blends strips where they meet, and inverse projection asks the nearest edge.
+const BY_SEGMENTS: &[Kind] =
+    &[Kind::GeometryOverlay, Kind::DynamicLine, Kind::Clipmap, Kind::InverseProjection];
 
 /// All but stencil volumes compose in a shader.
 const SHADERS: &[Kind] =
@@ -90,10 +95,10 @@ pub(super) const VARIANTS: &[Variant] = &[
     Variant { name: "blended into codes", not: SHADERS, edit: Some(Target) },
     Variant { name: "tiles of 32 pixels", not: &[], edit: Some(Tiles(32)) },
     Variant { name: "tiles of 48 pixels", not: &[], edit: Some(Tiles(48)) },
-    Variant { name: "segments split", not: SCREEN_LINES, edit: Some(Scene(g::segments_split)) },
-    Variant { name: "rings begin elsewhere", not: SCREEN_LINES, edit: Some(Scene(g::rings_rotated)) },
-    Variant { name: "rings run the other way", not: SCREEN_LINES, edit: Some(Scene(g::rings_reversed)) },
-    Variant { name: "lines run the other way", not: SCREEN_LINES, edit: Some(Scene(g::lines_reversed)) },
+    Variant { name: "segments split", not: BY_SEGMENTS, edit: Some(Scene(g::segments_split)) },
+    Variant { name: "rings begin elsewhere", not: FROM_END_TO_END, edit: Some(Scene(g::rings_rotated)) },
+    Variant { name: "rings run the other way", not: FROM_END_TO_END, edit: Some(Scene(g::rings_reversed)) },
+    Variant { name: "lines run the other way", not: FROM_END_TO_END, edit: Some(Scene(g::lines_reversed)) },
     Variant { name: "vertices repeated", not: &[], edit: Some(Scene(g::vertices_repeated)) },
     Variant { name: "features far away", not: &[], edit: Some(Scene(g::far_features_added)) },
     Variant { name: "clear layers", not: &[], edit: Some(Scene(g::clear_layers_added)) },

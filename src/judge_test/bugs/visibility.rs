@@ -26,11 +26,7 @@ pub(super) const BUGS: &[Bug] = &[
     Bug::any(Here, "far plane too near", Scene(g::far_plane_too_near)),
     Bug::any(Here, "mesh of a coarser level", Keys(&["terrain.lod.error_px=6"])),
     Bug::any(Here, "no level of detail", Keys(&["terrain.lod="])),
-    Bug::any(
-        Here,
-        "depths of 16 bits before a near plane at 0.1 m",
-        Keys(&["device.depth=\"unorm16\"", "camera.near_m=0.1"]),
-    ),
+    Bug::any(Here, "depths of 16 bits before a near plane at 0.1 m", Scene(g::depths_of_16_bits)),
     Bug::of(
         &[Kind::GeometryOverlay],
         Here,

@@ -2,7 +2,7 @@
 
 use crate::math::max;
 use crate::scene::{Feature, Scene, Shape, Surface};
-use crate::space::Plan;
+use crate::space::{Plan, PlanBox};
 use glam::DVec2;
 
 /// Whether an edit made features other than they were.
@@ -74,11 +74,19 @@ pub(in super::super) fn first_features_only(scene: &mut Scene, _: &mut Surface) 
     })
 }
 
+/// Where two features of a layer may lie on one another.
 pub(in super::super) fn features_reversed(scene: &mut Scene, _: &mut Surface) -> bool {
     scene.layers.iter_mut().fold(false, |any, layer| {
+        let boxes: Vec<PlanBox> = layer.features.iter().map(|feature| around(&feature.shape)).collect();
+        let meets = |k: usize| boxes[..k].iter().any(|other| other.meets(&boxes[k]));
+        let is_other = (0..boxes.len()).any(meets);
         layer.features.reverse();
-        any | (layer.features.len() > 1)
+        any | is_other
     })
+}
+
+fn around(shape: &Shape) -> PlanBox {
+    PlanBox::around(shape.parts().flatten().copied())
 }
 
 pub(in super::super) fn layers_reversed(scene: &mut Scene, _: &mut Surface) -> bool {

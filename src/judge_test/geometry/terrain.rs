@@ -1,6 +1,6 @@
 //! Edits of the terrain, the ground, the sky and the camera.
 
-use crate::scene::{Color, GroundColors, Light, Posts, Projection, Scene, Surface};
+use crate::scene::{Color, DepthFormat, GroundColors, Light, Posts, Projection, Scene, Surface};
 use crate::space::{Plan, World};
 use glam::{DVec2, DVec3};
 
@@ -137,6 +137,13 @@ pub(in super::super) fn near_plane_ignored(scene: &mut Scene, _: &mut Surface) -
 
 pub(in super::super) fn far_plane_ignored(scene: &mut Scene, _: &mut Surface) -> bool {
     scene.camera.far_m.take().is_some()
+}
+
+/// Depths are few where the near plane is near; of parallel rays they are evenly spaced, and enough.
+pub(in super::super) fn depths_of_16_bits(scene: &mut Scene, _: &mut Surface) -> bool {
+    scene.device.depth = DepthFormat::Unorm16;
+    scene.camera.near_m = 0.1;
+    matches!(scene.camera.projection, Projection::Perspective { .. })
 }
 
 /// A far plane where the middle of the picture is seen.
