@@ -1,0 +1,38 @@
+//! Draws a bundle of `drapery export` on a GPU, as its README says.
+
+mod bundle;
+mod frame;
+mod gl;
+mod stencil;
+mod write;
+
+use std::path::Path;
+
+fn run() -> Result<(), String> {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let [bundle, out, more @ ..] = &words[..] else {
+        return Err("usage: drapery-client BUNDLE FRAMES [--bug NAME] [--float]".into());
+    };
+    let bug = more.iter().skip_while(|word| *word != "--bug").nth(1).map_or("", String::as_str);
+    let float = more.iter().any(|word| word == "--float");
+    eprintln!("{}", gl::open()?);
+    let bundle = bundle::Bundle::open(Path::new(bundle))?;
+    std::fs::create_dir_all(out).map_err(|error| format!("{out}: {error}"))?;
+    let samples = bundle.number(&["settings", "samples"]).unwrap_or(1.0) as usize;
+    match bundle.technique() {
+        "stencil-volume" => {
+            let frame = frame::Frame::new(&bundle, bug, samples, float)?;
+            frame.terrain()?;
+            stencil::draw(&frame)?;
+            frame.save(Path::new(out))
+        }
+        other => Err(format!("this client does not draw {other}")),
+    }
+}
+
+fn main() {
+    if let Err(error) = run() {
+        eprintln!("drapery-client: {error}");
+        std::process::exit(1);
+    }
+}
