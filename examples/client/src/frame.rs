@@ -36,11 +36,14 @@ pub struct Frame<'a> {
     pub linear: bool,
     /// The depth test of what is nearer.
     pub nearer: gl::Enum,
-    pub color: u32,
     pub framebuffer: u32,
     ids: u32,
     plan: u32,
-    mesh: u32,
+    pub ids_texture: u32,
+    pub plan_texture: u32,
+    pub mesh: u32,
+    /// Pixels that are drawn beyond the right and the upper border.
+    extra: usize,
     corners: usize,
     float: bool,
 }
@@ -50,7 +53,12 @@ pub fn floats(values: &[f32]) -> u32 {
     unsafe {
         gl::glGenBuffers(1, &mut buffer);
         gl::glBindBuffer(gl::ARRAY_BUFFER, buffer);
-        gl::glBufferData(gl::ARRAY_BUFFER, size_of_val(values) as isize, values.as_ptr().cast(), gl::STATIC_DRAW);
+        gl::glBufferData(
+            gl::ARRAY_BUFFER,
+            size_of_val(values) as isize,
+            values.as_ptr().cast(),
+            gl::STATIC_DRAW,
+        );
     }
     buffer
 }
@@ -61,6 +69,9 @@ fn texture(format: gl::Enum, width: usize, height: usize) -> u32 {
         gl::glGenTextures(1, &mut texture);
         gl::glBindTexture(gl::TEXTURE_2D, texture);
         gl::glTexStorage2D(gl::TEXTURE_2D, 1, format, width as i32, height as i32);
+        for filter in [gl::TEXTURE_MIN_FILTER, gl::TEXTURE_MAG_FILTER] {
+            gl::glTexParameteri(gl::TEXTURE_2D, filter, gl::NEAREST as i32);
+        }
     }
     texture
 }
@@ -72,7 +83,13 @@ fn target(color: u32, depth: Option<u32>) -> Result<u32, String> {
         gl::glBindFramebuffer(gl::FRAMEBUFFER, framebuffer);
         gl::glFramebufferTexture2D(gl::FRAMEBUFFER, gl::COLOR_ATTACHMENT0, gl::TEXTURE_2D, color, 0);
         if let Some(depth) = depth {
-            gl::glFramebufferTexture2D(gl::FRAMEBUFFER, gl::DEPTH_STENCIL_ATTACHMENT, gl::TEXTURE_2D, depth, 0);
+            gl::glFramebufferTexture2D(
+                gl::FRAMEBUFFER,
+                gl::DEPTH_STENCIL_ATTACHMENT,
+                gl::TEXTURE_2D,
+                depth,
+                0,
+            );
         }
         match gl::glCheckFramebufferStatus(gl::FRAMEBUFFER) {
             0x8CD5 => Ok(framebuffer),
@@ -82,8 +99,15 @@ fn target(color: u32, depth: Option<u32>) -> Result<u32, String> {
 }
 
 impl<'a> Frame<'a> {
-    pub fn new(bundle: &'a Bundle, bug: &'a str, samples: usize, float: bool) -> Result<Self, String> {
-        let size = |name| bundle.number(&["image", name]).map(|size| size as usize * samples).ok_or("no size");
+    pub fn new(
+        bundle: &'a Bundle,
+        bug: &'a str,
+        samples: usize,
+        extra: usize,
+        float: bool,
+    ) -> Result<Self, String> {
+        let size =
+            |name| bundle.number(&["image", name]).map(|size| size as usize * samples).ok_or("no size");
         let (width, height) = (size("width")?, size("height")?);
         let linear = bundle.word(&["compositing_space"]) == "linear";
         let format = match (float, linear) {
@@ -94,23 +118,39 @@ impl<'a> Frame<'a> {
         let kind = bundle.word(&["device", "depth"]).to_owned();
         let reversed = kind.contains("reversed");
         let depth = if kind.contains("24") { gl::DEPTH24_STENCIL8 } else { gl::DEPTH32F_STENCIL8 };
-        let color = texture(format, width, height);
-        let depth = texture(depth, width, height);
+        let (wide, high) = (width + extra, height + extra);
+        let color = texture(format, wide, high);
+        let depth = texture(depth, wide, high);
         let framebuffer = target(color, Some(depth))?;
-        let ids = target(texture(gl::R32UI, width, height), Some(depth))?;
-        let plan = target(texture(gl::RG32F, width, height), Some(depth))?;
+        let (ids_texture, plan_texture) = (texture(gl::R32UI, wide, high), texture(gl::RG32F, wide, high));
+        let ids = target(ids_texture, Some(depth))?;
+        let plan = target(plan_texture, Some(depth))?;
         unsafe {
             let mut array = 0;
             gl::glGenVertexArrays(1, &mut array);
             gl::glBindVertexArray(array);
             gl::glClipControl(gl::LOWER_LEFT, gl::ZERO_TO_ONE);
             gl::glDisable(gl::DITHER);
-            gl::glViewport(0, 0, width as i32, height as i32);
+            gl::glViewport(0, 0, wide as i32, high as i32);
         }
         let nearer = if reversed { gl::GREATER } else { gl::LESS };
         let mut frame = Self {
-            bundle, bug, samples, width, height, linear, nearer, color, framebuffer, ids, plan,
-            mesh: 0, corners: 0, float,
+            bundle,
+            bug,
+            samples,
+            width,
+            height,
+            linear,
+            nearer,
+            framebuffer,
+            ids,
+            plan,
+            ids_texture,
+            plan_texture,
+            extra,
+            mesh: 0,
+            corners: 0,
+            float,
         };
         frame.read_mesh()?;
         Ok(frame)
@@ -145,7 +185,9 @@ impl<'a> Frame<'a> {
             for corner in corners {
                 values.extend([0, 1, 2].map(|axis| place(*corner, axis) as f32));
                 values.extend(&paint);
-                let over = |axis: usize| plan.as_ref().map_or(place(*corner, axis), |p| p[*corner as usize * 2 + axis]);
+                let over = |axis: usize| {
+                    plan.as_ref().map_or(place(*corner, axis), |p| p[*corner as usize * 2 + axis])
+                };
                 values.extend([over(0) as f32, over(1) as f32]);
             }
         }
@@ -162,8 +204,21 @@ impl<'a> Frame<'a> {
 
     /// Sets the transform of a program.
     pub fn use_program(&self, program: u32) {
-        let matrix: Vec<f32> = self.bundle.matrix("clip_from_world").iter().map(|v| *v as f32).collect();
-        let shift = if self.bug == "half-pixel" { [1.0 / self.width as f32, 1.0 / self.height as f32] } else { [0.0; 2] };
+        let mut matrix = self.bundle.matrix("clip_from_world");
+        if self.extra > 0 {
+            for (row, all) in [self.width, self.height].into_iter().enumerate() {
+                let share = all as f64 / (all + self.extra) as f64;
+                (0..4).for_each(|k| {
+                    matrix[4 * row + k] = share * (matrix[4 * row + k] + matrix[12 + k]) - matrix[12 + k]
+                });
+            }
+        }
+        let matrix: Vec<f32> = matrix.iter().map(|v| *v as f32).collect();
+        let shift = if self.bug == "half-pixel" {
+            [1.0 / self.width as f32, 1.0 / self.height as f32]
+        } else {
+            [0.0; 2]
+        };
         unsafe {
             gl::glUseProgram(program);
             gl::glUniformMatrix4fv(gl::uniform(program, "clip_from_world"), 1, 1, matrix.as_ptr());
@@ -173,7 +228,8 @@ impl<'a> Frame<'a> {
 
     /// Colour, depth, the triangles' numbers and plan points.
     pub fn terrain(&self) -> Result<(), String> {
-        let paint = "flat in vec3 color; layout(location = 0) out vec4 to; void main() { to = vec4(color, 1.0); }";
+        let paint =
+            "flat in vec3 color; layout(location = 0) out vec4 to; void main() { to = vec4(color, 1.0); }";
         let number = "layout(location = 0) out uint to; void main() { to = uint(gl_PrimitiveID); }";
         let plan = "in vec2 plan; layout(location = 0) out vec2 to; void main() { to = plan; }";
         let sky = self.bundle.numbers(&["image", "background"]);
@@ -197,7 +253,9 @@ impl<'a> Frame<'a> {
                 }
                 match target == self.ids {
                     true => gl::glClearBufferuiv(gl::COLOR, 0, [u32::MAX; 4].as_ptr()),
-                    false if target == self.plan => gl::glClearBufferfv(gl::COLOR, 0, [f32::INFINITY; 4].as_ptr()),
+                    false if target == self.plan => {
+                        gl::glClearBufferfv(gl::COLOR, 0, [f32::INFINITY; 4].as_ptr())
+                    }
                     false => gl::glClearBufferfv(gl::COLOR, 0, sky.as_ptr()),
                 }
                 gl::glClearBufferfi(gl::DEPTH_STENCIL, 0, far, 0);
@@ -213,7 +271,13 @@ impl<'a> Frame<'a> {
         if opacity == 1.0 {
             return inside();
         }
-        let format = if self.float { gl::RGBA32F } else if self.linear { gl::SRGB8_ALPHA8 } else { gl::RGBA8 };
+        let format = if self.float {
+            gl::RGBA32F
+        } else if self.linear {
+            gl::SRGB8_ALPHA8
+        } else {
+            gl::RGBA8
+        };
         let below = texture(format, self.width, self.height);
         let copy = target(below, None)?;
         let (w, h) = (self.width as i32, self.height as i32);
@@ -255,9 +319,14 @@ impl<'a> Frame<'a> {
         values.chunks_exact(row).rev().flatten().copied().collect()
     }
 
-    /// The plan points, rows from the top.
-    pub fn plan(&self) -> Vec<f32> {
-        self.read(self.plan, gl::RG, gl::FLOAT, 2)
+    /// The pixels in a row that are drawn, with those beyond the border.
+    pub fn wide(&self) -> usize {
+        self.width + self.extra
+    }
+
+    /// The rows that are drawn.
+    pub fn high(&self) -> usize {
+        self.height + self.extra
     }
 
     /// The picture, the view depths and the triangles' numbers.
@@ -265,14 +334,15 @@ impl<'a> Frame<'a> {
         let of = self.bundle.technique();
         let depth: Vec<f32> = self.read(self.framebuffer, gl::DEPTH_COMPONENT, gl::FLOAT, 1);
         let ids: Vec<u32> = self.read(self.ids, gl::RED_INTEGER, gl::UNSIGNED_INT, 1);
-        let depth: Vec<u8> = depth.iter().zip(&ids).flat_map(|(d, id)| self.view_depth(*d, *id).to_le_bytes()).collect();
+        let depth: Vec<u8> =
+            depth.iter().zip(&ids).flat_map(|(d, id)| self.view_depth(*d, *id).to_le_bytes()).collect();
         let shape = format!("{}, {}", self.height, self.width);
         write::npy(&folder.join(format!("{of}.depth.npy")), "<f8", &shape, &depth)?;
         let ids: Vec<u8> = ids.iter().flat_map(|id| id.to_le_bytes()).collect();
         write::npy(&folder.join(format!("{of}.triangle.npy")), "<u4", &shape, &ids)?;
         let values: Vec<f64> = if self.float {
             let values: Vec<f32> = self.read(self.framebuffer, gl::RGBA, gl::FLOAT, 4);
-            values.iter().map(|v| f64::from(*v)).collect()
+            values.iter().map(|v| f64::from(*v).min(1.0)).collect()
         } else {
             let values: Vec<u8> = self.read(self.framebuffer, gl::RGBA, gl::UNSIGNED_BYTE, 4);
             let linear = |k: usize, v: f64| if self.linear && k % 4 != 3 { to_linear(v) } else { v };
@@ -305,8 +375,10 @@ impl<'a> Frame<'a> {
         let mut codes = Vec::with_capacity(values.len() / n / n);
         for y in 0..self.height / n {
             for x in 0..self.width / n {
-                let of = |k: usize, part: usize| values[((y * n + k / n) * self.width + x * n + k % n) * 4 + part];
-                let mean = [0, 1, 2, 3].map(|part| (0..n * n).map(|k| of(k, part)).sum::<f64>() / (n * n) as f64);
+                let of =
+                    |k: usize, part: usize| values[((y * n + k / n) * self.width + x * n + k % n) * 4 + part];
+                let mean =
+                    [0, 1, 2, 3].map(|part| (0..n * n).map(|k| of(k, part)).sum::<f64>() / (n * n) as f64);
                 for part in mean[..3].iter().map(|c| if mean[3] == 0.0 { 0.0 } else { c / mean[3] }) {
                     let encoded = if self.linear { to_encoded(part) } else { part };
                     codes.push((255.0 * encoded.clamp(0.0, 1.0) + 0.5).floor() as u8);
@@ -316,5 +388,4 @@ impl<'a> Frame<'a> {
         }
         codes
     }
-
 }

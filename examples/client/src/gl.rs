@@ -24,7 +24,6 @@ pub const DEPTH_TEST: Enum = 0xB71;
 pub const STENCIL_TEST: Enum = 0xB90;
 pub const BLEND: Enum = 0xBE2;
 pub const DITHER: Enum = 0xBD0;
-pub const SCISSOR_TEST: Enum = 0xC11;
 pub const DEPTH_CLAMP: Enum = 0x864F;
 pub const FRAMEBUFFER_SRGB: Enum = 0x8DB9;
 pub const UNSIGNED_BYTE: Enum = 0x1401;
@@ -32,7 +31,6 @@ pub const UNSIGNED_INT: Enum = 0x1405;
 pub const FLOAT: Enum = 0x1406;
 pub const DEPTH_COMPONENT: Enum = 0x1902;
 pub const RGBA: Enum = 0x1908;
-pub const RG: Enum = 0x8227;
 pub const RED_INTEGER: Enum = 0x8D94;
 pub const KEEP: Enum = 0x1E00;
 pub const REPLACE: Enum = 0x1E01;
@@ -44,6 +42,7 @@ pub const RGBA8: Enum = 0x8058;
 pub const SRGB8_ALPHA8: Enum = 0x8C43;
 pub const RGBA32F: Enum = 0x8814;
 pub const RG32F: Enum = 0x8230;
+pub const R32F: Enum = 0x822E;
 pub const R32UI: Enum = 0x8236;
 pub const DEPTH24_STENCIL8: Enum = 0x88F0;
 pub const DEPTH32F_STENCIL8: Enum = 0x8CAD;
@@ -59,6 +58,8 @@ pub const ARRAY_BUFFER: Enum = 0x8892;
 pub const STATIC_DRAW: Enum = 0x88E4;
 pub const COLOR: Enum = 0x1800;
 pub const DEPTH_STENCIL: Enum = 0x84F9;
+pub const TEXTURE_MAG_FILTER: Enum = 0x2800;
+pub const TEXTURE_MIN_FILTER: Enum = 0x2801;
 pub const NEAREST: Enum = 0x2600;
 pub const COLOR_BIT: u32 = 0x4000;
 pub const LOWER_LEFT: Enum = 0x8CA1;
@@ -74,7 +75,12 @@ unsafe extern "C" {
     fn eglGetPlatformDisplay(platform: u32, native: *mut c_void, attributes: *const isize) -> *mut c_void;
     fn eglInitialize(display: *mut c_void, major: *mut i32, minor: *mut i32) -> u32;
     fn eglBindAPI(api: u32) -> u32;
-    fn eglCreateContext(d: *mut c_void, config: *mut c_void, share: *mut c_void, a: *const i32) -> *mut c_void;
+    fn eglCreateContext(
+        d: *mut c_void,
+        config: *mut c_void,
+        share: *mut c_void,
+        a: *const i32,
+    ) -> *mut c_void;
     fn eglMakeCurrent(d: *mut c_void, draw: *mut c_void, read: *mut c_void, context: *mut c_void) -> u32;
 }
 
@@ -102,18 +108,37 @@ unsafe extern "C" {
     pub fn glGenBuffers(count: i32, to: *mut u32);
     pub fn glBindBuffer(target: Enum, buffer: u32);
     pub fn glBufferData(target: Enum, size: isize, from: *const c_void, usage: Enum);
-    pub fn glVertexAttribPointer(at: u32, size: i32, kind: Enum, norm: u8, stride: i32, offset: *const c_void);
+    pub fn glVertexAttribPointer(
+        at: u32,
+        size: i32,
+        kind: Enum,
+        norm: u8,
+        stride: i32,
+        offset: *const c_void,
+    );
     pub fn glEnableVertexAttribArray(at: u32);
     pub fn glGenTextures(count: i32, to: *mut u32);
     pub fn glActiveTexture(unit: Enum);
     pub fn glBindTexture(target: Enum, texture: u32);
     pub fn glTexBuffer(target: Enum, format: Enum, buffer: u32);
     pub fn glTexStorage2D(target: Enum, levels: i32, format: Enum, width: i32, height: i32);
+    pub fn glTexParameteri(target: Enum, name: Enum, value: i32);
     pub fn glGenFramebuffers(count: i32, to: *mut u32);
     pub fn glBindFramebuffer(target: Enum, framebuffer: u32);
     pub fn glFramebufferTexture2D(target: Enum, attachment: Enum, kind: Enum, texture: u32, level: i32);
     pub fn glCheckFramebufferStatus(target: Enum) -> Enum;
-    pub fn glBlitFramebuffer(a: i32, b: i32, c: i32, d: i32, e: i32, f: i32, g: i32, h: i32, mask: u32, filter: Enum);
+    pub fn glBlitFramebuffer(
+        a: i32,
+        b: i32,
+        c: i32,
+        d: i32,
+        e: i32,
+        f: i32,
+        g: i32,
+        h: i32,
+        mask: u32,
+        filter: Enum,
+    );
     pub fn glClearBufferfv(buffer: Enum, at: i32, value: *const f32);
     pub fn glClearBufferuiv(buffer: Enum, at: i32, value: *const u32);
     pub fn glClearBufferfi(buffer: Enum, at: i32, depth: f32, stencil: i32);
@@ -121,7 +146,6 @@ unsafe extern "C" {
     pub fn glEnable(what: Enum);
     pub fn glDisable(what: Enum);
     pub fn glViewport(x: i32, y: i32, width: i32, height: i32);
-    pub fn glScissor(x: i32, y: i32, width: i32, height: i32);
     pub fn glDepthFunc(func: Enum);
     pub fn glDepthMask(on: u8);
     pub fn glColorMask(r: u8, g: u8, b: u8, a: u8);

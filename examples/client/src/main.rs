@@ -3,6 +3,7 @@
 mod bundle;
 mod frame;
 mod gl;
+mod inverse;
 mod stencil;
 mod write;
 
@@ -21,9 +22,15 @@ fn run() -> Result<(), String> {
     let samples = bundle.number(&["settings", "samples"]).unwrap_or(1.0) as usize;
     match bundle.technique() {
         "stencil-volume" => {
-            let frame = frame::Frame::new(&bundle, bug, samples, float)?;
+            let frame = frame::Frame::new(&bundle, bug, samples, 0, float)?;
             frame.terrain()?;
             stencil::draw(&frame)?;
+            frame.save(Path::new(out))
+        }
+        "inverse-projection" => {
+            let frame = frame::Frame::new(&bundle, bug, 1, 1, float)?;
+            frame.terrain()?;
+            inverse::draw(&frame)?;
             frame.save(Path::new(out))
         }
         other => Err(format!("this client does not draw {other}")),

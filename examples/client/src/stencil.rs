@@ -107,12 +107,13 @@ fn volumes(frame: &Frame, objects: &[Object]) -> Result<(Vec<Volume>, Vec<f32>),
             "f32-subtract" => [c[0] as f32 - origin[0] as f32, c[1] as f32 - origin[1] as f32, z as f32],
             _ => [(c[0] - origin[0]) as f32, (c[1] - origin[1]) as f32, z as f32],
         };
-        let mut add = |corners: [([f64; 2], f64); 3]| corners.iter().for_each(|(c, z)| values.extend(place(*c, *z)));
+        let mut add =
+            |corners: [([f64; 2], f64); 3]| corners.iter().for_each(|(c, z)| values.extend(place(*c, *z)));
         if row[4] != 0.0 && bottom != top {
             let apex = outline[0][0];
-            let edges = || outline.iter().flat_map(|ring| {
-                (0..ring.len()).map(|k| (ring[k], ring[(k + 1) % ring.len()]))
-            });
+            let edges = || {
+                outline.iter().flat_map(|ring| (0..ring.len()).map(|k| (ring[k], ring[(k + 1) % ring.len()])))
+            };
             for (a, b) in edges().filter(|(a, b)| *a != apex && *b != apex) {
                 if frame.bug != "no-caps" && frame.bug != "no-top-caps" {
                     add([(apex, top), (a, top), (b, top)]);
@@ -190,7 +191,9 @@ pub fn draw(frame: &Frame) -> Result<(), String> {
     for layer in objects.chunk_by(|a, b| a.layer == b.layer) {
         let opacity = frame.bundle.layer_opacity(layer[0].layer);
         frame.layer(opacity, &mut || {
-            layer.chunk_by(|a, b| a.pass == b.pass).for_each(|pass| mask(frame, pass, &volumes, faces, screen));
+            layer
+                .chunk_by(|a, b| a.pass == b.pass)
+                .for_each(|pass| mask(frame, pass, &volumes, faces, screen));
             Ok(())
         })?;
     }
@@ -224,7 +227,11 @@ fn mask(frame: &Frame, pass: &[Object], volumes: &[Volume], faces: u32, screen: 
         over_all();
     }
     let color = frame.premultiplied(object.paint);
-    let blend = if frame.bundle.word(&["compositing_mode"]) == "additive" { gl::ONE } else { gl::ONE_MINUS_SRC_ALPHA };
+    let blend = if frame.bundle.word(&["compositing_mode"]) == "additive" {
+        gl::ONE
+    } else {
+        gl::ONE_MINUS_SRC_ALPHA
+    };
     unsafe {
         gl::glColorMask(1, 1, 1, 1);
         gl::glEnable(gl::BLEND);
@@ -241,7 +248,9 @@ fn mask(frame: &Frame, pass: &[Object], volumes: &[Volume], faces: u32, screen: 
     for object in pass {
         let of = &volumes[object.volumes.clone()];
         let count: usize = of.iter().map(|volume| volume.count).sum();
-        unsafe { gl::glDrawArrays(gl::TRIANGLES, of.first().map_or(0, |volume| volume.first as i32), count as i32) };
+        unsafe {
+            gl::glDrawArrays(gl::TRIANGLES, of.first().map_or(0, |volume| volume.first as i32), count as i32)
+        };
     }
 }
 

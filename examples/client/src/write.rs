@@ -11,7 +11,9 @@ pub fn png(path: &Path, width: usize, pixels: &[u8]) -> Result<(), String> {
     let table: Vec<u32> = (0..256u32)
         .map(|n| (0..8).fold(n, |c, _| if c & 1 == 1 { 0xEDB8_8320 ^ (c >> 1) } else { c >> 1 }))
         .collect();
-    let crc = |bytes: &[u8]| !bytes.iter().fold(!0u32, |c, b| table[((c ^ u32::from(*b)) & 255) as usize] ^ (c >> 8));
+    let crc = |bytes: &[u8]| {
+        !bytes.iter().fold(!0u32, |c, b| table[((c ^ u32::from(*b)) & 255) as usize] ^ (c >> 8))
+    };
     let mut out = b"\x89PNG\r\n\x1a\n".to_vec();
     let mut chunk = |kind: &[u8; 4], body: &[u8]| {
         out.extend((body.len() as u32).to_be_bytes());
@@ -19,7 +21,8 @@ pub fn png(path: &Path, width: usize, pixels: &[u8]) -> Result<(), String> {
         out.extend(&all);
         out.extend(crc(&all).to_be_bytes());
     };
-    let raw: Vec<u8> = pixels.chunks(width * 4).flat_map(|row| std::iter::once(0).chain(row.iter().copied())).collect();
+    let raw: Vec<u8> =
+        pixels.chunks(width * 4).flat_map(|row| std::iter::once(0).chain(row.iter().copied())).collect();
     let mut body = vec![0x78, 1];
     let parts = raw.chunks(65535);
     let last = parts.len() - 1;
@@ -30,7 +33,9 @@ pub fn png(path: &Path, width: usize, pixels: &[u8]) -> Result<(), String> {
         body.extend((!size).to_le_bytes());
         body.extend(part);
     }
-    let (a, b) = raw.iter().fold((1u32, 0u32), |(a, b), v| ((a + u32::from(*v)) % 65521, (a + u32::from(*v) + b) % 65521));
+    let (a, b) = raw
+        .iter()
+        .fold((1u32, 0u32), |(a, b), v| ((a + u32::from(*v)) % 65521, (a + u32::from(*v) + b) % 65521));
     body.extend((b << 16 | a).to_be_bytes());
     let size = [(width as u32).to_be_bytes(), ((pixels.len() / width / 4) as u32).to_be_bytes()].concat();
     chunk(b"IHDR", &[&size[..], &[8, 6, 0, 0, 0]].concat());
