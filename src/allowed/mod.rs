@@ -46,7 +46,7 @@ pub fn allowed(
     let view = View { stage, frame, progress };
     let settings = &stage.scene.technique;
     let Pictures { mut hypotheses, stages, features } = match kind {
-        Kind::StencilVolume => stencil_volume::sampling(&settings.get()).pictures(&view, &guesses),
+        Kind::StencilVolume => stencil_volume::sampling(&settings.get())?.pictures(&view, &guesses),
         Kind::StaticDecal => {
             static_decal::sampling(&settings.get(), &stage.draw_list)?.pictures(&view, &guesses)
         }

@@ -67,10 +67,9 @@ impl PixelRange {
     ) -> Self {
         let slack = match blending {
             Blending::Shader => BLEND,
-            Blending::Target => BLEND * blends(samples),
-            Blending::CoarseTarget => {
-                BLEND * (coarse_blends(samples, list) + f64::from(u8::from(samples.len() > 1)))
-            }
+            Blending::Target => BLEND * roundings(samples, list, 1.0),
+            // The source's colour and its opacity are rounded before they are multiplied.
+            Blending::CoarseTarget => BLEND * roundings(samples, list, 3.0),
         };
         Self::of_means(samples, compositor, slack)
     }
@@ -134,34 +133,26 @@ impl PixelRange {
     }
 }
 
-/// How often a sample is blended at most, and once for its rounding.
-fn blends(samples: &[Sample]) -> f64 {
-    let outcomes = samples.iter().flat_map(|sample| &sample.outcomes);
-    let most = outcomes.map(|outcome| outcome.items.as_ref().map_or(4, Vec::len)).max().unwrap_or(0);
-    most.clamp(1, 4) as f64 + f64::from(u8::from(samples.len() > 1))
-}
-
-/// How many roundings a sample's colour is off by at most where each blend rounds the source's colour, its opacity and what is left of what lies
-/// below; less of it shows through what comes above.
-fn coarse_blends(samples: &[Sample], list: &DrawList) -> f64 {
-    const OF_A_BLEND: f64 = 3.0;
-    // One more blend, of both colours by a factor that is rounded, too.
-    const OF_A_GROUP: f64 = 4.0;
+/// How many roundings a sample's colour is off by at most: its ground is rounded, each blend rounds so often, and less shows through of what
+/// lies below; the mean of several samples is rounded, too.
+fn roundings(samples: &[Sample], list: &DrawList, of_a_blend: f64) -> f64 {
     // Of items that were not told apart.
-    const OF_A_CROWD: f64 = 12.0;
+    const MOST_BLENDS: f64 = 4.0;
     let of_outcome = |outcome: &Outcome| {
-        let Some(items) = &outcome.items else { return OF_A_CROWD };
+        let Some(items) = &outcome.items else { return MOST_BLENDS * of_a_blend };
         let mut off = 1.0;
         for (item, known) in items {
             let style = list.style_of(*item);
             let alpha = style.paint.0[3];
-            let blended = if alpha < 1.0 { off * (1.0 - alpha) + OF_A_BLEND } else { 1.0 };
+            let blended = if alpha < 1.0 { off * (1.0 - alpha) + of_a_blend } else { 1.0 };
             off = if *known == Known::Open { math::max(off, blended) } else { blended };
-            off += if style.group.is_some() { OF_A_GROUP } else { 0.0 };
+            // A layer that is composed as a whole is one more blend.
+            off += if style.group.is_some() { of_a_blend + 1.0 } else { 0.0 };
         }
         off
     };
-    samples.iter().flat_map(|sample| &sample.outcomes).map(of_outcome).fold(1.0, math::max)
+    let most = samples.iter().flat_map(|sample| &sample.outcomes).map(of_outcome).fold(1.0, math::max);
+    most + f64::from(u8::from(samples.len() > 1))
 }
 
 pub(super) fn widened([low, high]: ColorRange, slack: f64) -> ColorRange {
