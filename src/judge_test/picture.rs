@@ -113,7 +113,7 @@ pub(super) fn seven_bits(of: &Picture) -> Picture {
 /// Codes of an ordered dither of a code: quads' opposite corners one more.
 pub(super) fn dithered(of: &Picture) -> Picture {
     let codes = (0..).zip(of.values()).map(|(k, code): (usize, _)| {
-        let more = u8::from((k % of.width() + k / of.width()) % 2 == 0);
+        let more = u8::from((k % of.width() + k / of.width()).is_multiple_of(2));
         let [r, g, b, a] = *code;
         [r.saturating_add(more), g.saturating_add(more), b.saturating_add(more), a]
     });
