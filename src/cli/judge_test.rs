@@ -58,7 +58,7 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
     drop(bar);
     if let Some(path) = &arguments.json {
         let text = trial.json()?;
-        write_whole(path, &|to: &mut dyn Write| to.write_all(text.as_bytes()))?;
+        write_whole(path, |to: &mut dyn Write| to.write_all(text.as_bytes()))?;
     }
     let status = if trial.faults().is_empty() { Status::Passed } else { Status::Failed };
     match print(&trial.text()) {

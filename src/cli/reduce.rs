@@ -100,7 +100,7 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
         return told("what the command draws is right: there is nothing to reduce\n", Status::Failed);
     };
     let text = reduced.draft.text();
-    write_whole(&arguments.output, &|to: &mut dyn Write| to.write_all(text.as_bytes()))?;
+    write_whole(&arguments.output, |to: &mut dyn Write| to.write_all(text.as_bytes()))?;
     let (image, Failing { pixels, .. }) = (reduced.draft.image, reduced.failing);
     let said = format!(
         "{}: {} of {features} features, {} of {vertices} vertices, {} x {} pixels of which {pixels} are wrong; {} scenes were tried\n",
