@@ -4,9 +4,12 @@
 mod drawing;
 mod judged;
 
+use drapery::scene_file::{Override, SceneFile};
+use drapery::stage::Stage;
 use drapery::technique::Kind;
 use drawing::{frame_of, scene, stage};
 use judged::{MACHINES, allowed_of, best, outside, wide};
+use std::path::{Path, PathBuf};
 
 const HILLS: &str = r#"kind = "fbm", seed = 3, posts = [65, 65], cell_m = 10.0, height_m = 120.0"#;
 
@@ -72,71 +75,54 @@ fn what_bugs_draw_is_not_allowed() {
     }
 }
 
-/// Every scene among the goldens, by every machine that is allowed: about ten minutes of two cores in a release build.
+/// Every scene among the goldens, by every machine that is allowed: some minutes of a release build.
 #[test]
-#[ignore = "minutes; the goldens' own pictures are looked at by `golden check`"]
+#[ignore = "minutes: what is allowed of some goldens is golden itself"]
 fn what_machines_draw_of_every_golden_is_allowed() {
-    let only = std::env::var("DRAPERY_ALLOWED").unwrap_or_default();
-    let mut paths: Vec<_> = std::fs::read_dir("golden")
-        .unwrap()
-        .filter_map(|topic| {
-            let topic = topic.unwrap().path();
-            topic.is_dir().then(|| std::fs::read_dir(topic).unwrap().map(|file| file.unwrap().path()))
-        })
-        .flatten()
-        .filter(|path| {
-            path.extension().is_some_and(|e| e == "toml") && !path.to_string_lossy().ends_with("golden.toml")
-        })
-        .collect();
-    paths.sort();
-    for path in paths {
+    let mut failed = Vec::new();
+    for path in scenes() {
         let text = std::fs::read_to_string(&path).unwrap();
-        for kind in Kind::ALL {
-            let name = format!("{} {}", path.display(), kind.name());
-            if !name.contains(&only) {
-                continue;
-            }
-            let open = |changes: &[&str]| {
-                let changes: Vec<_> =
-                    changes.iter().map(|c| drapery::scene_file::Override::parse(c).unwrap()).collect();
-                let file = drapery::scene_file::SceneFile::parse(&text, Some(&path), &changes).ok()?;
-                let (scene, surface) = drapery::source::load::load(&file, &|_| {}).ok()?;
-                drapery::stage::Stage::new(scene, surface).ok()
-            };
-            let Some(stage) = open(&[]) else {
-                println!("{name}: not opened");
+        let open = |changes: &[&str]| {
+            let changes: Vec<_> = changes.iter().map(|change| Override::parse(change).unwrap()).collect();
+            let file = SceneFile::parse(&text, Some(&path), &changes).ok()?;
+            let (scene, surface) = drapery::source::load::load(&file, &|_| {}).ok()?;
+            Stage::new(scene, surface).ok()
+        };
+        let Some(of_scene) = open(&[]) else { continue };
+        for kind in drawing::kinds_for(&of_scene) {
+            let Ok(all) = drapery::allowed::allowed(kind, (&of_scene, &of_scene.view().unwrap()), &|_| {})
+            else {
+                println!("{} by {}: nobody knows", path.display(), kind.name());
                 continue;
             };
-            if drapery::technique::applies(kind, &stage).is_err() {
-                continue;
-            }
-            let view = stage.view().unwrap();
-            let start = std::time::Instant::now();
-            let all = match drapery::allowed::allowed(kind, (&stage, &view), &|_| {}) {
-                Ok(all) => all,
-                Err(error) => {
-                    println!("{name}: {error}");
-                    continue;
+            let machines = if of_scene.scene.device.is_exact() { &MACHINES[..] } else { &MACHINES[..1] };
+            for stage in machines.iter().filter_map(|machine| open(machine)) {
+                match best(&all, &frame_of(kind, &stage, &[]).image) {
+                    0 => {}
+                    outside => failed.push(format!(
+                        "{} by {} of {:?}: {outside}",
+                        path.display(),
+                        kind.name(),
+                        stage.scene.device
+                    )),
                 }
-            };
-            let took = start.elapsed().as_secs_f64();
-            let start = std::time::Instant::now();
-            let _ = drawing::truth_of(&stage);
-            let truth = start.elapsed().as_secs_f64();
-            let size = all.width * all.height;
-            let widths: Vec<f64> =
-                all.hypotheses.iter().map(|h| (wide(h) * 1000 / size) as f64 / 10.0).collect();
-            print!("{name}: wide {widths:?} %, {:.1} truths;", took / truth);
-            let exact = stage.scene.device.is_exact();
-            let mut worst = 0;
-            for machine in if exact { &MACHINES[..] } else { &MACHINES[..1] } {
-                let Some(stage) = open(machine) else { continue };
-                let image = frame_of(kind, &stage, &[]).image;
-                let missed: Vec<usize> = all.hypotheses.iter().map(|h| outside(h, &image)).collect();
-                worst = worst.max(*missed.iter().min().unwrap());
-                print!(" {missed:?}");
             }
-            println!("{}", if worst > 0 { " OUTSIDE" } else { "" });
         }
     }
+    assert!(failed.is_empty(), "{failed:#?}");
+}
+
+/// The scenes of the goldens.
+fn scenes() -> Vec<PathBuf> {
+    let in_folder = |folder: &Path| -> Vec<PathBuf> {
+        std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect()
+    };
+    let topics = in_folder(Path::new("golden")).into_iter().filter(|topic| topic.is_dir());
+    let is_scene = |path: &PathBuf| {
+        let name = path.to_string_lossy();
+        name.ends_with(".toml") && !name.ends_with(".golden.toml")
+    };
+    let mut scenes: Vec<PathBuf> = topics.flat_map(|topic| in_folder(&topic)).filter(is_scene).collect();
+    scenes.sort();
+    scenes
 }

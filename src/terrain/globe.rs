@@ -26,6 +26,14 @@ pub struct GlobeMesh {
     heights: (f64, f64),
 }
 
+/// What stands in a row of the lattice.
+pub(super) enum RowOf {
+    /// A row of posts, by its number among them.
+    Posts(usize),
+    /// The southern pole (0), or the northern one (1).
+    Pole(usize),
+}
+
 impl GlobeMesh {
     /// The triangles of all posts.
     ///
@@ -80,21 +88,21 @@ impl GlobeMesh {
         self.posts.poles.map(|height| height.is_some())
     }
 
-    /// The row among the posts of a row of the lattice, or the pole that it is at: 0 the southern one, 1 the northern one.
-    pub(super) fn row(&self, row: usize) -> std::result::Result<usize, usize> {
+    /// What stands in a row of the lattice.
+    pub(super) fn row(&self, row: usize) -> RowOf {
         let [south, _] = self.poles();
         match row.checked_sub(usize::from(south)) {
-            None => Err(0),
-            Some(row) if row < self.posts.posts.rows() => Ok(row),
-            Some(_) => Err(1),
+            None => RowOf::Pole(0),
+            Some(row) if row < self.posts.posts.rows() => RowOf::Posts(row),
+            Some(_) => RowOf::Pole(1),
         }
     }
 
     /// A row's y in the plan.
     pub fn y_of(&self, row: usize) -> f64 {
         match self.row(row) {
-            Ok(row) => self.posts.posts.plan(0, row).y,
-            Err(pole) => self.posts.pole_rows()[pole],
+            RowOf::Posts(row) => self.posts.posts.plan(0, row).y,
+            RowOf::Pole(pole) => self.posts.pole_rows()[pole],
         }
     }
 
@@ -104,8 +112,8 @@ impl GlobeMesh {
         let own = self.posts.posts.columns();
         match self.row(row) {
             _ if column >= columns || row >= rows => f64::NAN,
-            Ok(row) => self.posts.posts.heights()[row * own + column % own],
-            Err(pole) => self.posts.poles[pole].unwrap_or(f64::NAN),
+            RowOf::Posts(row) => self.posts.posts.heights()[row * own + column % own],
+            RowOf::Pole(pole) => self.posts.poles[pole].unwrap_or(f64::NAN),
         }
     }
 
@@ -113,8 +121,8 @@ impl GlobeMesh {
     pub(super) fn vertex(&self, post: Post) -> SurfaceVertex {
         let (column, row) = (post[0] as usize, post[1] as usize);
         match self.row(row) {
-            Ok(row) => vertex(&self.posts, column, row),
-            Err(pole) => pole_vertex(&self.posts, pole, self.posts.column(column)),
+            RowOf::Posts(row) => vertex(&self.posts, column, row),
+            RowOf::Pole(pole) => pole_vertex(&self.posts, pole, self.posts.column(column)),
         }
     }
 

@@ -10,6 +10,7 @@ use super::deviation::{Deviation, Slope, Window, columns};
 use super::right_triangle::{Post, RightTriangle};
 use crate::math;
 use crate::terrain::GlobeMesh;
+use crate::terrain::globe::RowOf;
 use glam::DVec3;
 
 /// What the places of a row's posts have in common: a post as high as h over the ellipsoid is `outward + h * up[0]` from the axis and
@@ -46,9 +47,9 @@ impl<'g> Places<'g> {
             let [x, _, z] = posts.globe.ellipsoid.geocentric(0.0, lat).to_array();
             let up = [math::cos(lat), math::sin(lat)];
             match globe.row(j) {
-                Ok(row) => Row { outward: x, along: z, up, first: Some(row * own), pole: f64::NAN },
+                RowOf::Posts(row) => Row { outward: x, along: z, up, first: Some(row * own), pole: f64::NAN },
                 // All columns meet there.
-                Err(pole) => {
+                RowOf::Pole(pole) => {
                     let pole = posts.poles[pole].unwrap_or(f64::NAN);
                     Row { outward: 0.0, along: z, up: [0.0, up[1]], first: None, pole }
                 }

@@ -152,7 +152,7 @@ impl QuadClipping {
             cost.drawn += 1;
             draw(clipping);
             last = clipping.finest_exit_descendant;
-            at = self.following(clipping, &has_vertex).filter(is_in);
+            at = self.following(clipping, &has_vertex, cost).filter(is_in);
         }
         last
     }

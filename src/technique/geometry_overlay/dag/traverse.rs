@@ -41,7 +41,7 @@ impl QuadClipping {
             cost.visited += 1;
             cost.drawn += 1;
             draw(clipping);
-            at = self.following(clipping, &has_vertex);
+            at = self.following(clipping, &has_vertex, &mut cost);
         }
         cost
     }
@@ -73,10 +73,13 @@ impl QuadClipping {
     }
 
     /// Which of the next clippings follows.
+    ///
+    /// Beyond the last posts the mesh in use is not closed, and layers may differ by more than one: where a polyline comes back from there, the next clipping is found as the first one is.
     pub(super) fn following(
         &self,
         clipping: &TriangleClipping,
         has_vertex: impl Fn(Post) -> bool,
+        cost: &mut Cost,
     ) -> Option<&TriangleClipping> {
         let next = match clipping.next() {
             [next, None] => next,
@@ -88,6 +91,11 @@ impl QuadClipping {
                 }
             }
         };
-        next.map(|number| &self.triangle_clippings[number as usize])
+        let next = &self.triangle_clippings[next? as usize];
+        let is_split = next.triangle.middle().is_some_and(&has_vertex);
+        if has_vertex(next.triangle.apex) && !is_split {
+            return Some(next);
+        }
+        self.in_use(clipping.finest_exit_descendant + 1, has_vertex, cost)
     }
 }
