@@ -42,11 +42,9 @@ fn what_machines_draw_is_allowed_and_little_else_is() {
         for machine in MACHINES {
             let image = frame_of(kind, &stage(&text, machine), &[]).image;
             let missed: Vec<usize> = all.hypotheses.iter().map(|h| outside(h, &image)).collect();
-            println!("{} {machine:?}: {missed:?}", kind.name());
             assert_eq!(best(&all, &image), 0, "{} {machine:?}: {missed:?}", kind.name());
         }
         let widths: Vec<usize> = all.hypotheses.iter().map(wide).collect();
-        println!("{}: wide {widths:?} of {}", kind.name(), all.width * all.height);
         assert!(widths[0] * 50 < all.width * all.height, "{}: {widths:?}", kind.name());
     }
 }
@@ -70,7 +68,6 @@ fn what_bugs_draw_is_not_allowed() {
         let text = hills().replacen(from, to, 1);
         assert_ne!(text, hills(), "{name}");
         let image = frame_of(Kind::StencilVolume, &stage(&text, &[]), &[]).image;
-        println!("{name}: {:?}", all.hypotheses.iter().map(|h| outside(h, &image)).collect::<Vec<_>>());
         assert!(best(&all, &image) > 0, "{name}");
     }
 }
@@ -92,7 +89,6 @@ fn what_machines_draw_of_every_golden_is_allowed() {
         for kind in drawing::kinds_for(&of_scene) {
             let Ok(all) = drapery::allowed::allowed(kind, (&of_scene, &of_scene.view().unwrap()), &|_| {})
             else {
-                println!("{} by {}: nobody knows", path.display(), kind.name());
                 continue;
             };
             let machines = if of_scene.scene.device.is_exact() { &MACHINES[..] } else { &MACHINES[..1] };

@@ -52,7 +52,6 @@ fn what_machines_draw_of_a_clipmap_is_allowed() {
             assert_eq!(outside_of_stage(&all, &frame, "level"), 0, "{name} {machine:?}");
         }
         let widths: Vec<usize> = all.hypotheses.iter().map(wide).collect();
-        println!("{name}: wide {widths:?} of {}", all.width * all.height);
         // Where colours change, vertices of 8 bits and weights of 8 bits move them by two to four code values.
         assert!(widths[0] * 8 < all.width * all.height, "{name}: {widths:?}");
     }
@@ -80,8 +79,6 @@ fn what_machines_draw_of_a_clipmap_is_allowed_whatever_its_settings() {
             let missed: Vec<usize> = all.hypotheses.iter().map(|h| outside(h, &image)).collect();
             assert_eq!(best(&all, &image), 0, "{settings:?} {machine:?}: {missed:?}");
         }
-        let widths: Vec<usize> = all.hypotheses.iter().map(wide).collect();
-        println!("{settings:?}: wide {widths:?} of {}", all.width * all.height);
     }
 }
 
@@ -101,7 +98,6 @@ fn what_bugs_draw_of_a_clipmap_is_not_allowed() {
         let changed = text.replacen(from, to, 1);
         assert_ne!(&changed, text, "{name}");
         let image = drawn(&changed, &[]);
-        println!("{name}: {:?}", all.hypotheses.iter().map(|h| outside(h, &image)).collect::<Vec<_>>());
         assert!(best(&all, &image) > 0, "{name}");
     }
     let settings = [
@@ -118,7 +114,6 @@ fn what_bugs_draw_of_a_clipmap_is_not_allowed() {
     ];
     for setting in settings {
         let image = drawn(text, &[&format!("technique.clipmap.{setting}")]);
-        println!("{setting}: {:?}", all.hypotheses.iter().map(|h| outside(h, &image)).collect::<Vec<_>>());
         assert!(best(&all, &image) > 0, "{setting}");
     }
     // A width that follows the picture, drawn as one that follows the level.

@@ -11,7 +11,6 @@ use drapery::stage::Stage;
 use drapery::technique::{Frame, Kind};
 use drawing::{frame_of, scene, stage};
 use judged::{MACHINES, allowed_of, best, outside, wide};
-use std::collections::BTreeSet;
 use std::path::Path;
 
 const KIND: Kind = Kind::InverseProjection;
@@ -78,9 +77,6 @@ fn what_machines_draw_is_allowed_and_little_else_is() {
         let all = allowed_of(KIND, &golden(name, &[]));
         let share = |of| wide(of) as f64 / (all.width * all.height) as f64;
         let wide: Vec<f64> = all.hypotheses.iter().map(share).collect();
-        let of = &all.hypotheses[0];
-        let chosen: BTreeSet<u32> = of.choices.iter().map(|choice| choice.pixel).collect();
-        println!("{name}: {wide:.4?} are wide, and {} pixels may be one of few", chosen.len());
         assert!(wide[0] < 0.05, "{name}: {wide:?}");
         shares.push(wide[0]);
         for machine in MACHINES {
@@ -95,7 +91,6 @@ fn what_machines_draw_is_allowed_and_little_else_is() {
         }
     }
     let mean = shares.iter().sum::<f64>() / shares.len() as f64;
-    println!("on average {mean:.4}");
     assert!(mean < 0.02, "{mean}");
 }
 
@@ -132,9 +127,6 @@ fn what_bugs_draw_is_not_allowed() {
         let text = crossing().replacen(from, to, 1);
         let changes: Vec<&str> = [change].into_iter().filter(|change| !change.is_empty()).collect();
         let frame = frame_of(KIND, &stage(&text, &changes), &BUFFERS);
-        let missed: Vec<usize> = all.hypotheses.iter().map(|h| outside(h, &frame.image)).collect();
-        let other = right.image.values().iter().zip(frame.image.values()).filter(|(a, b)| a != b).count();
-        println!("{name}: {missed:?} of {other}, {:?}", strange_buffers(&all, &of, &frame));
         if best(&all, &frame.image) == 0 {
             let_through.push(name);
         }
@@ -286,7 +278,6 @@ fn a_client_of_its_own_is_allowed_until_a_bug_is_planted_in_it() {
     for (name, client, is_right) in clients {
         let image = client.picture(&frame, &outline);
         let missed: Vec<usize> = all.hypotheses.iter().map(|h| outside(h, &image)).collect();
-        println!("{name}: {missed:?}");
         assert_eq!(best(&all, &image) == 0, is_right, "{name}: {missed:?}");
     }
 }
