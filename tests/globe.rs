@@ -157,10 +157,15 @@ fn a_level_of_detail_mesh_across_the_antimeridian_and_at_a_pole_is_drawn_as_the_
     let off: f64 = own.iter().zip(&other).map(|(a, b)| (a - b).abs()).sum();
     let red: f64 = other.iter().sum();
     assert!(red > 300.0 && off < 0.1 * red, "{off} of {red}");
-    // No crack shows the sky.
+    // No crack shows the sky: it is seen at the limb alone, where the surface is off by half a pixel.
     let is_sky = |c: &[f64]| c[2] > c[0] + 0.5 && c[2] > c[1] + 0.5;
-    let sky = |truth: &Truth| colors(truth).chunks_exact(4).filter(|c| is_sky(c)).count();
-    assert_eq!(sky(&truth), sky(&drawing::truth_of(&full)));
+    let sky = |truth: &Truth| colors(truth).chunks_exact(4).map(is_sky).collect::<Vec<_>>();
+    let (own, other) = (sky(&truth), sky(&drawing::truth_of(&full)));
+    for k in (0..3600).filter(|k| own[*k]) {
+        let around = |at: usize| at.saturating_sub(2)..(at + 3).min(60);
+        let is_near = around(k / 60).any(|row| around(k % 60).any(|column| other[row * 60 + column]));
+        assert!(is_near, "sky at {}, {}", k % 60, k / 60);
+    }
 }
 
 #[test]
