@@ -105,7 +105,7 @@ impl<'s> Prepare<'s> {
 
 fn no_quads() -> Error {
     Error::unsupported(
-        "geometry-overlay cuts lines at the triangles of a grid's quads, this terrain is of scattered points",
+        "geometry-overlay cuts lines at the triangles of a grid's quads, and this terrain is no grid",
     )
     .help("leave the technique out")
 }
