@@ -2,11 +2,11 @@
 //! it has to pass.
 //!
 //! Input: a [`Plan`]. Output: a [`Trial`], counts by technique and by class of bugs ([`Trial::text`], [`Trial::json`]), which meets its
-//! [`goals`](Trial::faults) or says why not. The same pictures are judged by the usual comparators ([`contrast`]), for contrast. Refuses:
+//! [`goals`](Trial::faults) or says why not. The same pictures are judged by the usual comparators (`contrast`), for contrast. Refuses:
 //! scenes that do not exist; nothing of the corpus.
 //!
-//! The corpus is in the program: small scenes ([`scenes`]), [`bugs`] (edits of a scene, of a view or of the finished picture) and
-//! [`variants`] (machines within the envelope, and other ways to write the same scene). A bug whose picture is the right one bit for bit is
+//! The corpus is in the program: small scenes (`scenes`), `bugs` (edits of a scene, of a view or of the finished picture) and
+//! `variants` (machines within the envelope, and other ways to write the same scene). A bug whose picture is the right one bit for bit is
 //! no bug there, and counted apart.
 
 mod bugs;
