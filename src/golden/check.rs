@@ -3,7 +3,7 @@
 use super::case::{Case, Variant, cases, pictures, selected};
 use super::failure::{Failure, Fault};
 use super::manifest::{Entry, Manifest};
-use super::replay::{Cut, Replay, first_difference, replay};
+use super::replay::{Cut, Replay, first_difference, is_of_the_judge, replay};
 use super::selection::Selection;
 use crate::compare::{Expected, Image, Limits, Verdict};
 use crate::error::Result;
@@ -162,7 +162,8 @@ fn unequal<'a>(
     let fault = |replay: &'a Replay| {
         let other = varied.iter().find(|other| other.technique == replay.technique);
         let hashes = other.map_or(&[][..], |other| &other.hashes);
-        let buffer = first_difference(&replay.hashes, hashes, |name| is_one_of(name, &variant.buffers))?;
+        let is_asked = |name: &str| is_one_of(name, &variant.buffers) && !is_of_the_judge(name);
+        let buffer = first_difference(&replay.hashes, hashes, is_asked)?;
         Some((Some(replay.technique), Fault::Variant { variant: variant.name.clone(), buffer }))
     };
     let asked = replays.iter().filter(|replay| is_one_of(replay.technique, &variant.techniques));

@@ -18,6 +18,14 @@ use std::path::PathBuf;
 /// The picture's name among the buffers.
 pub const IMAGE: &str = "image";
 
+/// How the names begin of what is no buffer of a frame, but what the judge allows of it.
+const OF_THE_JUDGE: &str = "allowed-";
+
+/// Whether a hash is of what the judge allows.
+pub(super) fn is_of_the_judge(name: &str) -> bool {
+    name.starts_with(OF_THE_JUDGE)
+}
+
 /// What a technique draws of a case.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Replay {
@@ -64,7 +72,8 @@ pub(super) fn replay(case: &Case, more: &[Override], cut: Cut) -> Result<Vec<Rep
         match technique::applies(kind, &stage) {
             Ok(()) => {
                 let mut replay = draw(kind, (&stage, &view), cut)?;
-                if case.is_judged {
+                // Variants are held against the same pictures: what is allowed of them is known.
+                if case.is_judged && more.is_empty() && matches!(cut, Cut::Usual) {
                     judge(kind, (&stage, &view), &mut replay)?;
                 }
                 replays.push(replay);
@@ -113,7 +122,7 @@ fn judge(kind: Kind, (stage, view): (&Stage, &ViewFrame), replay: &mut Replay) -
     for hypothesis in &all.hypotheses {
         for (end, codes) in [("lo", &hypothesis.lo), ("hi", &hypothesis.hi)] {
             let codes = Buffer::from_values(all.width, all.height, codes.clone());
-            let buffer = format!("allowed-{}-{end}", hypothesis.name);
+            let buffer = format!("{OF_THE_JUDGE}{}-{end}", hypothesis.name);
             replay.hashes.push(BufferHash { buffer, blake3: codes.hash() });
         }
     }
