@@ -43,6 +43,17 @@ impl BoxTree {
         self.search(|small| small.meets(&wanted), visit)
     }
 
+    /// The numbers of the boxes that meet one, in order.
+    pub fn found(&self, plan: &PlanBox) -> Vec<u32> {
+        let mut found = Vec::new();
+        self.query(plan, |number| {
+            found.push(number);
+            true
+        });
+        found.sort_unstable();
+        found
+    }
+
     /// As [`Self::query`] with each box that is wanted. `is_wanted` is asked of boxes around several first: it must want those that hold a box that
     /// it wants.
     #[inline]

@@ -175,8 +175,8 @@ impl<'a> Items<'a> {
     pub(super) fn near(&self, window: &PlanBox, texel_m: f64, visit: &mut dyn FnMut(Near)) {
         let [metres, pixels] = self.reach;
         let reach = math::max(metres, self.width_m(Width::Pixels(pixels), texel_m));
-        let chunks = found_in(&self.chunk_index, &window.grown(reach + 4.0 * texel_m));
-        let areas = found_in(&self.area_index, &window.grown(2.0 * texel_m));
+        let chunks = self.chunk_index.found(&window.grown(reach + 4.0 * texel_m));
+        let areas = self.area_index.found(&window.grown(2.0 * texel_m));
         let mut areas = areas.iter().map(|area| self.areas[*area as usize]).peekable();
         for stroke in chunks.chunk_by(|a, b| self.chunk(*a).item == self.chunk(*b).item) {
             let item = self.chunk(stroke[0]).item;
@@ -276,15 +276,4 @@ impl<'a> Items<'a> {
             vertices.iter().zip(ends).for_each(|(from, to)| visit(*from, *to));
         }
     }
-}
-
-/// The numbers of the boxes that meet one, in order.
-fn found_in(index: &BoxTree, wanted: &PlanBox) -> Vec<u32> {
-    let mut found = Vec::new();
-    index.query(wanted, |number| {
-        found.push(number);
-        true
-    });
-    found.sort_unstable();
-    found
 }

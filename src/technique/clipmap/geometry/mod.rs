@@ -112,12 +112,12 @@ impl<'l> Geometry<'l> {
 
     /// The chunks of strokes whose vertices' boxes meet one, in draw order.
     pub(super) fn chunks_near(&self, wanted: &PlanBox) -> Vec<u32> {
-        found_in(&self.stroke_index, wanted)
+        self.stroke_index.found(wanted)
     }
 
     /// The filled areas whose boxes meet one, in draw order.
     pub(super) fn areas_near(&self, wanted: &PlanBox) -> Vec<AreaRings> {
-        found_in(&self.area_index, wanted).into_iter().map(|area| self.areas.get(area)).collect()
+        self.area_index.found(wanted).into_iter().map(|area| self.areas.get(area)).collect()
     }
 
     /// A chunk.
@@ -173,17 +173,6 @@ impl<'l> Geometry<'l> {
             }
         }
     }
-}
-
-/// The numbers of the boxes that meet one, in order.
-fn found_in(index: &BoxTree, wanted: &PlanBox) -> Vec<u32> {
-    let mut found = Vec::new();
-    index.query(wanted, |number| {
-        found.push(number);
-        true
-    });
-    found.sort_unstable();
-    found
 }
 
 /// What some items become.
