@@ -256,7 +256,7 @@ pub(super) struct PostRange {
 impl PostRange {
     /// How many posts it has.
     pub(super) fn count(&self) -> usize {
-        self.columns * self.rows
+        self.columns.saturating_mul(self.rows)
     }
 
     /// What lies in it of the samples from `column` on in `row`, and the column of the first of these.

@@ -5,7 +5,7 @@ use super::grid::{GridFile, RowSink};
 use crate::error::{Error, Result};
 
 /// The most posts that a mask is held of (512 MiB).
-const MOST: usize = 1 << 32;
+const MOST: u64 = 1 << 32;
 
 /// A bit for each post of a part: set where it is masked.
 pub(super) struct Mask {
@@ -35,7 +35,7 @@ impl Mask {
             Error::unsupported(format!("a mask of {} x {} posts is too large", part.columns, part.rows))
                 .help("read a part of it (`window = [x0, y0, x1, y1]`)")
         };
-        let count = part.columns.checked_mul(part.rows).filter(|n| *n <= MOST).ok_or_else(refuse)?;
+        let count = part.columns.checked_mul(part.rows).filter(|n| *n as u64 <= MOST).ok_or_else(refuse)?;
         let mut bits = Vec::new();
         bits.try_reserve_exact(count.div_ceil(64)).map_err(|_| refuse())?;
         bits.resize(count.div_ceil(64), 0);

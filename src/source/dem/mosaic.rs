@@ -20,7 +20,7 @@ const MOST_HELD: usize = 1 << 23;
 const LONGEST_ROW: usize = 1 << 26;
 
 /// The most posts that are looked at: a few words can promise more than anyone waits for.
-const MOST_POSTS: usize = 1 << 36;
+const MOST_POSTS: u64 = 1 << 36;
 
 /// Of a large mosaic, the most posts for each that a file has.
 const MOST_GAPS: usize = 64;
@@ -145,7 +145,7 @@ impl GridFile for Mosaic {
             );
         }
         let is_mostly_gaps = part.count() > MAX_POSTS && part.count() / MOST_GAPS > covered;
-        if part.columns > LONGEST_ROW || part.count() > MOST_POSTS || is_mostly_gaps {
+        if part.columns > LONGEST_ROW || part.count() as u64 > MOST_POSTS || is_mostly_gaps {
             return Err(too_many_posts(part));
         }
         if covered / MOST_ABOVE > part.count() {
