@@ -335,6 +335,35 @@ fn long_lines_that_pass_what_is_seen_cost_no_pieces() {
     assert_eq!([100, 200, 400].map(work_beside_lines), [work_beside_lines(0); 3]);
 }
 
+/// 12 x 12 pixels under a wide line that is cut into so many segments.
+fn under_a_line_of(segments: u32, width: Width) -> Truth {
+    let place = |k: u32| f64::from(k) / f64::from(segments);
+    let points: Vec<_> = (0..=segments).map(|k| (20.0 * place(k) - 10.0, 4.0 * place(k) - 2.0)).collect();
+    let scene =
+        map(12, vec![line(&points, Line { width, join: Join::Round, cap: Cap::Round, ..stroke(1.0) })]);
+    truth(&scene, flat(), 1.0 / 510.0)
+}
+
+#[test]
+fn a_wide_line_of_many_segments_covers_what_its_single_segment_does() {
+    for width in [Width::Pixels(5.0), Width::Metres(5.0)] {
+        let [one, few, many] = [1, 20, 1000].map(|segments| under_a_line_of(segments, width));
+        for (y, x) in (0..12).flat_map(|y| (0..12).map(move |x| (y, x))) {
+            for c in 0..4 {
+                let (low, high) = (one.low.at(x, y)[c], one.high.at(x, y)[c]);
+                // Vertices are rounded to where they are stored.
+                assert!(
+                    many.low.at(x, y)[c] <= high + 1e-6 && low <= many.high.at(x, y)[c] + 1e-6,
+                    "{x},{y}"
+                );
+            }
+        }
+        // Most of what many cover the deepest of them tells; without that it is 90 times as many.
+        let (few, many) = (few.tally.pieces, many.tally.pieces);
+        assert!(many < 40 * few, "{width:?}: {many} pieces, {few} of 20 segments");
+    }
+}
+
 #[test]
 fn a_pixel_of_thirty_thousand_triangles_is_the_mean_of_the_pixels_that_it_would_be() {
     let layers = vec![

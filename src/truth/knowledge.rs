@@ -1,13 +1,13 @@
 //! What a piece of a pixel knows of an item: whether it lies in it, or what could still tell.
 
-use super::facet::Facet;
+use super::facet::{Facet, Hit};
 use super::polygon::middle;
 use super::setting::Setting;
 use super::shape::{PixelGround, distance};
 use super::tile_rays::TileRays;
 use crate::certainty::Known;
-use crate::footprint::Primitive;
-use crate::space::PlanBox;
+use crate::space::{Plan, PlanBox};
+use std::cell::OnceCell;
 
 /// What a piece knows of an item.
 #[derive(Debug, Clone, Copy)]
@@ -54,56 +54,73 @@ pub(super) enum Edges<'a> {
     Beyond(&'a PlanBox),
 }
 
-/// What a fragment knows of an item at first; its stroke is open if the item has one.
-pub(super) fn first_state(
-    pixel: &Pixel,
-    (ground, points): (&PixelGround, &[[f64; 2]]),
-    item: u32,
-    edges: Edges<'_>,
-    (first, count): (u32, u32),
-) -> State {
-    let footprints = pixel.setting.footprints;
-    let polygon = match (footprints.wants_polygon(item), edges) {
-        (None, _) => Known::In,
-        (Some(_), Edges::Across) => Known::Open,
-        (Some(_), Edges::Near) => polygon_at(pixel, ground, points, item),
-        // The polygon holds all of the box, or none.
-        (Some(wanted), Edges::Beyond(plan)) => match ground.hit(middle(points)).plan {
-            at if plan.contains(&PlanBox::around([at])) => {
-                Known::of(footprints.polygon_holds(item, at) == wanted)
-            }
-            // Where a ray grazes its facet, the point that is computed may lie beside the box.
-            _ => polygon_at(pixel, ground, points, item),
-        },
-    };
-    let stroke = if footprints.wants_stroke(item) { Known::Open } else { Known::In };
-    State { item, polygon, stroke, first, count }
+/// A point in the middle of a piece, at which polygons are asked: once for all of the piece's items.
+pub(super) struct Middle<'a> {
+    pub(super) pixel: &'a Pixel<'a>,
+    pub(super) ground: &'a PixelGround<'a>,
+    pub(super) points: &'a [[f64; 2]],
+    hit: OnceCell<Hit>,
+    /// The items that have an edge so near to the point that it may lie on either side of it, in order; `None`: nothing is known of the point.
+    doubtful: OnceCell<Option<Vec<u32>>>,
 }
 
-/// Whether a piece that no edge of an item's polygon crosses lies where the item wants it, decided exactly at a point of it.
-pub(super) fn polygon_at(pixel: &Pixel, ground: &PixelGround, points: &[[f64; 2]], item: u32) -> Known {
-    let footprints = pixel.setting.footprints;
-    let hit = ground.hit(middle(points));
-    let rounding = 64.0 * f64::EPSILON * hit.plan.to_vec().abs().max_element();
-    let reach = 2.0 * hit.error + rounding;
-    if reach == f64::INFINITY {
-        return Known::Open;
+impl<'a> Middle<'a> {
+    pub(super) fn new(pixel: &'a Pixel<'a>, ground: &'a PixelGround<'a>, points: &'a [[f64; 2]]) -> Self {
+        Self { pixel, ground, points, hit: OnceCell::new(), doubtful: OnceCell::new() }
     }
-    // The point is known up to `reach`: no edge may be that near.
-    let mut primitives = Vec::new();
-    let is_clear = footprints.parts_near(&PlanBox::around([hit.plan]).grown(reach), |part| {
-        primitives.clear();
-        if part.item == item {
-            footprints.primitives(part, &mut primitives);
+
+    pub(super) fn hit(&self) -> &Hit {
+        self.hit.get_or_init(|| self.ground.hit(middle(self.points)))
+    }
+
+    /// What the piece knows of an item at first; its stroke is open if the item has one.
+    pub(super) fn first_state(&self, item: u32, edges: Edges<'_>, (first, count): (u32, u32)) -> State {
+        let footprints = self.pixel.setting.footprints;
+        let polygon = match (footprints.wants_polygon(item), edges) {
+            (None, _) => Known::In,
+            (Some(_), Edges::Across) => Known::Open,
+            (Some(_), Edges::Near) => self.polygon(item),
+            // The polygon holds all of the box, or none.
+            (Some(wanted), Edges::Beyond(plan)) => match self.hit().plan {
+                at if plan.contains(&PlanBox::around([at])) => {
+                    Known::of(footprints.polygon_holds(item, at) == wanted)
+                }
+                // Where a ray grazes its facet, the point that is computed may lie beside the box.
+                _ => self.polygon(item),
+            },
+        };
+        let stroke = if footprints.wants_stroke(item) { Known::Open } else { Known::In };
+        State { item, polygon, stroke, first, count }
+    }
+
+    /// Whether the piece, which no edge of the item's polygon crosses, lies where the item wants it, decided exactly at the point.
+    pub(super) fn polygon(&self, item: u32) -> Known {
+        let footprints = self.pixel.setting.footprints;
+        let doubtful = self.doubtful.get_or_init(|| self.doubtful());
+        let is_clear = doubtful.as_ref().is_some_and(|items| items.binary_search(&item).is_err());
+        match footprints.wants_polygon(item).filter(|_| is_clear) {
+            Some(wanted) => Known::of(footprints.polygon_holds(item, self.hit().plan) == wanted),
+            None => Known::Open,
         }
-        primitives.iter().all(|primitive| match primitive {
-            Primitive::Edge { from, to } => distance(*from, *to, hit.plan) > reach,
-            _ => true,
-        })
-    });
-    let wanted = footprints.wants_polygon(item);
-    match wanted.filter(|_| is_clear) {
-        Some(wanted) => Known::of(footprints.polygon_holds(item, hit.plan) == wanted),
-        None => Known::Open,
+    }
+
+    fn doubtful(&self) -> Option<Vec<u32>> {
+        let (footprints, at) = (self.pixel.setting.footprints, self.hit().plan);
+        let rounding = 64.0 * f64::EPSILON * at.to_vec().abs().max_element();
+        let reach = 2.0 * self.hit().error + rounding;
+        if reach == f64::INFINITY {
+            return None;
+        }
+        // The point is known up to `reach`: no edge may be that near.
+        let mut doubtful = Vec::new();
+        footprints.parts_near(&PlanBox::around([at]).grown(reach), |part| {
+            let is_far = |[from, to]: [Plan; 2]| distance(from, to, at) > reach;
+            if !footprints.edge(part).is_none_or(is_far) {
+                doubtful.push(part.item);
+            }
+            true
+        });
+        doubtful.sort_unstable();
+        Some(doubtful)
     }
 }

@@ -4,11 +4,13 @@
 //! tell. The piece with the most unknown in it is cut first: along a primitive's line, so that the two halves know more.
 
 use super::form::Line;
-use super::knowledge::{Edges, Pixel, State, first_state, polygon_at};
+use super::knowledge::{Edges, Middle, Pixel, State};
+use super::near::{MOST_PARTS, Near};
 use super::outcome::{Outcome, Sample};
 use super::polygon::{self, Halves, Pieces, Polygon, ROUNDING};
 use super::setting::Setting;
-use super::shape::{PixelGround, PixelPrimitive, Verdict};
+use super::shape::{Cut, PixelGround, Verdict};
+use super::shapes::{Shapes, Told};
 use super::visible::{Fragment, SPECK, Sight};
 use super::{ItemCoverage, PixelCoverage};
 use crate::certainty::{Known, PaintMean, PaintRange};
@@ -20,20 +22,19 @@ use crate::terrain::SKY;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-/// A piece near more parts than this is cut before they are looked at one by one; as many more for each time that it has been cut
-/// for this reason, up to [`MOST_LEVEL`] times: where all parts lie on one another cutting does not help.
-const MOST_PARTS: usize = 48;
+/// How many times more parts than [`MOST_PARTS`] (as a power of two) are looked at of a piece that has been cut for there being too many:
+/// where all parts lie on one another cutting does not help.
 const MOST_LEVEL: u32 = 8;
 
 /// Room for one pixel's work, used again for the next.
 #[derive(Debug, Default)]
 pub(super) struct Refinery {
-    shapes: Vec<PixelPrimitive>,
+    shapes: Shapes,
     /// Indices into `shapes`, a run for each state.
     lists: Vec<u32>,
     states: Vec<State>,
     heap: BinaryHeap<FragmentPiece>,
-    parts: Vec<BorderPart>,
+    near: Near,
     primitives: Vec<Primitive>,
     fresh: Vec<State>,
     /// Pieces of which nothing is open, where coverage is asked for.
@@ -335,29 +336,11 @@ impl Refinery {
         let ground = pixel.ground(piece.facet);
         let points = pieces.of(piece.shape);
         let plan = ground.plan_box(points);
-        let mut parts = std::mem::take(&mut self.parts);
-        parts.clear();
+        let middle = Middle::new(pixel, &ground, points);
         let most = MOST_PARTS << piece.level.min(MOST_LEVEL);
-        let footprints = pixel.setting.footprints;
-        let mut is_all = footprints.parts_near(&plan, |part| {
-            parts.push(part);
-            parts.len() <= most
-        });
-        if !is_all {
-            // Boxes of long parts meet much that they are far from.
-            parts.clear();
-            let primitives = &mut self.primitives;
-            is_all = footprints.parts_near(&plan, |part| {
-                if !footprints.misses(part, &plan, primitives) {
-                    parts.push(part);
-                }
-                parts.len() <= most
-            });
-        }
-        if is_all {
-            parts.sort_unstable();
-            parts.dedup();
-            let states = self.first_states(pixel, (&ground, points), &plan, &parts);
+        let mut near = std::mem::take(&mut self.near);
+        if near.find(&middle, &plan, most, &mut self.slop) {
+            let states = self.first_states(&middle, &plan, &near);
             self.settle(pixel, pieces, piece, states, mean);
         } else {
             let paint = pixel.setting.crowd_paint(&ground, points);
@@ -369,7 +352,7 @@ impl Refinery {
                 mean,
             );
         }
-        self.parts = parts;
+        self.near = near;
     }
 
     /// A speck: it may have any colour.
@@ -379,24 +362,25 @@ impl Refinery {
     }
 
     /// What a fragment knows of the items near it: those of the parts, and those whose polygon may hold it whole.
-    fn first_states(
-        &mut self,
-        pixel: &Pixel,
-        (ground, points): (&PixelGround, &[[f64; 2]]),
-        plan: &PlanBox,
-        parts: &[BorderPart],
-    ) -> (u32, u32) {
-        let footprints = pixel.setting.footprints;
+    fn first_states(&mut self, middle: &Middle, plan: &PlanBox, near: &Near) -> (u32, u32) {
         let mut fresh = std::mem::take(&mut self.fresh);
         fresh.clear();
-        for run in parts.chunk_by(|a, b| a.item == b.item) {
-            let state = self.shapes_near(pixel, (ground, points, plan), run, parts.len() > MOST_PARTS);
-            fresh.push(state);
+        self.shapes.begin_fragment();
+        for run in near.runs() {
+            fresh.push(self.shapes_near(middle, plan, run, near));
         }
-        let near = fresh.len();
-        footprints.areas_near(plan, |item| {
-            if fresh[..near].binary_search_by_key(&item, |s| s.item).is_err() {
-                let mut state = first_state(pixel, (ground, points), item, Edges::Beyond(plan), (0, 0));
+        for item in near.covering() {
+            if fresh.binary_search_by_key(item, |s| s.item).is_err() {
+                let mut state = middle.first_state(*item, Edges::Beyond(plan), (0, 0));
+                state.stroke = Known::In;
+                fresh.push(state);
+            }
+        }
+        fresh.sort_unstable_by_key(|state| state.item);
+        let count = fresh.len();
+        middle.pixel.setting.footprints.areas_near(plan, |item| {
+            if fresh[..count].binary_search_by_key(&item, |s| s.item).is_err() {
+                let mut state = middle.first_state(item, Edges::Beyond(plan), (0, 0));
                 state.stroke = if state.stroke == Known::Open { Known::Out } else { state.stroke };
                 fresh.push(state);
             }
@@ -409,44 +393,38 @@ impl Refinery {
         (first, self.states.len() as u32 - first)
     }
 
-    /// What a fragment knows of an item that has these parts near it. `is_crowd`: of many parts those that the fragment is wholly
-    /// in or out of are not kept.
-    fn shapes_near(
-        &mut self,
-        pixel: &Pixel,
-        (ground, points, plan): (&PixelGround, &[[f64; 2]], &PlanBox),
-        parts: &[BorderPart],
-        is_crowd: bool,
-    ) -> State {
+    /// What a fragment knows of an item that has these parts near it. Of a crowd those that the fragment is wholly in or out of are not kept.
+    fn shapes_near(&mut self, middle: &Middle, plan: &PlanBox, parts: &[BorderPart], near: &Near) -> State {
         let first = self.lists.len() as u32;
-        let (mut edges, mut stroke) = (Edges::Beyond(plan), Known::Out);
+        let item = parts[0].item;
+        let mut edges = Edges::Beyond(plan);
+        let mut stroke = if near.covering().contains(&item) { Known::In } else { Known::Out };
+        self.shapes.begin_item();
         for part in parts {
             self.primitives.clear();
-            pixel.setting.footprints.primitives(*part, &mut self.primitives);
+            middle.pixel.setting.footprints.primitives(*part, &mut self.primitives);
             for primitive in &self.primitives {
                 let is_edge = matches!(primitive, Primitive::Edge { .. });
                 if (stroke == Known::In && !is_edge) || primitive.misses(plan) {
                     continue;
                 }
-                let shape = ground.shape(primitive);
-                let verdict = is_crowd.then(|| shape.verdict(ground, points, &mut self.slop));
-                match verdict {
-                    Some(Verdict::In) => stroke = Known::In,
-                    Some(Verdict::Out) => {
-                        if is_edge && matches!(edges, Edges::Beyond(_)) {
-                            edges = Edges::Near;
+                let piece = (middle.ground, middle.points);
+                match self.shapes.tell(primitive, near.is_crowd(), piece, &mut self.slop) {
+                    Told::In => stroke = Known::In,
+                    Told::Out if is_edge && matches!(edges, Edges::Beyond(_)) => edges = Edges::Near,
+                    Told::Out => {}
+                    Told::Open(index) => {
+                        match is_edge {
+                            true => edges = Edges::Across,
+                            false => stroke = stroke.or(Known::Open),
                         }
-                        continue;
+                        self.lists.push(index);
                     }
-                    _ if is_edge => edges = Edges::Across,
-                    _ => stroke = stroke.or(Known::Open),
                 }
-                self.lists.push(self.shapes.len() as u32);
-                self.shapes.push(shape);
             }
         }
         let count = self.lists.len() as u32 - first;
-        let mut state = first_state(pixel, (ground, points), parts[0].item, edges, (first, count));
+        let mut state = middle.first_state(item, edges, (first, count));
         if state.stroke == Known::Open {
             state.stroke = stroke;
         }
@@ -467,6 +445,8 @@ impl Refinery {
         }
         let ground = pixel.ground(piece.facet);
         let points = pieces.of(piece.shape);
+        let middle = Middle::new(pixel, &ground, points);
+        self.shapes.begin_piece();
         let start = self.states.len() as u32;
         let mut cut = None;
         let mut is_hidden = false;
@@ -474,7 +454,7 @@ impl Refinery {
         for k in (first..first + count).rev() {
             let mut state = self.states[k as usize];
             if state.known() == Known::Open {
-                let wish = self.update(pixel, &ground, points, &mut state);
+                let wish = self.update(&middle, (&ground, points), &mut state);
                 cut = cut.or(wish);
             }
             if state.known() == Known::Out {
@@ -502,27 +482,33 @@ impl Refinery {
     /// Brings what a piece knows of one item up to date; returns where to cut to learn more.
     fn update(
         &mut self,
-        pixel: &Pixel,
-        ground: &PixelGround,
-        points: &[[f64; 2]],
+        middle: &Middle,
+        (ground, points): (&PixelGround, &[[f64; 2]]),
         state: &mut State,
     ) -> Option<Line> {
         let first = self.lists.len() as u32;
         let (mut cut, mut has_edges, mut stroke) = (None, false, Known::Out);
+        let is_crowd = state.count as usize > MOST_PARTS;
+        let mut deepest: Option<(Cut, usize)> = None;
         for k in state.first..state.first + state.count {
             let index = self.lists[k as usize];
-            let shape = self.shapes[index as usize];
-            let is_edge = matches!(shape, PixelPrimitive::Edge { .. });
-            if if is_edge { state.polygon != Known::Open } else { state.stroke != Known::Open } {
+            let is_edge = self.shapes.is_edge(index);
+            let known = if is_edge { state.polygon } else { state.stroke };
+            if known != Known::Open || (is_crowd && stroke == Known::In && !is_edge) {
                 continue;
             }
-            match shape.verdict(ground, points, &mut self.slop) {
+            match self.shapes.verdict(index, (ground, points), &mut self.slop) {
                 Verdict::Out => continue,
                 Verdict::In => {
                     stroke = Known::In;
                     continue;
                 }
-                Verdict::Cut(line) => cut = cut.or(Some(line)),
+                Verdict::Cut(at) if is_crowd && !is_edge => {
+                    if deepest.is_none_or(|(before, _)| at.depth > before.depth) {
+                        deepest = Some((at, self.lists.len()));
+                    }
+                }
+                Verdict::Cut(at) => cut = cut.or(Some(at.line)),
                 Verdict::Stuck => {}
             }
             if is_edge {
@@ -532,12 +518,17 @@ impl Refinery {
             }
             self.lists.push(index);
         }
+        if let Some((at, place)) = deepest {
+            // Most of the piece is in this one, if in any: its parts ask it first.
+            self.lists.swap(first as usize, place);
+            cut = cut.or(Some(at.line));
+        }
         (state.first, state.count) = (first, self.lists.len() as u32 - first);
         if state.stroke == Known::Open {
             state.stroke = stroke;
         }
         if state.polygon == Known::Open && !has_edges {
-            state.polygon = polygon_at(pixel, ground, points, state.item);
+            state.polygon = middle.polygon(state.item);
             if state.polygon == Known::Open {
                 return Some(ground.halving_line(points));
             }

@@ -37,10 +37,19 @@ pub(super) enum Verdict {
     In,
     /// None of it; or no edge crosses it.
     Out,
-    /// Cut here.
-    Cut(Line),
+    /// It is best cut.
+    Cut(Cut),
     /// It cannot be told.
     Stuck,
+}
+
+/// How a piece is best cut.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Cut {
+    /// Here.
+    pub(super) line: Line,
+    /// About how far the piece's middle lies within the primitive, pixels; negative: beyond it.
+    pub(super) depth: f64,
 }
 
 /// What is needed to bring plan geometry to a pixel.
@@ -127,7 +136,7 @@ impl PixelPrimitive {
                     }
                 }
                 match along.side(piece, slop) {
-                    Side::Both => Verdict::Cut(*along),
+                    Side::Both => Verdict::Cut(Cut { line: *along, depth: along.at(middle(piece)) }),
                     Side::Unknown => Verdict::Stuck,
                     Side::In | Side::Out => Verdict::Out,
                 }
@@ -147,7 +156,14 @@ fn convex_verdict(sides: &[Line], piece: &[[f64; 2]], slop: &mut f64) -> Verdict
         match side.side(piece, slop) {
             Side::Out => return Verdict::Out,
             Side::In => {}
-            Side::Both => verdict = Verdict::Cut(*side),
+            Side::Both => {
+                let depth = side.at(middle(piece));
+                let before = match verdict {
+                    Verdict::Cut(cut) => cut.depth,
+                    _ => f64::INFINITY,
+                };
+                verdict = Verdict::Cut(Cut { line: *side, depth: math::min(depth, before) });
+            }
             Side::Unknown => verdict = if matches!(verdict, Verdict::In) { Verdict::Stuck } else { verdict },
         }
     }
@@ -185,7 +201,11 @@ impl Near {
         match (spread.most <= 0.0, spread.least > 0.0) {
             (true, _) => Verdict::In,
             (_, true) => Verdict::Out,
-            _ => Verdict::Cut(ground.line(&cut(&tangent, centre.plan, &spread))),
+            _ => {
+                let line = ground.line(&cut(&tangent, centre.plan, &spread));
+                let (low, high) = spread.linear;
+                Verdict::Cut(Cut { line, depth: -tangent.value / (high - low) * extent(piece) })
+            }
         }
     }
 
@@ -223,6 +243,12 @@ impl Near {
             + self.to.to_vec().abs().max_element()
             + self.reach
     }
+}
+
+/// The larger of a piece's width and height, pixels.
+fn extent(piece: &[[f64; 2]]) -> f64 {
+    let plan = PlanBox::around(piece.iter().map(|p| Plan::new(p[0], p[1])));
+    (plan.max - plan.min).max_element()
 }
 
 /// The point of a segment nearest to a plan point.
