@@ -311,7 +311,7 @@ fn style(has_pixels: bool, width: Range<f64>) -> impl Strategy<Value = Style> {
     let fill = (color(), rule).prop_map(|(color, rule)| Fill { color, rule });
     let outline = (line(has_pixels, width.clone()), mode).prop_map(|(line, mode)| Outline { line, mode });
     (prop::option::of(fill), prop::option::of(outline), prop::option::of(line(has_pixels, width)))
-        .prop_map(|(fill, outline, line)| Style { fill, outline, line, point: line, swath: None })
+        .prop_map(|(fill, outline, line)| Style { fill, outline, line, point: line, ..Style::default() })
 }
 
 fn points() -> impl Strategy<Value = Vec<Plan>> {

@@ -12,7 +12,7 @@ use std::sync::OnceLock;
 /// About so many edges of a ring are asked in which other rings they lie.
 const MOST_ASKED: usize = 32;
 
-/// For each outline that is cut to a side: of each of its chains whether the polygon lies on the left, once somebody has asked.
+/// For each outline that is cut to a side: of each ring whether the polygon lies on the left, once somebody has asked. (Dashes are parts of rings.)
 #[derive(Debug, Default)]
 pub(super) struct Sides(BTreeMap<u32, Box<[OnceLock<bool>]>>);
 
@@ -22,22 +22,28 @@ impl Sides {
         let is_cut = |number: &u32| list.style_of(*number).cut.is_some();
         let cut = list.numbered().filter(|(number, _)| is_cut(number));
         Self(
-            cut.map(|(number, item)| (number, item.strokes.clone().map(|_| OnceLock::new()).collect()))
-                .collect(),
+            cut.map(|(number, item)| {
+                let rings = list.strokes(item).iter().map(|chain| chain.part + 1).max().unwrap_or(0);
+                (number, (0..rings).map(|_| OnceLock::new()).collect())
+            })
+            .collect(),
         )
     }
 
     /// Whether the polygon of an outline lies on the left of one of its chains.
     pub(super) fn is_left_inside(&self, source: &Source, item: u32, chain: u32) -> bool {
-        let known = self.0.get(&item).and_then(|chains| chains.get(chain as usize));
+        let chain = &source.list.strokes(&source.list.items()[item as usize])[chain as usize];
+        let known = self.0.get(&item).and_then(|rings| rings.get(chain.part as usize));
         known.is_none_or(|known| *known.get_or_init(|| is_left_inside(source, item, chain)))
     }
 }
 
 /// The left of a ring that turns left is what it encloses; that is the polygon where the ring itself lies in none or an even number of the others.
-fn is_left_inside(source: &Source, item: u32, chain: u32) -> bool {
+fn is_left_inside(source: &Source, item: u32, chain: &Chain) -> bool {
     let list = source.list;
-    let ring = &list.strokes(&list.items()[item as usize])[chain as usize];
+    // A dash tells nothing of the ring that it is a part of.
+    let rings = list.area(&list.items()[item as usize]);
+    let ring = rings.binary_search_by_key(&chain.part, |ring| ring.part).map_or(chain, |k| &rings[k]);
     let others: Vec<u32> = source
         .rings_of(list.area_owner(item))
         .filter(|other| {

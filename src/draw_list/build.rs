@@ -1,12 +1,13 @@
 //! Features -> items, block by block.
 
+use super::dash::{Dashed, check as check_dashes, dashed};
 use super::style::{StyleParts, StyleTable};
 use super::vertices::{Ends, add_distinct, are_distinct};
 use super::{Chain, DrawList, Item, ItemStyle, NO_FEATURE};
 use crate::error::{Error, Result};
 use crate::overlay::{border_outside, union_border};
 use crate::parallel;
-use crate::scene::{Feature, Layer, Rule, Shape};
+use crate::scene::{Dash, Feature, Layer, Rule, Shape};
 use crate::space::{Plan, PlanBox};
 use std::ops::Range;
 
@@ -41,6 +42,7 @@ struct Outside {
 
 /// The list of some layers, whose features it takes.
 pub(super) fn of_layers(layers: &mut [Layer], terrain: &PlanBox) -> Result<DrawList> {
+    check_dashes(layers)?;
     let mut table = StyleTable::default();
     let parts: Vec<Vec<StyleParts>> =
         layers.iter().enumerate().map(|(k, layer)| table.parts_of(k, layer)).collect();
@@ -175,12 +177,32 @@ fn check(count: usize, what: &str) -> Result<()> {
 
 impl DrawList {
     fn add_line(&mut self, item: Item, style: &StyleParts, lines: &[Vec<Plan>]) {
-        let Some(style) = style.line else { return };
+        let (Some(number), dash) = (style.line, &style.line_dash) else { return };
         let first = self.chains.len();
         for (part, line) in (0..).zip(lines) {
             self.add_stroke((part, 0), line, Ends::AsWritten);
         }
-        self.items.push(Item { style, strokes: self.chains_from(first), ..item });
+        let (strokes, centre_lines) = self.dashed(self.chains_from(first), dash.as_ref());
+        self.items.push(Item { style: number, strokes, centre_lines, ..item });
+    }
+
+    /// What is drawn of some chains, and of dashed ones what they are along.
+    fn dashed(&mut self, whole: Range<u32>, dash: Option<&Dash>) -> (Range<u32>, Range<u32>) {
+        let Some(dash) = dash else { return (whole, 0..0) };
+        let first = self.chains.len();
+        for chain in whole.clone() {
+            let chain = self.chains[chain as usize];
+            let Dashed::Parts(parts) = dashed(self.path_of(&chain), chain.is_closed, dash) else {
+                self.chains.push(chain);
+                continue;
+            };
+            for part in parts {
+                let (first, count) = (self.vertices.len() as u32, part.len() as u32);
+                self.vertices.extend(part);
+                self.chains.push(Chain { first, count, is_closed: false, ..chain });
+            }
+        }
+        (self.chains_from(first), whole)
     }
 
     fn add_points(&mut self, item: Item, style: &StyleParts, points: &[Plan]) {
@@ -248,10 +270,11 @@ impl DrawList {
         if let Some(style) = style.fill {
             self.items.push(Item { style, ..with_area.clone() });
         }
-        let is_cut = style.is_cut;
+        let (is_cut, dash) = (style.is_cut, &style.outline_dash);
         let Some(style) = style.outline else { return };
-        let strokes = self.add_outline(members, &area);
-        self.items.push(Item { style, strokes, ..if is_cut { with_area } else { item } });
+        let whole = self.add_outline(members, &area);
+        let (strokes, centre_lines) = self.dashed(whole, dash.as_ref());
+        self.items.push(Item { style, strokes, centre_lines, ..if is_cut { with_area } else { item } });
     }
 
     /// Adds rings that can bound something, numbered from `part` on.

@@ -15,11 +15,13 @@
 //! - *Strokes.* Consecutive vertices that are [the same](SAME_VERTEX) are one. A line that ends where it begins and has three distinct vertices
 //!   is a ring: joined there, without caps; with fewer it runs there and back. A ring of an outline is closed, one of two vertices there
 //!   and back; one of a single vertex is a dot, and so is a line of one.
+//! - *Dashes.* A chain with a pattern of dashes becomes an open chain for each dash, of the same item and with the same part and member.
 //! - *Cuts.* An outline that is inset or offset has the area that it is cut to: its feature's, by the fill's rule (even-odd without a fill).
 //!
 //! Each vertex is held once: a border whose vertices are all distinct is its outline's chain too.
 
 mod build;
+mod dash;
 mod style;
 mod vertices;
 
@@ -48,7 +50,8 @@ pub struct Item {
     pub border: Range<u32>,
     /// The chains that its stroke follows; none of a fill.
     pub strokes: Range<u32>,
-    /// Of a fill that is a stroke's area on a globe, the lines that the stroke is along.
+    /// The lines that it is along where these are not its strokes: of a fill that is a stroke's area on a globe, and of dashes the lines or rings
+    /// that these are parts of.
     pub centre_lines: Range<u32>,
 }
 
@@ -137,7 +140,7 @@ impl DrawList {
         &self.chains[item.strokes.start as usize..item.strokes.end as usize]
     }
 
-    /// The lines that an item is along whose area is that of a stroke; none of other items.
+    /// The lines that an item is along whose area is that of a stroke, or whose strokes are dashes; none of other items.
     pub fn centre_lines(&self, item: &Item) -> &[Chain] {
         &self.chains[item.centre_lines.start as usize..item.centre_lines.end as usize]
     }

@@ -1,6 +1,8 @@
 //! How items look: the styles of layers, taken apart.
 
-use crate::scene::{Cap, Color, Fill, Group, Join, Layer, Line, OutlineMode, Rule, Style, Swath, Width};
+use crate::scene::{
+    Cap, Color, Dash, Fill, Group, Join, Layer, Line, OutlineMode, Rule, Style, Swath, Width,
+};
 use std::collections::BTreeMap;
 
 /// What an item is of its feature.
@@ -85,6 +87,8 @@ pub(super) struct StyleParts {
     pub(super) is_cut: bool,
     pub(super) line: Option<u32>,
     pub(super) point: Option<u32>,
+    pub(super) outline_dash: Option<Dash>,
+    pub(super) line_dash: Option<Dash>,
 }
 
 impl StyleParts {
@@ -144,6 +148,8 @@ impl StyleTable {
             outline: outline.map(|style| self.number(style)),
             line: line.map(|style| self.number(style)),
             point: point.map(|style| self.number(style)),
+            outline_dash: style.outline_dash,
+            line_dash: style.line_dash,
         }
     }
 

@@ -88,7 +88,7 @@ fn properties(table: &FeatureTable, items: &[Item]) -> Map<String, Value> {
 }
 
 /// What a style may write.
-const STYLE_KEYS: [&str; 21] = [
+const STYLE_KEYS: [&str; 22] = [
     "layer",
     "layer-number",
     "number",
@@ -109,6 +109,7 @@ const STYLE_KEYS: [&str; 21] = [
     "drawn-miter-limit",
     "drawn-cap",
     "outline-mode",
+    "dashes",
     "attribute",
 ];
 
@@ -130,6 +131,7 @@ fn styled(table: &FeatureTable, items: &[Item]) -> Map<String, Value> {
             Some(line) => {
                 put_stroke(style, line, &mut all);
                 put_drawn(table, style, line, &mut all);
+                put_dashes(table, item, &mut all);
             }
             None => put_fill(style, &mut all),
         }
@@ -183,6 +185,17 @@ fn put_drawn(table: &FeatureTable, style: &ItemStyle, line: &Line, all: &mut Map
         all.insert("drawn-miter-limit".into(), limit.into());
     }
     all.insert("drawn-cap".into(), form.cap.into());
+}
+
+/// Where a line or an outline is dashed, the polylines that are drawn in place of the feature's lines or rings.
+fn put_dashes(table: &FeatureTable, item: &Item, all: &mut Map<String, Value>) {
+    let list = table.list;
+    if list.centre_lines(item).is_empty() {
+        return;
+    }
+    let place = |p: &Plan| json!([table.origin.x + p.x, table.origin.y + p.y]);
+    let path = |chain: &Chain| list.path_of(chain).iter().map(place).collect();
+    all.insert("dashes".into(), list.strokes(item).iter().map(path).collect::<Vec<Value>>().into());
 }
 
 /// A colour without its alpha, as the web writes it.
@@ -250,7 +263,11 @@ fn parts(list: &DrawList, items: &[Item]) -> Vec<Chain> {
         Role::Outside => list.border(item),
         _ => list.area(item),
     });
-    let strokes = items.iter().flat_map(|item| list.strokes(item));
+    let strokes = items.iter().flat_map(|item| match list.centre_lines(item) {
+        // Of dashes, what they are parts of; a swath on a globe has no strokes.
+        whole if !item.strokes.is_empty() && !whole.is_empty() => whole,
+        _ => list.strokes(item),
+    });
     let mut parts: Vec<Chain> = borders.chain(strokes).copied().collect();
     // Borders are before strokes: the sort keeps them there.
     parts.sort_by_key(|chain| chain.part);

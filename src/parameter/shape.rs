@@ -25,6 +25,8 @@ pub enum Shape {
     Number(Range),
     /// So many finite numbers.
     Numbers(usize),
+    /// An even count of numbers in a range, at most so many.
+    Pattern(usize, Range),
     /// A word for "none", or the shape of what there may be.
     Or(&'static str, &'static Shape),
     /// Two finite numbers, or three.
@@ -158,6 +160,9 @@ impl Shape {
             }
             Shape::Number(range) => range.words(),
             Shape::Numbers(count) => format!("an array of {count} finite numbers"),
+            Shape::Pattern(most, range) => {
+                format!("an array of 2, 4, ... or {most} numbers, each {}", range.words())
+            }
             Shape::Or(word, shape) => format!("{} or {word:?}", shape.words()),
             Shape::PairOrTriple => "an array of 2 or 3 finite numbers".into(),
             Shape::Paths => "a list of points [[x, y], ...] or a list of such lists".into(),

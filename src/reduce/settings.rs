@@ -101,6 +101,7 @@ fn of_a_layer(draft: &Draft, k: usize) -> Vec<Draft> {
     change(&|layer| {
         layer.style.outline.iter_mut().for_each(|outline| outline.mode = OutlineMode::Normal);
     });
+    change(&|layer| (layer.style.line_dash, layer.style.outline_dash) = (None, None));
     change(&|layer| strokes(layer).into_iter().for_each(|line| line.join = Join::Round));
     change(&|layer| strokes(layer).into_iter().for_each(|line| line.cap = Cap::Butt));
     all

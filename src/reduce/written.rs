@@ -1,7 +1,8 @@
 //! A draft as a scene file.
 
 use super::draft::{Draft, DraftLayer};
-use crate::scene::{Camera, Cap, Color, Fill, Join, Line, OutlineMode, Projection, Rule, Shape, Width};
+use crate::parameter::Named;
+use crate::scene::{Camera, Cap, Color, Dash, Fill, Join, Line, OutlineMode, Projection, Rule, Shape, Width};
 use crate::space::Plan;
 use std::fmt::Write;
 
@@ -81,15 +82,12 @@ fn layer_text(layer: &DraftLayer) -> String {
             OutlineMode::Normal => "",
             OutlineMode::Offset => ", mode = \"offset\"",
         };
-        format!("outline = {{ {}{mode} }}\n", stroke(&outline.line))
+        let dash = style.outline_dash.map_or(String::new(), |dash| cap(&outline.line) + &dashes(&dash));
+        format!("outline = {{ {}{mode}{dash} }}\n", stroke(&outline.line))
     }));
     text.extend(style.line.iter().map(|line| {
-        let cap = match line.cap {
-            Cap::Butt => "",
-            Cap::Square => ", cap = \"square\"",
-            Cap::Round => ", cap = \"round\"",
-        };
-        format!("line = {{ {}{cap} }}\n", stroke(line))
+        let dash = style.line_dash.as_ref().map_or(String::new(), dashes);
+        format!("line = {{ {}{}{dash} }}\n", stroke(line), cap(line))
     }));
     text.extend(
         style
@@ -98,6 +96,19 @@ fn layer_text(layer: &DraftLayer) -> String {
             .map(|line| format!("point = {{ {}, {} }}\n", paint(line.color), width(line.width))),
     );
     text
+}
+
+fn cap(line: &Line) -> String {
+    match line.cap {
+        Cap::Butt => String::new(),
+        Cap::Square | Cap::Round => format!(", cap = \"{}\"", line.cap.word()),
+    }
+}
+
+fn dashes(dash: &Dash) -> String {
+    let offset =
+        if dash.offset() == 0.0 { String::new() } else { format!(", dash_offset = {:?}", dash.offset()) };
+    format!(", dash = {:?}{offset}", dash.lengths())
 }
 
 fn stroke(line: &Line) -> String {

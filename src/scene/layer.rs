@@ -1,6 +1,6 @@
 //! Vector layers and their styles.
 
-use super::Color;
+use super::{Color, Dash};
 use crate::parameter::{Named, words};
 use crate::space::Plan;
 
@@ -116,6 +116,10 @@ pub struct Style {
     pub point: Option<Line>,
     /// What stroke a swath is.
     pub swath: Option<Swath>,
+    /// Which parts of outlines are drawn; all of them where there is no pattern.
+    pub outline_dash: Option<Dash>,
+    /// Which parts of lines are drawn.
+    pub line_dash: Option<Dash>,
 }
 
 /// What stroke a swath is.

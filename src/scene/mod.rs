@@ -5,6 +5,7 @@
 
 mod attribute;
 mod camera;
+mod dash;
 mod detail;
 mod globe;
 mod ground;
@@ -13,6 +14,7 @@ mod settings;
 
 pub use attribute::{Attribute, Column};
 pub use camera::{Camera, Projection};
+pub use dash::Dash;
 pub use detail::{Detail, LevelOfDetail};
 pub use globe::GlobePosts;
 pub use ground::{Ground, GroundColors, Imagery, Light};

@@ -1,6 +1,6 @@
 //! What a layer says of the attributes of its features: settings that a column tells, conditions, and the draw order.
 
-use crate::scene::{Attribute, Cap, Color, Join, OutlineMode, Rule};
+use crate::scene::{Attribute, Cap, Color, Dash, Join, OutlineMode, Rule};
 
 /// A setting of a style.
 #[derive(Debug, Clone, PartialEq)]
@@ -96,6 +96,8 @@ pub struct LineSpec {
     pub join: Join,
     /// How it ends.
     pub cap: Cap,
+    /// Which parts of it are drawn.
+    pub dash: Option<Dash>,
 }
 
 /// A colour, as it is written.

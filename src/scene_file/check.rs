@@ -65,6 +65,11 @@ impl Check<'_> {
             (Shape::Numbers(count), Value::Array(items)) if items.len() == *count => {
                 self.each(items, &Shape::Number(Range::Finite), path)
             }
+            (Shape::Pattern(most, range), Value::Array(items))
+                if matches!(items.len(), 1..) && items.len() % 2 == 0 && items.len() <= *most =>
+            {
+                self.each(items, &Shape::Number(*range), path)
+            }
             (Shape::PairOrTriple, Value::Array(items)) if matches!(items.len(), 2 | 3) => {
                 self.each(items, &Shape::Number(Range::Finite), path)
             }

@@ -50,6 +50,10 @@ fn value(shape: &Shape) -> Value {
         Shape::Integers(count, low, high) => list(value(&Shape::Integer(*low, *high)), *count, *count),
         Shape::Number(range) => number(*range),
         Shape::Numbers(count) => list(number(Range::Finite), *count, *count),
+        Shape::Pattern(most, range) => {
+            let pairs = (1..=most / 2).map(|pairs| list(number(*range), 2 * pairs, 2 * pairs));
+            json!({ "anyOf": pairs.collect::<Vec<_>>() })
+        }
         Shape::PairOrTriple => list(number(Range::Finite), 2, 3),
         Shape::Or(word, shape) => json!({ "anyOf": [value(shape), { "enum": [word] }] }),
         Shape::Paths => paths(),

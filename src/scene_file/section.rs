@@ -124,6 +124,14 @@ impl<'a> Section<'a> {
         self.taken(key, |value| items(value, |item| item.number()))
     }
 
+    /// Numbers, however many.
+    pub(super) fn numbers_of_any_count(&mut self, key: &str) -> Result<Option<Vec<f64>>> {
+        self.plain(key, |value| {
+            let Found::Array(items) = value else { return None };
+            items.into_iter().map(|item| item.value.number()).collect()
+        })
+    }
+
     /// Two or three numbers; the third is 0 where it was not written.
     pub(super) fn displacement(&mut self, key: &str) -> Result<Option<DVec3>> {
         self.plain(key, |value| {

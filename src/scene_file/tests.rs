@@ -51,10 +51,10 @@ edges = "straight"
 offset = [5, 6]
 opacity = 0.8
 fill = { color = "#3388ff", opacity = 0.5, rule = "nonzero" }
-outline = { color = "#003366", opacity = 1, width_m = 4.0, mode = "inset", join = "miter", miter_limit = 2 }
+outline = { color = "#003366", opacity = 1, width_m = 4.0, mode = "inset", join = "miter", miter_limit = 2, dash = [9, 3.5], dash_offset = 1, cap = "round" }
 [[layer]]
 source = "roads.shp"
-line = { color = "#ff7f00", opacity = 1.0, width_m = 12.0, join = "miter", miter_limit = 3, cap = "round" }
+line = { color = "#ff7f00", opacity = 1.0, width_m = 12.0, join = "miter", miter_limit = 3, cap = "round", dash = [10, 5, 1, 5], dash_offset = -2.5 }
 [[layer]]
 features = [{ polygon = [[0, 0], [4, 0], [0, 3]] }, { line = [[0, 0], [1, 1]] }, { points = [[1, 2]] }]
 outline = { color = "#003366", width_px = 2 }

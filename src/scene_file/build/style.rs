@@ -2,12 +2,12 @@
 
 use super::by_column::{as_number, setting};
 use crate::error::Result;
-use crate::scene::{Cap, Color, Join};
+use crate::scene::{Cap, Color, Dash, Join};
 use crate::scene_file::by_column::{
     FillSpec, LineSpec, OutlineSpec, PaintSpec, StyleSetting, StyleSpec, WidthSpec,
 };
 use crate::scene_file::names::JoinName;
-use crate::scene_file::section::{Section, as_color};
+use crate::scene_file::section::{Section, as_color, bug};
 
 pub(super) fn style(section: &mut Section<'_>) -> Result<StyleSpec> {
     let origin = section.origin();
@@ -37,7 +37,12 @@ fn fill(section: &mut Section<'_>) -> Result<FillSpec> {
 }
 
 fn outline(section: &mut Section<'_>) -> Result<OutlineSpec> {
-    let line = stroke(section, Cap::Butt)?;
+    let is_dashed = section.first_of(&["dash"]).is_some();
+    if let Some((key, place)) = section.first_of(&["cap"]).filter(|_| !is_dashed) {
+        return Err(section.error_at(place, format!("`{key}` of an outline goes with `dash` only")));
+    }
+    let cap = section.name("cap")?.unwrap_or_default();
+    let line = stroke(section, cap)?;
     Ok(OutlineSpec { line, mode: section.name("mode")?.unwrap_or_default() })
 }
 
@@ -52,7 +57,19 @@ fn point(section: &mut Section<'_>) -> Result<LineSpec> {
 }
 
 fn stroke(section: &mut Section<'_>, cap: Cap) -> Result<LineSpec> {
-    Ok(LineSpec { paint: paint(section)?, width: width(section)?, join: join(section)?, cap })
+    let (paint, width, join, dash) = (paint(section)?, width(section)?, join(section)?, dash(section)?);
+    Ok(LineSpec { paint, width, join, cap, dash })
+}
+
+fn dash(section: &mut Section<'_>) -> Result<Option<Dash>> {
+    let Some(lengths) = section.numbers_of_any_count("dash")? else {
+        return match section.first_of(&["dash_offset"]) {
+            Some((key, place)) => Err(section.error_at(place, format!("`{key}` goes with `dash` only"))),
+            None => Ok(None),
+        };
+    };
+    let offset = section.number("dash_offset")?.unwrap_or(0.0);
+    Dash::new(&lengths, offset).map(Some).ok_or_else(|| bug("a pattern of dashes"))
 }
 
 fn paint(section: &mut Section<'_>) -> Result<PaintSpec> {

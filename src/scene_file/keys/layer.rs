@@ -3,7 +3,7 @@
 use super::by_column::{COLOR, CONDITION, OPACITY, ORDER, ORDER_NAME, WIDTH};
 use super::{POSITIVE, SEED, SHARE};
 use crate::parameter::{Range, Rule as Keys, Shape, TableShape, choice, key};
-use crate::scene::{Cap, OutlineMode, Rule};
+use crate::scene::{Cap, Dash, OutlineMode, Rule};
 use crate::scene_file::case_study::{Group, Study};
 use crate::scene_file::names::{JoinName, VectorName};
 use crate::scene_file::spec::Edges;
@@ -123,6 +123,9 @@ static FILL: TableShape = TableShape {
     rules: &[],
 };
 
+/// The lengths of dashes.
+const DASH: Shape = Shape::Pattern(Dash::MOST, Range::Between(Dash::SHORTEST, Dash::LONGEST));
+
 static OUTLINE: TableShape = TableShape {
     keys: &[
         key("color", COLOR, "The colour.").required(),
@@ -140,6 +143,17 @@ static OUTLINE: TableShape = TableShape {
             Shape::Number(Range::FromOne),
             "join = \"miter\": the largest ratio of miter length to width. Default: 4.",
         ),
+        key(
+            "dash",
+            DASH,
+            "Lengths in metres of the plan along it: in turn drawn and left out. Default: all of it is drawn.",
+        ),
+        key(
+            "dash_offset",
+            Shape::Number(Range::Finite),
+            "dash: how far into the pattern a ring begins, metres. Default: 0.",
+        ),
+        key("cap", choice::<Cap>(), "dash: how dashes end. Default: \"butt\"."),
     ],
     rules: &[Keys::One(&["width_m", "width_px"])],
 };
@@ -156,7 +170,17 @@ static LINE: TableShape = TableShape {
             Shape::Number(Range::FromOne),
             "join = \"miter\": the largest ratio of miter length to width. Default: 4.",
         ),
-        key("cap", choice::<Cap>(), "How the line ends. Default: \"butt\"."),
+        key("cap", choice::<Cap>(), "How the line and its dashes end. Default: \"butt\"."),
+        key(
+            "dash",
+            DASH,
+            "Lengths in metres of the plan along it: in turn drawn and left out. Default: all of it is drawn.",
+        ),
+        key(
+            "dash_offset",
+            Shape::Number(Range::Finite),
+            "dash: how far into the pattern each line begins, metres. Default: 0.",
+        ),
     ],
     rules: &[Keys::One(&["width_m", "width_px"])],
 };

@@ -97,19 +97,21 @@ impl Settings<'_> {
         let line = spec.line.as_ref().filter(|_| takes.lines);
         let fill =
             fill.map(|fill| Ok(Fill { color: self.color(&fill.paint, "fill", index)?, rule: fill.rule }));
-        let outline = outline.map(|outline| {
+        let outlined = outline.map(|outline| {
             let line = self.line(&outline.line, "outline", index)?;
             Ok(Outline { line, mode: outline.mode })
         });
-        let line = line.map(|line| self.line(line, "line", index));
+        let lined = line.map(|line| self.line(line, "line", index));
         let point =
             spec.point.as_ref().filter(|_| takes.points).map(|point| self.line(point, "point", index));
         Ok(Style {
             fill: fill.transpose()?,
-            outline: outline.transpose()?,
-            line: line.transpose()?,
+            outline: outlined.transpose()?,
+            line: lined.transpose()?,
             point: point.transpose()?,
             swath: None,
+            outline_dash: outline.and_then(|outline| outline.line.dash),
+            line_dash: line.and_then(|line| line.dash),
         })
     }
 

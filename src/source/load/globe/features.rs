@@ -47,6 +47,14 @@ pub(in crate::source::load) fn check_styles(
                 );
             }
         }
+        let dashed = [("line", style.line_dash), ("outline", style.outline_dash)];
+        if let Some((part, _)) = dashed.into_iter().find(|(_, dash)| dash.is_some()) {
+            return refuse(
+                &format!("{part}.dash"),
+                "dashes are measured in metres of the plan, and a globe's plan has its true length nowhere but along the equator",
+                "leave the dashes out",
+            );
+        }
         if style.outline.is_some_and(|outline| outline.mode != OutlineMode::Normal) {
             return refuse(
                 "outline.mode",
