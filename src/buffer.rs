@@ -1,8 +1,10 @@
 //! Row-major images of anything, and the hash of their pixels.
 
 mod kind;
+mod touches;
 
 pub use kind::{Look, PlaneKind};
+pub use touches::{Touches, picked};
 
 /// An image: `width x height` values, rows from the top.
 ///

@@ -72,6 +72,8 @@ pub(crate) mod footprint;
 #[cfg(feature = "render")]
 pub mod golden;
 #[cfg(feature = "render")]
+pub(crate) mod holding;
+#[cfg(feature = "render")]
 pub mod index;
 #[cfg(feature = "render")]
 pub(crate) mod interval;

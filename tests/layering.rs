@@ -70,11 +70,13 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("output", &["buffer"]),
     ("interval", &[]),
     ("footprint", &["draw_list", "terrain", "scene", "space", "interval", "predicate", "index", "parallel"]),
+    ("holding", &["footprint", "space"]),
     // No technique, and nothing that decides for one: neither `raster`, `visibility` nor `canvas`.
     (
         "truth",
         &[
             "footprint",
+            "holding",
             "interval",
             "certainty",
             "resolve",

@@ -46,6 +46,15 @@ impl PlaneKind {
     /// RGBA, straight alpha.
     pub const COLOR: Self = Self::new("color", Look::Color);
 
+    /// The topmost item at a pixel's middle, `u32::MAX` for none.
+    pub const ID: Self = Self::new("id", Look::Number);
+    /// Where the rows of each pixel begin in [`Self::IDS`], and after all the number of rows.
+    pub const ID_STARTS: Self = Self::new("id-starts", Look::Table);
+    /// The items that touch pixels, pixel by pixel, the topmost first.
+    pub const IDS: Self = Self::new("ids", Look::Table);
+    /// The buffers that say which items touch pixels. Goldens leave them out: they follow from what makes the picture.
+    pub const PICKS: [Self; 3] = [Self::ID, Self::ID_STARTS, Self::IDS];
+
     /// A plane whose numbers are no plan coordinates.
     pub const fn new(name: &'static str, look: Look) -> Self {
         Self { name, is_in_plan: false, look, is_structure: false }
@@ -54,6 +63,11 @@ impl PlaneKind {
     /// A table of a structure.
     pub const fn structure(name: &'static str) -> Self {
         Self { is_structure: true, ..Self::new(name, Look::Table) }
+    }
+
+    /// Whether it is one of [`Self::PICKS`].
+    pub fn is_pick(&self) -> bool {
+        Self::PICKS.iter().any(|kind| kind.name == self.name)
     }
 
     /// The same of plan coordinates.

@@ -1,6 +1,6 @@
 //! What is asked of a frame, and what it is.
 
-use crate::buffer::{Buffer, Plane, Values};
+use crate::buffer::{Buffer, Plane, PlaneKind, Touches, Values};
 use crate::visibility::TILE;
 
 /// How a frame is drawn; nothing here changes a pixel.
@@ -25,6 +25,11 @@ impl FrameOptions<'_> {
     /// Whether a buffer is wanted.
     pub fn wants(&self, name: &str) -> bool {
         self.buffers.iter().any(|wanted| wanted == name)
+    }
+
+    /// Room for the items that touch pixels of a picture that is so wide, where one of their buffers is wanted.
+    pub fn touches(&self, width: usize) -> Touches {
+        Touches::new(width, PlaneKind::PICKS.iter().any(|kind| self.wants(kind.name)))
     }
 }
 

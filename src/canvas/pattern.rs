@@ -47,6 +47,18 @@ impl SamplePattern {
         }
     }
 
+    /// The number of the sample that lies nearest to the pixel's centre; of several the first.
+    pub fn middle(self) -> usize {
+        let mut nearest = (f64::INFINITY, 0);
+        for (k, [x, y]) in self.places().into_iter().enumerate() {
+            let distance = (x - 0.5) * (x - 0.5) + (y - 0.5) * (y - 0.5);
+            if distance < nearest.0 {
+                nearest = (distance, k);
+            }
+        }
+        nearest.1
+    }
+
     /// Where they lie in a pixel, from its upper left corner, 0..=1.
     pub fn places(self) -> Vec<[f64; 2]> {
         match self {

@@ -98,7 +98,7 @@ fn certified(stage: &Stage, view: &ViewFrame) -> Replay {
 
 fn draw(kind: Kind, (stage, view): (&Stage, &ViewFrame), cut: Cut) -> Result<Replay> {
     let prepared = technique::prepare(kind, stage)?;
-    let planes = kind.declaration().planes.iter().filter(|plane| !plane.is_structure);
+    let planes = kind.declaration().planes.iter().filter(|plane| !plane.is_structure && !plane.is_pick());
     let names: Vec<String> = planes.map(|plane| plane.name.to_owned()).collect();
     let tile = match cut {
         Cut::Usual => TILE,

@@ -6,11 +6,10 @@
 //! footprints, and is parallel over blocks of pixels. Its samples are exact up to the rounding of plan points and strokes' borders; its error is that of
 //! replacing an area by points, which nobody can tell without a truth.
 
-mod nearby;
-
 use crate::buffer::Buffer;
 use crate::canvas::{Backdrop, GBuffer, LastGround, mean};
 use crate::footprint::{Footprints, PixelSize};
+use crate::holding::Nearby;
 use crate::parallel;
 use crate::raster::Lattice;
 use crate::resolve::{Paint, Stack};
@@ -19,7 +18,6 @@ use crate::space::ViewFrame;
 use crate::stage::Stage;
 use crate::terrain::{Mesh, SKY};
 use crate::tiling::{TilePlace, Tiling};
-use nearby::Nearby;
 
 /// Samples a side of a block that is seen at once.
 const BLOCK: usize = 256;

@@ -93,7 +93,7 @@ fn draw_with<T: Real>(
     options: &FrameOptions,
 ) -> Result<Frame> {
     let mesh = &*stage.mesh_for(view);
-    let setup = Setup::<T>::new((stage, mesh, view), prepared, (options.tile, options.wants("boxes")))?;
+    let setup = Setup::<T>::new((stage, mesh, view), prepared, (options.tile, options.wants("boxes"), options.touches(0).is_wanted()))?;
     let context = &setup.context;
     (options.progress)(0.4);
     let size = [view.width(), view.height()];
@@ -109,14 +109,17 @@ fn draw_with<T: Real>(
     }
     let bins = bins(&tiling, (0u32..).zip(setup.windows.iter().cloned()));
     let progress = |share: f64| (options.progress)(0.4 + 0.5 * share);
-    let tiles = parallel::map_telling(tiling.count(), &progress, |k| {
+    let mut tiles = parallel::map_telling(tiling.count(), &progress, |k| {
         context.draw(tiling.place(k), bins.of(k), &mut ())
     });
     let colors = tiling.assembled([0.0; 4], tiles.iter().map(|tile| &tile.colors[..]));
     let colors = finished(size, colors, context.settings.antialiasing);
+    let mut touches = options.touches(size[0]);
+    tiles.iter_mut().for_each(|tile| touches.take(std::mem::take(&mut tile.touches)));
     let planes = options.buffers.iter().filter_map(|name| plane(name, context, &tiling, (&tiles, &colors)));
+    let picks = touches.planes(size[1], &|name| options.wants(name));
     Ok(Frame {
-        planes: planes.collect(),
+        planes: planes.chain(picks).collect(),
         counts: setup.counts(&prepared.lines, &tiles),
         image: Buffer::from_values(size[0], size[1], colors.into_iter().map(code_values).collect()),
     })
@@ -128,7 +131,7 @@ fn explain_with<T: Real>(
     [x, y]: [usize; 2],
 ) -> Result<(Vec<Step>, [u8; 4])> {
     let mesh = &*stage.mesh_for(view);
-    let setup = Setup::<T>::new((stage, mesh, view), prepared, (TILE, false))?;
+    let setup = Setup::<T>::new((stage, mesh, view), prepared, (TILE, false, false))?;
     let draw = |place: TilePlace, record: &mut Vec<Step>| {
         let ([x, y], [width, height]) = (place.corner, place.size);
         let meets = |[columns, rows]: &Window| {
@@ -169,7 +172,7 @@ impl<'a, T: Real> Setup<'a, T> {
     fn new(
         (stage, mesh, view): (&'a Stage, &'a Mesh, &'a ViewFrame),
         prepared: &'a Prepared<'a>,
-        (tile, wants_boxes): (usize, bool),
+        (tile, wants_boxes, wants_items): (usize, bool, bool),
     ) -> Result<Self> {
         let settings: Settings = stage.scene.technique.get();
         let mut sight = Sight::new(view, mesh, &stage.scene.device, Lattice::centres(view, 0), tile);
@@ -219,6 +222,7 @@ impl<'a, T: Real> Setup<'a, T> {
                 paints,
                 statics,
                 wants_boxes,
+                wants_items,
                 most_entries: MOST_ENTRIES,
             },
             windows,

@@ -12,6 +12,7 @@ use super::segment_box::BoxMaker;
 use super::statics::{Room, Statics, merged};
 use super::step::{Step, Verdict};
 use super::update::Segment;
+use crate::buffer::Touches;
 use crate::canvas::{Backdrop, Record};
 use crate::raster::device::Real;
 use crate::resolve::{Paint, Stack};
@@ -54,6 +55,8 @@ pub struct FrameContext<'a, T> {
     pub statics: Option<Statics<'a>>,
     /// Whether each pixel's number of boxes is wanted.
     pub wants_boxes: bool,
+    /// Whether it is wanted which items touch pixels.
+    pub wants_items: bool,
     /// The most entries of the lists of a tile: [`MOST_ENTRIES`].
     pub most_entries: usize,
 }
@@ -90,6 +93,8 @@ pub struct Drawn {
     pub lengths: Vec<u32>,
     /// How many boxes cover each pixel, where that is wanted.
     pub boxes: Vec<u32>,
+    /// Which items are drawn on its pixels, where that is wanted.
+    pub touches: Touches,
     /// What was counted.
     pub counts: Counts,
 }
@@ -134,10 +139,12 @@ impl<T: Real> FrameContext<'_, T> {
             self.draw(TilePlace { corner, size: part }, near, record)
         };
         let whole = if is_wide { width } else { height };
-        let first = cut(0, whole / 2);
+        let mut first = cut(0, whole / 2);
         let second = cut(whole / 2, whole - whole / 2);
         let rows = if is_wide { [whole / 2, whole - whole / 2] } else { [1, 1] };
+        first.touches.take(second.touches);
         Drawn {
+            touches: first.touches,
             colors: joined((&first.colors, &second.colors), rows, is_wide),
             lengths: joined((&first.lengths, &second.lengths), rows, is_wide),
             boxes: joined((&first.boxes, &second.boxes), rows, is_wide),
@@ -207,8 +214,9 @@ impl<T: Real> FrameContext<'_, T> {
         counts.entries = lists.len() as u64;
         let lengths: Vec<u32> = (0..count).map(|pixel| lists.count(pixel)).collect();
         counts.longest = lengths.iter().copied().max().unwrap_or(0).into();
-        let colors = self.compose(place, &points, &mut lists, record);
-        Some(Drawn { colors, lengths, boxes, counts })
+        let mut touches = Touches::new(self.view.width(), self.wants_items);
+        let colors = self.compose((place, &points), &mut lists, &mut touches, record);
+        Some(Drawn { colors, lengths, boxes, touches, counts })
     }
 
     /// The surface points of a rectangle.
@@ -281,9 +289,9 @@ impl<T: Real> FrameContext<'_, T> {
     /// Sorts and composes each pixel's list (4.3.3, 4.4.2).
     fn compose<R: Record<Step>>(
         &self,
-        place: TilePlace,
-        points: &[World],
+        (place, points): (TilePlace, &[World]),
         lists: &mut PixelLists,
+        touches: &mut Touches,
         record: &mut R,
     ) -> Vec<[f64; 4]> {
         let ([x, y], [width, _]) = (place.corner, place.size);
@@ -311,6 +319,7 @@ impl<T: Real> FrameContext<'_, T> {
             record.step(|| Step::Composed(drawn.clone()));
             let mut stack = Stack::on(ground);
             for (item, share) in drawn.iter().rev() {
+                touches.push([at.0, at.1], *item, *share >= 0.5);
                 let style = self.stage.draw_list.items()[*item as usize].style as usize;
                 let paint = if *share < 1.0 { self.paints[style].times(*share) } else { self.paints[style] };
                 stack.draw(self.stage.draw_list.styles()[style].group, |below| compositor.over(below, paint));

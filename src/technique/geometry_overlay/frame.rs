@@ -7,7 +7,7 @@ use super::step::Step;
 use super::strips::Overlay;
 use super::structures;
 use super::tile::{Drawn, FrameContext};
-use crate::buffer::{Buffer, Plane, Values};
+use crate::buffer::{Buffer, Plane, Touches, Values};
 use crate::canvas::{Backdrop, Frame, FrameOptions, picture_plane, sight_counts, surface_plane};
 use crate::error::{Error, Result};
 use crate::index::bins;
@@ -75,10 +75,12 @@ fn draw_with<T: Real>(prepared: &Prepare, view: &ViewFrame, options: &FrameOptio
     }
     let bins = bins(&tiling, (0u32..).zip(windows));
     let progress = |share: f64| (options.progress)(0.5 + 0.5 * share);
-    let wants = (options.wants("color"), options.wants("clipping"));
-    let tiles = parallel::map_telling(tiling.count(), &progress, |k| {
-        context.draw(tiling.place(k), bins.of(k), wants, &mut ())
+    let wants = || (options.wants("color"), options.wants("clipping"), options.touches(view.width()));
+    let mut tiles = parallel::map_telling(tiling.count(), &progress, |k| {
+        context.draw(tiling.place(k), bins.of(k), wants(), &mut ())
     });
+    let mut touches = options.touches(view.width());
+    tiles.iter_mut().for_each(|tile| touches.take(std::mem::take(&mut tile.touches)));
     let codes = tiling.assembled([0; 4], tiles.iter().map(|tile| tile.pixels.codes()));
     let structures = match MeshInUse::of(&prepared.stage.mesh, mesh) {
         Some(in_use) => structures::planes(prepared, (&in_use, view), options)?,
@@ -87,7 +89,7 @@ fn draw_with<T: Real>(prepared: &Prepare, view: &ViewFrame, options: &FrameOptio
     let planes = options.buffers.iter().filter_map(|name| plane(name, context, (&tiling, &tiles)));
     Ok(Frame {
         image: Buffer::from_values(view.width(), view.height(), codes),
-        planes: structures.into_iter().chain(planes).collect(),
+        planes: structures.into_iter().chain(planes).chain(touches.planes(view.height(), &|name| options.wants(name))).collect(),
         counts: setup.counts(&tiles),
     })
 }
@@ -102,7 +104,7 @@ fn explain_with<T: Real>(prepared: &Prepare, view: &ViewFrame, corner: [usize; 2
     let near: Vec<u32> = segments.filter(|(_, segment)| holds(segment)).map(|(number, _)| number).collect();
     let mut steps = Vec::new();
     let place = TilePlace { corner, size: [1, 1] };
-    let drawn = setup.context.draw(place, &near, (true, false), &mut steps);
+    let drawn = setup.context.draw(place, &near, (true, false, Touches::default()), &mut steps);
     let code = drawn.pixels.colors().first().map_or([0; 4], |color| code_values(*color));
     (steps, code)
 }

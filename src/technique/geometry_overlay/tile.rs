@@ -5,6 +5,7 @@
 
 use super::drawing::{LineDrawing, Segment};
 use super::step::Step;
+use crate::buffer::Touches;
 use crate::canvas::{Backdrop, Kept, LastGround, Pixels, Record};
 use crate::raster::device::{DepthBuffer, Pipeline, PolygonOffset, Real, SurfaceDepth, Window};
 use crate::resolve::{Paint, Stack};
@@ -45,6 +46,8 @@ pub(super) struct Drawn {
     pub pixels: Pixels,
     /// The number of the topmost segment's triangle clipping, where that is wanted; [`NO_CLIPPING`] for none.
     pub clippings: Kept<u32>,
+    /// Which items have fragments in its pixels, where that is wanted.
+    pub touches: Touches,
     pub counts: Counts,
 }
 
@@ -75,7 +78,7 @@ impl<T: Real> FrameContext<'_, T> {
         &self,
         place: TilePlace,
         near: &[u32],
-        (wants_colors, wants_clippings): (bool, bool),
+        (wants_colors, wants_clippings, touches): (bool, bool, Touches),
         record: &mut R,
     ) -> Drawn {
         let [width, height] = place.size;
@@ -84,6 +87,7 @@ impl<T: Real> FrameContext<'_, T> {
         let mut drawn = Drawn {
             pixels: Pixels::new(self.backdrop.compositor, width * height, wants_colors),
             clippings: Kept::new(wants_clippings),
+            touches,
             counts,
         };
         let (mut last, mut next) = (self.backdrop.no_ground(), 0);
@@ -95,6 +99,9 @@ impl<T: Real> FrameContext<'_, T> {
             let ground = self.ground(at, &mut last);
             drawn.clippings.push(|| own.last().map_or(NO_CLIPPING, |entry| entry.clipping));
             let paint = self.composed(ground, own);
+            if drawn.touches.is_wanted() {
+                self.shares(own, &mut |item, share| drawn.touches.push([at.0, at.1], item, share >= 0.5));
+            }
             record.step(|| Step::Color(paint));
             if own.is_empty() {
                 drawn.pixels.push_ground(ground);
@@ -197,14 +204,19 @@ impl<T: Real> FrameContext<'_, T> {
             let paint = self.paints[style].times(share);
             stack.draw(list.styles()[style].group, |below| self.backdrop.compositor.over(below, paint));
         };
+        self.shares(entries, &mut draw);
+        stack.finished()
+    }
+
+    /// Calls `visit` with the item and the share of a pixel of each of its fragments, or of all of an item's that were made by area.
+    fn shares(&self, entries: &[Entry], visit: &mut dyn FnMut(u32, f64)) {
         if self.drawing.is_antialiased() {
             for same in entries.chunk_by(|a, b| a.item == b.item) {
                 let share = same.iter().map(|entry| entry.share).sum::<f64>();
-                draw(same[0].item, crate::math::min(share, 1.0));
+                visit(same[0].item, crate::math::min(share, 1.0));
             }
         } else {
-            entries.iter().for_each(|entry| draw(entry.item, 1.0));
+            entries.iter().for_each(|entry| visit(entry.item, 1.0));
         }
-        stack.finished()
     }
 }

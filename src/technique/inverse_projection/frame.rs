@@ -4,7 +4,8 @@ use super::edge_index::EdgeIndex;
 use super::pixel::{Counts, GUARD, PixelPainter};
 use super::step::{PixelClass, Step};
 use super::structures;
-use crate::buffer::{Buffer, Plane, Values};
+use super::touched::touch;
+use crate::buffer::{Buffer, Plane, Touches, Values};
 use crate::canvas::{Frame, FrameOptions, Kept, Pixels, joined, picture_plane, sight_counts, surface_plane};
 use crate::parallel;
 use crate::resolve::code_values;
@@ -22,6 +23,7 @@ struct Row {
     classes: Kept<u8>,
     edges: Kept<u32>,
     quads: Kept<[f64; 8]>,
+    touches: Touches,
     counts: Counts,
 }
 
@@ -38,11 +40,14 @@ pub fn draw(
     (options.progress)(0.5);
     let (width, height) = (view.width(), view.height());
     let progress = |share: f64| (options.progress)(0.5 + 0.5 * share);
-    let rows = parallel::map_telling(height, &progress, |y| row(&painter, y, width, options));
+    let mut rows = parallel::map_telling(height, &progress, |y| row((&painter, settings.samples, index), y, width, options));
+    let mut touches = options.touches(width);
+    rows.iter_mut().for_each(|row| touches.take(std::mem::take(&mut row.touches)));
     let codes = joined(rows.iter().map(|row| row.pixels.codes()));
     let wanted = ORDER.into_iter().filter(|name| options.wants(name));
     let mut planes = structures::planes(index, stage.draw_list.items(), options);
     planes.extend(wanted.filter_map(|name| plane(name, &painter, &rows, [width, height])));
+    planes.extend(touches.planes(height, &|name| options.wants(name)));
     Frame { image: Buffer::from_values(width, height, codes), planes, counts: counts(&painter, index, &rows) }
 }
 
@@ -60,17 +65,25 @@ pub fn explain(
     (steps, code_values(painter.backdrop().compositor.encoded(pixel.paint)))
 }
 
-fn row(painter: &PixelPainter, y: usize, width: usize, options: &FrameOptions) -> Row {
+fn row((painter, n, index): (&PixelPainter, u32, &EdgeIndex), y: usize, width: usize, options: &FrameOptions) -> Row {
     let mut row = Row {
         pixels: Pixels::new(painter.backdrop().compositor, width, options.wants("color")),
         classes: Kept::new(options.wants("class")),
         edges: Kept::new(options.wants("edges")),
         quads: Kept::new(options.wants("quad")),
+        touches: options.touches(width),
         counts: Counts::default(),
     };
     let mut lists = painter.lists();
     for x in 0..width {
-        let pixel = painter.pixel((x, y), &mut lists, &mut row.counts, &mut ());
+        let pixel = if row.touches.is_wanted() {
+            let mut steps = Vec::new();
+            let pixel = painter.pixel((x, y), &mut lists, &mut row.counts, &mut steps);
+            touch((index, n), &steps, [x, y], &mut row.touches);
+            pixel
+        } else {
+            painter.pixel((x, y), &mut lists, &mut row.counts, &mut ())
+        };
         if pixel.class == PixelClass::N {
             row.pixels.push_ground(pixel.paint)
         } else {

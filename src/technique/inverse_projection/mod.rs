@@ -29,6 +29,7 @@ mod settings;
 mod step;
 mod structures;
 mod sweep;
+mod touched;
 
 pub use expansion::AreaId;
 pub use settings::{Corners, PointInPolygon, Settings, Silhouette};
@@ -61,6 +62,9 @@ pub const DECLARATION: Declaration = Declaration {
         PlaneKind::new("quad", Look::Place).in_plan(),
         PlaneKind::new("class", Look::Class),
         PlaneKind::new("edges", Look::Count),
+        PlaneKind::ID,
+        PlaneKind::ID_STARTS,
+        PlaneKind::IDS,
         PlaneKind::COLOR,
     ],
     client: include_str!("client.md"),

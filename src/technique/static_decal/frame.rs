@@ -4,7 +4,7 @@ use super::Prepare;
 use super::analytic::EdgePainter;
 use super::step::Step;
 use super::structures;
-use crate::buffer::{Buffer, Plane, Values};
+use crate::buffer::{Buffer, Plane, Touches, Values};
 use crate::canvas::{
     Backdrop, BlockSamples, Frame, FrameOptions, GBuffer, Kept, LastGround, Pixels, Record, picture_plane,
     surface_plane,
@@ -42,6 +42,7 @@ struct Block {
     pixels: Pixels,
     nodes: Kept<u32>,
     tests: Kept<u32>,
+    touches: Touches,
     counts: Counts,
 }
 
@@ -88,8 +89,11 @@ pub(super) fn draw(prepared: &Prepare, view: &ViewFrame, options: &FrameOptions)
     let mesh = &*prepared.stage.mesh_for(view);
     let painter = Painter::new(prepared, mesh, view);
     let tiling = Tiling::new(view.width(), view.height(), options.tile.min(MOST_OF_A_BLOCK));
-    let blocks =
+    let mut blocks =
         parallel::map_telling(tiling.count(), &progress, |k| painter.block(&tiling.place(k), options));
+    let mut touches = options.touches(view.width());
+    blocks.iter_mut().for_each(|block| touches.take(std::mem::take(&mut block.touches)));
+    let picks = touches.planes(view.height(), &|name| options.wants(name));
     let codes = tiling.assembled([0; 4], blocks.iter().map(|block| block.pixels.codes()));
     let wants_surface = ["depth", "triangle", "plan", "cell"].iter().any(|name| options.wants(name));
     let centres = wants_surface.then(|| {
@@ -100,7 +104,7 @@ pub(super) fn draw(prepared: &Prepare, view: &ViewFrame, options: &FrameOptions)
     let plane = |name| plane(name, prepared, (&tiling, &blocks), centres.as_ref());
     Ok(Frame {
         image: Buffer::from_values(view.width(), view.height(), codes),
-        planes: structures.into_iter().chain(wanted.filter_map(plane)).collect(),
+        planes: structures.into_iter().chain(wanted.filter_map(plane)).chain(picks).collect(),
         counts: counts(&blocks, &prepared.decals.memory()),
     })
 }
@@ -148,8 +152,10 @@ impl<'a> Painter<'a> {
             pixels: Pixels::new(self.backdrop.compositor, width * height, options.wants("color")),
             nodes: Kept::new(options.wants("nodes")),
             tests: Kept::new(options.wants("tests")),
+            touches: options.touches(self.view.width()),
             counts: Counts::default(),
         };
+        let middle = self.prepared.pattern.middle();
         let is_analytic = self.prepared.settings.edges == Edges::Analytic;
         if !is_analytic && self.prepared.decals.is_bare(&samples.plan_bounds()) {
             self.bare_block(&samples, place, &mut lists.last, &mut block);
@@ -158,8 +164,14 @@ impl<'a> Painter<'a> {
         for y in 0..height {
             for x in 0..width {
                 let at = ([x, y], [place.corner[0] + x, place.corner[1] + y]);
-                let (paint, is_ground, done) =
-                    self.pixel(&samples, at, &mut lists, &mut block.counts, &mut ());
+                let (paint, is_ground, done) = if block.touches.is_wanted() {
+                    let mut steps = Vec::new();
+                    let pixel = self.pixel(&samples, at, &mut lists, &mut block.counts, &mut steps);
+                    steps.iter().for_each(|step| touch(step, at.1, middle, &mut block.touches));
+                    pixel
+                } else {
+                    self.pixel(&samples, at, &mut lists, &mut block.counts, &mut ())
+                };
                 if is_ground {
                     block.pixels.push_ground(paint)
                 } else {
@@ -274,6 +286,16 @@ fn tell<R: Record<Step>>(hits: &Hits, first: usize, done: LookupCounts, record: 
             let samples = (0..MOST_TOGETHER).filter(|k| hit.samples >> k & 1 == 1).map(|k| first + k);
             Step::Hit { item: hit.item, samples: samples.collect() }
         });
+    }
+}
+
+/// The item that a step tells of touches its pixel; `middle` is the sample that counts as the pixel's middle. A straight border holds the centre of
+/// a pixel of which it has more than a half.
+fn touch(step: &Step, pixel: [usize; 2], middle: usize, touches: &mut Touches) {
+    match step {
+        Step::Hit { item, samples } => touches.push(pixel, *item, samples.contains(&middle)),
+        Step::Share { item, share } => touches.push(pixel, *item, *share >= 0.5),
+        Step::Sky { .. } | Step::Sample { .. } | Step::Search { .. } | Step::Mean(_) => {}
     }
 }
 

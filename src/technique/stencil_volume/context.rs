@@ -45,6 +45,8 @@ pub struct FrameContext<'a> {
     pub backdrop: Backdrop<'a>,
     /// Whether the planes of the stencil are kept to look at.
     pub wants_traces: bool,
+    /// Whether it is kept which items touch pixels.
+    pub wants_items: bool,
     /// The vectors that kernels are run with; the bits are the same with any.
     pub arch: pulp::Arch,
     /// What the view makes of the volumes.
@@ -88,6 +90,7 @@ impl<'a> FrameContext<'a> {
             sight,
             way,
             wants_traces: shows_counting || options.wants(TRACES[0]),
+            wants_items: options.touches(0).is_wanted(),
             arch: pulp::Arch::new(),
             looks,
             paints: styles.map(|style| backdrop.compositor.paint(style.paint)).collect(),
@@ -131,9 +134,14 @@ impl<'a> FrameContext<'a> {
         Outline::of_box(&volume.plan, (volume.low, volume.high))
     }
 
+    /// The item that a pass draws first, and all there is of it where each object has a mask of its own.
+    pub fn item_of(&self, pass: u32) -> u32 {
+        self.extrusion.passes[pass as usize].objects[0]
+    }
+
     /// The paint and the rule of a pass.
     pub fn paint_of(&self, pass: u32) -> (Paint, Rule) {
-        let first = self.extrusion.passes[pass as usize].objects[0];
+        let first = self.item_of(pass);
         let style = self.stage.draw_list.items()[first as usize].style;
         (self.paints[style as usize], self.extrusion.rule_of(first))
     }

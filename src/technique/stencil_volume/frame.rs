@@ -8,7 +8,7 @@ use super::step::Step;
 use super::structures;
 use super::tile::{Counts, Tile};
 use super::view::Entry;
-use crate::buffer::{Buffer, Plane, Values};
+use crate::buffer::{Buffer, Plane, Touches, Values};
 use crate::canvas::{
     Frame, FrameOptions, LastGround, Pixels, Record, mean, picture_plane, sight_counts, surface_plane,
 };
@@ -36,6 +36,7 @@ struct Drawn {
     pixels: Pixels,
     /// The planes of [`TRACES`], where they are wanted; rows from the top.
     traces: Option<[Vec<u32>; 4]>,
+    touches: Touches,
     counts: Counts,
 }
 
@@ -58,7 +59,7 @@ pub fn draw((stage, view): (&Stage, &ViewFrame), extrusion: &Extrusion, options:
     let bins = bins(&tilings.samples, windows);
     let progress = |share: f64| (options.progress)(0.3 + 0.7 * share);
     let wants_colors = options.wants("color");
-    let tiles = parallel::map_telling(tilings.pixels.count(), &progress, |k| {
+    let mut tiles = parallel::map_telling(tilings.pixels.count(), &progress, |k| {
         let [column, row] = tilings.samples.place(k).corner;
         let tile = TileView::new(view, lattice, (column, row), side * n);
         draw_tile(&context, tile, bins.of(k), wants_colors)
@@ -66,6 +67,9 @@ pub fn draw((stage, view): (&Stage, &ViewFrame), extrusion: &Extrusion, options:
     let codes = tilings.pixels.assembled([0; 4], tiles.iter().map(|tile| tile.pixels.codes()));
     let mut planes = structures::planes(&context, options);
     planes.extend(options.buffers.iter().filter_map(|name| plane(name, &context, &tilings, &tiles)));
+    let mut touches = options.touches(view.width());
+    tiles.iter_mut().for_each(|tile| touches.take(std::mem::take(&mut tile.touches)));
+    planes.extend(touches.planes(view.height(), &|name| options.wants(name)));
     Frame {
         image: Buffer::from_values(view.width(), view.height(), codes),
         planes,
@@ -103,7 +107,8 @@ fn draw_tile(context: &FrameContext, view: TileView, entries: &[Entry], wants_co
     let mut tile = Tile::new(context, view, entries, ());
     tile.draw(entries);
     let pixels = pixels(&mut tile, wants_colors);
-    Drawn { pixels, traces: tile.traces.as_ref().map(|traces| planes_of(&tile, traces)), counts: tile.counts }
+    let traces = tile.traces.as_ref().map(|traces| planes_of(&tile, traces));
+    Drawn { pixels, traces, touches: tile.touches, counts: tile.counts }
 }
 
 /// The pixels of a tile that has been drawn.

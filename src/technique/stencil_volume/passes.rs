@@ -68,7 +68,7 @@ impl<R: Record<Step>> Tile<'_, R> {
     fn apply(&mut self, entries: &[Entry], keeps_inside: Option<bool>) {
         let Some(entry) = entries.first() else { return };
         let (paint, rule) = self.context.paint_of(entry.pass);
-        let is_traced = self.context.is_traced(entry.pass);
+        let (item, is_traced) = (self.context.item_of(entry.pass), self.context.is_traced(entry.pass));
         let is_picked = self.context.settings.object.is_some();
         self.for_each_masked(entries, |tile, at| {
             let value = tile.stencil.take(at);
@@ -83,6 +83,7 @@ impl<R: Record<Step>> Tile<'_, R> {
             let is_painted = is_kept && passes(value, rule);
             if is_painted {
                 tile.paint(at, paint);
+                tile.touch(at, item);
             }
             tile.record.step(|| {
                 let sample = sample_of(&tile.blocks, at);

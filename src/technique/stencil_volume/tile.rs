@@ -6,6 +6,7 @@ use super::face::{Face, SampleFrame, Setup};
 use super::points;
 use super::stencil::{Stencil, Traces};
 use super::view::Entry;
+use crate::buffer::Touches;
 use crate::canvas::LastGround;
 use crate::raster::TileView;
 use crate::resolve::{Mix, Paint};
@@ -58,6 +59,8 @@ pub struct Tile<'a, R = ()> {
     group: Option<(Group, Vec<Vec<Option<Paint>>>)>,
     /// Planes to look at.
     pub traces: Option<Traces>,
+    /// Which items have been drawn on its pixels.
+    pub touches: Touches,
     /// What was done.
     pub counts: Counts,
     /// Room for the faces of a volume.
@@ -82,6 +85,7 @@ impl<'a, R> Tile<'a, R> {
             painted: vec![Vec::new(); count],
             group: None,
             traces: context.wants_traces.then(|| Traces::new(count)),
+            touches: Touches::new(context.view.width(), context.wants_items),
             counts: Counts::default(),
             faces: Vec::new(),
             record,
@@ -102,6 +106,17 @@ impl<'a, R> Tile<'a, R> {
         }
         let above = self.context.backdrop.compositor.over(below, paint);
         put(&mut self.painted[block], at, |_| above);
+    }
+
+    /// An item has been drawn on a sample; of an even number of samples a side the last before the pixel's middle counts as that.
+    pub fn touch(&mut self, at: (usize, usize), item: u32) {
+        if self.touches.is_wanted() {
+            let n = self.context.samples();
+            let [c, r] = sample_of(&self.blocks, at);
+            let (column, row) = (self.view.column + c, self.view.row + r);
+            let is_central = column % n == (n - 1) / 2 && row % n == (n - 1) / 2;
+            self.touches.push([column / n, row / n], item, is_central);
+        }
     }
 
     /// Begins to draw a group, or none: what was drawn of another is mixed with what lies below it.

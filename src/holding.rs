@@ -1,4 +1,7 @@
-//! The items near some plan points, and which of them hold a point.
+//! Which items hold a plan point, in plain doubles where borders are not straight: for point samples.
+//!
+//! Input: footprints, plan points that lie near one another. Output: the items near them, and of each point which of them hold it. Refuses: nothing; where
+//! too much is near, [`Nearby::find`] says so.
 
 use crate::footprint::{BorderPart, Footprints, HalfPlane, Primitive};
 use crate::space::{Plan, PlanBox};
@@ -9,7 +12,7 @@ const MOST_PARTS: usize = 64;
 
 /// The items whose boundary is near, or that may hold a whole box of the plan.
 #[derive(Debug, Default)]
-pub(super) struct Nearby {
+pub(crate) struct Nearby {
     parts: Vec<BorderPart>,
     strokes: Vec<Primitive>,
     items: Vec<NearItem>,
@@ -17,9 +20,9 @@ pub(super) struct Nearby {
 
 /// An item that some of the points may lie in.
 #[derive(Debug)]
-pub(super) struct NearItem {
+pub(crate) struct NearItem {
     /// Its number.
-    pub(super) number: u32,
+    pub(crate) number: u32,
     polygon: Polygon,
     /// The parts of its stroke that are near.
     strokes: Range<usize>,
@@ -38,7 +41,7 @@ enum Polygon {
 
 impl Nearby {
     /// Finds the items near some points. False: so much is near that nothing was found out.
-    pub(super) fn find(&mut self, footprints: &Footprints, mut points: impl Iterator<Item = Plan>) -> bool {
+    pub(crate) fn find(&mut self, footprints: &Footprints, mut points: impl Iterator<Item = Plan>) -> bool {
         self.parts.clear();
         self.items.clear();
         self.strokes.clear();
@@ -56,7 +59,7 @@ impl Nearby {
     }
 
     /// Finds the items near one point, however many they are.
-    pub(super) fn find_all(&mut self, footprints: &Footprints, at: Plan) {
+    pub(crate) fn find_all(&mut self, footprints: &Footprints, at: Plan) {
         self.parts.clear();
         self.items.clear();
         self.strokes.clear();
@@ -71,7 +74,7 @@ impl Nearby {
     }
 
     /// The items in draw order.
-    pub(super) fn items(&self) -> &[NearItem] {
+    pub(crate) fn items(&self) -> &[NearItem] {
         &self.items
     }
 
@@ -110,7 +113,7 @@ impl Nearby {
     }
 
     /// Whether an item holds a point; `from_eye` is the distance of its surface point from the eye.
-    pub(super) fn holds(
+    pub(crate) fn holds(
         &self,
         footprints: &Footprints,
         item: &NearItem,
