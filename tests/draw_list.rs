@@ -97,7 +97,7 @@ fn styles() -> Vec<Style> {
                 outline,
                 line,
                 point: line,
-                swath: None,
+                ..Style::default()
             }));
         }
     }

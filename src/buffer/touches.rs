@@ -60,7 +60,8 @@ impl Touches {
         for touch in found.iter().rev().filter(|touch| touch.is_central) {
             topmost[touch.pixel as usize] = touch.item;
         }
-        let ends = (0..=count).map(|pixel| found.partition_point(|touch| (touch.pixel as usize) < pixel) as u32);
+        let ends =
+            (0..=count).map(|pixel| found.partition_point(|touch| (touch.pixel as usize) < pixel) as u32);
         let plane = |kind: &PlaneKind| {
             let (width, height, values) = match kind.name {
                 "id" => (self.width, height, topmost.clone()),
@@ -80,11 +81,8 @@ pub fn picked(planes: &[Plane], [column, row]: [usize; 2]) -> Option<(Option<u32
         let plane = planes.iter().find(|plane| plane.name == kind.name)?;
         if let Values::U32(values) = &plane.values { Some((plane.width, values)) } else { None }
     };
-    let [(width, topmost), (_, starts), (_, items)] = [
-        of(PlaneKind::ID)?,
-        of(PlaneKind::ID_STARTS)?,
-        of(PlaneKind::IDS)?,
-    ];
+    let [(width, topmost), (_, starts), (_, items)] =
+        [of(PlaneKind::ID)?, of(PlaneKind::ID_STARTS)?, of(PlaneKind::IDS)?];
     let pixel = row * width + column;
     let (first, end) = (*starts.get(pixel)?, *starts.get(pixel + 1)?);
     let item = Some(topmost[pixel]).filter(|item| *item != NONE);

@@ -90,7 +90,7 @@ impl<'a> Bundle<'a> {
             batch,
             watch,
         };
-        let truth = files.truth(&certified)?;
+        let truth = files.truth(&certified, &[])?;
         let (run, frame) = files.technique(self.technique, 1)?;
         watch.start("tiles and mesh");
         for TilePicture { name, picture } in tiles_of(&frame, stage) {
@@ -101,8 +101,15 @@ impl<'a> Bundle<'a> {
         let parameters = Parameters::new((&stage.scene, &mesh, view), self.technique).to_json()?;
         let readme = readme(stage, self.technique, &frame.planes, &in_tiles);
         let (scene, notes) = (view_result(stage, view, self.hash), stage.scene.notes.clone());
-        let result =
-            RenderResult { schema: RESULT_SCHEMA, scene, notes, runs: vec![truth, run] }.to_json()?;
+        let result = RenderResult {
+            schema: RESULT_SCHEMA,
+            scene,
+            notes,
+            runs: vec![truth, run],
+            pick: None,
+            items: None,
+        }
+        .to_json()?;
         let texts = [("parameters.json", &parameters[..]), ("result.json", &result), ("README.md", &readme)];
         for (name, text) in texts {
             batch.stage(name, |to| to.write_all(text.as_bytes()))?;

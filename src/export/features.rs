@@ -1,11 +1,10 @@
 //! Features as GeoJSON (RFC 7946, but in the scene's plan coordinates), styled in the words of the simplestyle specification and
 //! of the scene file.
 
+use super::picked::value;
 use crate::draw_list::{Chain, DrawList, Item, ItemStyle, NO_FEATURE, Role, Side};
 use crate::parameter::Named;
-use crate::scene::{
-    Attribute, Color, Column, Layer, Line, OutlineMode, StrokeForm, TechniqueSettings, Width,
-};
+use crate::scene::{Color, Column, Layer, Line, OutlineMode, StrokeForm, TechniqueSettings, Width};
 use crate::space::Plan;
 use crate::technique::Kind;
 use glam::DVec2;
@@ -73,13 +72,7 @@ fn properties(table: &FeatureTable, items: &[Item]) -> Map<String, Value> {
     let numbered = items.first().filter(|item| item.number != NO_FEATURE);
     let Some(item) = numbered else { return all };
     for column in table.attributes.get(item.layer as usize).into_iter().flatten() {
-        let value = match column.value(item.number as usize) {
-            Attribute::Null => Value::Null,
-            Attribute::Boolean(flag) => (*flag).into(),
-            Attribute::Integer(number) => (*number).into(),
-            Attribute::Number(number) => (*number).into(),
-            Attribute::Text(text) => text.as_str().into(),
-        };
+        let value = value(column.value(item.number as usize));
         let is_taken = STYLE_KEYS.contains(&column.name.as_str());
         let name = if is_taken { format!("attribute.{}", column.name) } else { column.name.clone() };
         all.insert(name, value);
@@ -278,7 +271,7 @@ fn parts(list: &DrawList, items: &[Item]) -> Vec<Chain> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Cap, Feature, Fill, Join, Outline, Rule, Shape, Style};
+    use crate::scene::{Attribute, Cap, Feature, Fill, Join, Outline, Rule, Shape, Style};
     use crate::space::PlanBox;
 
     fn written(style: Style, shapes: Vec<Shape>) -> Value {

@@ -14,6 +14,7 @@ mod gltf;
 mod manifest;
 mod mesh;
 mod parameters;
+mod picked;
 mod pictures;
 mod readme;
 mod run_files;

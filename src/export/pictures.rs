@@ -1,13 +1,17 @@
 //! A scene drawn into a folder: what `drapery render` writes.
 
 use super::Buffers;
+use super::picked::Picked;
 use super::run_files::RunFiles;
+use crate::buffer::Plane;
 use crate::error::Result;
 use crate::measure::{Certified, Watch, view_result};
-use crate::output::{Batch, RESULT_SCHEMA, RenderResult, RunResult};
+use crate::output::{Batch, PickResult, RESULT_SCHEMA, RenderResult};
+use crate::scene::Column;
+use crate::space::ViewFrame;
 use crate::stage::Stage;
-use crate::technique::Kind;
-use crate::truth::Budget;
+use crate::technique::{Kind, no_such_pixel};
+use crate::truth::{self, Budget, PixelCoverage, Touched};
 
 /// Pictures to be made: `T.png` and the wanted buffers of each technique T, and `result.json`.
 #[derive(Debug, Clone, Copy)]
@@ -24,6 +28,10 @@ pub struct Pictures<'a> {
     pub techniques: &'a [Kind],
     /// The buffers that are written beside the pictures.
     pub buffers: &'a Buffers,
+    /// A pixel (column, row), if it is to be told what there is at it.
+    pub pick: Option<[usize; 2]>,
+    /// The columns of attributes of each layer, for what is told of items; may be empty.
+    pub attributes: &'a [Vec<Column>],
     /// How exact the truth is.
     pub budget: &'a Budget,
     /// How many runs are timed, at least 1; told are the medians.
@@ -36,32 +44,74 @@ impl Pictures<'_> {
     /// # Errors
     /// When a technique does not draw such a scene, or a file cannot be written: then no file is.
     pub fn write(&self, mut batch: Batch, watch: &dyn Watch) -> Result<RenderResult> {
+        self.check_pixel()?;
         let view = self.stage.view()?;
         let truths = if self.truth { self.repeat } else { 1 };
         let certify = || Certified::of((self.stage, &view), self.budget, truths, watch);
         let certified = (self.truth || self.errors).then(certify).transpose()?;
+        let buffers = if self.pick.is_some() { &self.buffers.with_picks() } else { self.buffers };
         let mut files = RunFiles {
             stage: self.stage,
             view: &view,
             certified: certified.as_ref(),
-            buffers: self.buffers,
-            is_elsewhere: &|_| false,
+            buffers,
+            // What is made to be asked about one pixel is no file.
+            is_elsewhere: &|name| !self.buffers.wants(name),
             batch: &mut batch,
             watch,
         };
-        let truth = certified.as_ref().filter(|_| self.truth).map(|certified| files.truth(certified));
-        let techniques = self.techniques.iter().map(|kind| Ok(files.technique(*kind, self.repeat)?.0));
-        let runs: Result<Vec<RunResult>> = truth.into_iter().chain(techniques).collect();
+        let mut picked = Picked::new(self.stage, self.attributes, self.pick);
+        let mut runs = Vec::new();
+        if let Some(certified) = certified.as_ref().filter(|_| self.truth) {
+            let (planes, coverage) = self.touched((&view, buffers), watch);
+            picked.take(truth::NAME, &planes, coverage.as_ref());
+            runs.push(files.truth(certified, &planes)?);
+        }
+        for kind in self.techniques {
+            let (run, frame) = files.technique(*kind, self.repeat)?;
+            picked.take(kind.name(), &frame.planes, None);
+            runs.push(run);
+        }
+        let (at_pixel, items) = picked.told();
         let result = RenderResult {
             schema: RESULT_SCHEMA,
             scene: view_result(self.stage, &view, self.hash),
             notes: self.stage.scene.notes.clone(),
-            runs: runs?,
+            runs,
+            pick: self.pick.map(|pixel| PickResult { pixel, runs: at_pixel }),
+            items: buffers.wants_picks().then_some(items),
         };
         let text = result.to_json()?;
         batch.stage("result.json", |to| to.write_all(text.as_bytes()))?;
         batch.commit()?;
         Ok(result)
+    }
+}
+
+impl Pictures<'_> {
+    /// The truth's buffers of which items touch pixels, where they are wanted, and what covers the pixel that is asked about.
+    fn touched(
+        &self,
+        (view, buffers): (&ViewFrame, &Buffers),
+        watch: &dyn Watch,
+    ) -> (Vec<Plane>, Option<PixelCoverage>) {
+        if !buffers.wants_picks() {
+            return (Vec::new(), None);
+        }
+        watch.part("items");
+        let Touched { touches, coverage } =
+            Touched::of(self.stage, view, self.budget, &|share| watch.done(share));
+        let at_pixel = self.pick.map(|[x, y]| coverage.at(x, y).clone());
+        (touches.planes(view.height(), &|name| buffers.wants(name)), at_pixel)
+    }
+
+    /// Refuses a pixel that is not in the picture.
+    fn check_pixel(&self) -> Result<()> {
+        let (width, height) = (self.stage.scene.image.width, self.stage.scene.image.height);
+        match self.pick {
+            Some([x, y]) if x >= width || y >= height => Err(no_such_pixel([x, y], [width, height])),
+            _ => Ok(()),
+        }
     }
 }
 
@@ -100,6 +150,8 @@ mod tests {
             errors,
             techniques: &[Kind::StencilVolume],
             buffers: &buffers,
+            pick: None,
+            attributes: &[],
             budget: &Budget::default(),
             repeat: 1,
         };

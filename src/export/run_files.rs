@@ -26,15 +26,17 @@ pub(super) struct RunFiles<'a> {
 }
 
 impl RunFiles<'_> {
-    /// Stages the truth's files.
-    pub(super) fn truth(&mut self, certified: &Certified) -> Result<RunResult> {
+    /// Stages the truth's files, with some more buffers.
+    pub(super) fn truth(&mut self, certified: &Certified, more: &[Plane]) -> Result<RunResult> {
         let truth = &certified.truth;
         let image = truth.image();
         let path = format!("{}.png", truth::NAME);
         self.batch.stage(&path, |to| write_png(&image, to))?;
         let kinds = Truth::PLANES.iter().filter(|kind| self.buffers.wants(kind.name));
-        let planes: Vec<Plane> = kinds.filter_map(|kind| truth.plane(kind.name)).collect();
-        let buffers = self.stage_planes((truth::NAME, &Truth::PLANES), &planes);
+        let planes = kinds.filter_map(|kind| truth.plane(kind.name));
+        let planes: Vec<Plane> = planes.chain(more.iter().cloned()).collect();
+        let kinds: Vec<PlaneKind> = Truth::PLANES.iter().chain(&PlaneKind::PICKS).copied().collect();
+        let buffers = self.stage_planes((truth::NAME, &kinds), &planes);
         Ok(RunResult {
             technique: truth::NAME.into(),
             parameters: certified.parameters(),

@@ -20,7 +20,7 @@ pub use look::look;
 pub use npy::{Npy, absolute};
 pub use picture::{small_png, write_codes16, write_png};
 pub use result::{
-    BufferResult, ByName, ErrorResult, ImageResult, RESULT_SCHEMA, RenderResult, RunResult, SceneResult,
-    SurfaceError,
+    BufferResult, ByName, ErrorResult, ImageResult, ItemResult, PickResult, PickedItem, PickedRun,
+    RESULT_SCHEMA, RenderResult, RunResult, SceneResult, SurfaceError,
 };
 pub use whole::write_whole;

@@ -21,6 +21,63 @@ pub struct RenderResult {
     pub notes: Vec<String>,
     /// How, by each technique.
     pub runs: Vec<RunResult>,
+    /// What there is at the pixel that was asked about.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pick: Option<PickResult>,
+    /// The items that the buffers `id` and `ids` and `pick` name, by their numbers; absent where nobody asked.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub items: Option<Vec<ItemResult>>,
+}
+
+/// What there is at a pixel.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct PickResult {
+    /// Its column and row.
+    pub pixel: [usize; 2],
+    /// By each technique.
+    pub runs: Vec<PickedRun>,
+}
+
+/// What there is at a pixel by a technique.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct PickedRun {
+    /// The technique's name.
+    pub technique: String,
+    /// The topmost item at the pixel's middle; `null` where there is none.
+    pub topmost: Option<u32>,
+    /// All items that touch the pixel, the topmost first; `null` where the technique cannot tell.
+    pub items: Option<Vec<PickedItem>>,
+}
+
+/// An item that touches a pixel.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct PickedItem {
+    /// Its number.
+    pub item: u32,
+    /// How much of the pixel it covers, at least and at most; of the truth alone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub coverage: Option<[f64; 2]>,
+}
+
+/// What an item is.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct ItemResult {
+    /// Its number, in draw order.
+    pub item: u32,
+    /// The number of its layer.
+    pub layer: u32,
+    /// The layer's name.
+    pub layer_name: String,
+    /// Its feature's place in the layer, in draw order; `null` of what lies outside of all.
+    pub feature: Option<u32>,
+    /// The feature's number in its file.
+    pub number: Option<u32>,
+    /// What it is of the feature: `fill`, `outline`, `line`, `point`, `outside`, or on a globe `stroke`.
+    pub part: String,
+    /// The feature's name, if it has an attribute that is called so.
+    pub name: Option<String>,
+    /// The feature's attributes.
+    pub attributes: ByName,
 }
 
 /// What was drawn.
@@ -172,6 +229,8 @@ mod tests {
                 surface_error: Some(SurfaceError { metres: 1.5, pixels: f64::INFINITY, left_out: 0 }),
             },
             notes: vec!["a \"note\"".into()],
+            pick: None,
+            items: None,
             runs: vec![RunResult {
                 technique: "inverse-projection".into(),
                 parameters: ByName::from_pairs([("samples", Value::from(3)), ("corners", "true".into())]),

@@ -95,13 +95,15 @@ impl Explanation {
 pub fn explain(prepared: &dyn Prepared, view: &ViewFrame, pixel: [usize; 2]) -> Result<Explanation> {
     let (width, height) = (view.width(), view.height());
     if pixel[0] >= width || pixel[1] >= height {
-        return Err(Error::new(format!(
-            "there is no pixel {},{} in a picture of {width} x {height}",
-            pixel[0], pixel[1]
-        ))
-        .help("pixels are counted from 0, columns from the left, rows from the top"));
+        return Err(no_such_pixel(pixel, [width, height]));
     }
     prepared.steps(view, pixel)
+}
+
+/// The refusal of a pixel (column, row) that a picture of a size does not have.
+pub fn no_such_pixel([column, row]: [usize; 2], [width, height]: [usize; 2]) -> Error {
+    Error::new(format!("there is no pixel {column},{row} in a picture of {width} x {height}"))
+        .help("pixels are counted from 0, columns from the left, rows from the top")
 }
 
 /// Builds a technique's structures.

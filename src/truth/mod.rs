@@ -10,6 +10,7 @@
 //!   tile_rays.rs the tile's rays, with bounds of their errors
 //!   facet.rs    a triangle on the tile: sides, nearness, its map to the plan (draped.rs), with bounds of their errors (form.rs)
 //!   probe.rs    the same of small squares around samples: what each may see (outcome.rs)
+//!   touched.rs  which items touch each pixel (holding.rs: which hold its centre)
 //!   visible.rs  the pixel cut into convex fragments that see one triangle (polygon.rs), and sky
 //!   refine.rs   fragments cut along footprints' borders (shape.rs) until little is unknown of which items hold them
 //!               (knowledge.rs); colours between bounds (crate::certainty)
@@ -36,10 +37,12 @@ mod shape;
 mod shapes;
 mod tile;
 mod tile_rays;
+mod touched;
 mod visible;
 
 pub use outcome::{Outcome, Sample};
 pub use probe::{Probe, probe, probe_around};
+pub use touched::Touched;
 
 use crate::buffer::{Buffer, Look, Plane, PlaneKind, Values};
 use crate::error::{Error, Result};

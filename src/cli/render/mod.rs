@@ -1,16 +1,20 @@
 //! `drapery render [SCENE]`
 
+mod pick;
 pub(super) mod techniques;
 
 use super::bar::Bar;
 use super::device_argument::DeviceArgument;
+use super::print::print;
 use super::scene_input;
 use super::stop::{Outcome, Status};
 use super::truth_arguments::TruthArguments;
+use drapery::buffer::PlaneKind;
 use drapery::export::{Buffers, Pictures};
 use drapery::measure::Watch;
 use drapery::output::{Batch, ErrorResult, RenderResult, RunResult};
 use drapery::scene_file::SceneText;
+use drapery::source::load;
 use drapery::truth::Budget;
 use drapery::{Result, parallel};
 use std::path::PathBuf;
@@ -25,6 +29,7 @@ Examples:
   drapery render scene.toml -t inverse-projection --set technique.inverse-projection.samples=5
   drapery render scene.toml --set layer.roads.line.width_m=20 --set 'camera.eye=[0,-5000,3000]'
   drapery render scene.toml -t truth --buffers depth,lo,hi
+  drapery render scene.toml --pick 310,205              which features there are at a pixel
   drapery new dem.tif roads.shp | drapery render -
 
 Writes DIR/T.png for each technique T, DIR/result.json, and DIR/T.NAME.npy and DIR/T.NAME.png for each buffer: all of
@@ -50,6 +55,9 @@ pub(super) struct Arguments {
     /// Intermediate buffers to write beside the picture: names such as depth,lo, or all.
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     buffers: Vec<String>,
+    /// Tell which features there are at a pixel (column, row, from 0 at the upper left), by the truth and each technique; also in result.json.
+    #[arg(long, value_name = "X,Y", value_parser = pick::pixel)]
+    pick: Option<[usize; 2]>,
     /// How many threads; 0: as many as the machine has. The pictures are the same.
     #[arg(long, value_name = "N", default_value_t = 0)]
     threads: usize,
@@ -84,8 +92,11 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
             error.left_out
         ));
     }
-    for run in result.runs {
-        bar.say(&told(arguments, &run));
+    for run in &result.runs {
+        bar.say(&told(arguments, run));
+    }
+    if let Some(pick) = &result.pick {
+        print(&pick::text(pick, result.items.as_deref().unwrap_or_default()))?;
     }
     Ok(Status::Passed)
 }
@@ -101,13 +112,20 @@ fn render(
     let scene = scene_input::open(text, bar)?;
     let stage = &scene.stage;
     let kinds = techniques::applying(asked, stage, bar)?;
+    let buffers = Buffers::named(&arguments.buffers, asked.truth, &kinds)?;
+    let names_items =
+        arguments.pick.is_some() || PlaneKind::PICKS.iter().any(|kind| buffers.wants(kind.name));
+    let attributes =
+        if names_items { load::attributes(&text.file, &|told| bar.note(told)) } else { Vec::new() };
     let pictures = Pictures {
         stage,
         hash: &text.file.hash,
         truth: asked.truth,
         errors: arguments.errors,
         techniques: &kinds,
-        buffers: &Buffers::named(&arguments.buffers, asked.truth, &kinds)?,
+        buffers: &buffers,
+        pick: arguments.pick,
+        attributes: &attributes,
         budget,
         repeat: arguments.repeat,
     };

@@ -93,7 +93,11 @@ fn draw_with<T: Real>(
     options: &FrameOptions,
 ) -> Result<Frame> {
     let mesh = &*stage.mesh_for(view);
-    let setup = Setup::<T>::new((stage, mesh, view), prepared, (options.tile, options.wants("boxes"), options.touches(0).is_wanted()))?;
+    let setup = Setup::<T>::new(
+        (stage, mesh, view),
+        prepared,
+        (options.tile, options.wants("boxes"), options.touches(0).is_wanted()),
+    )?;
     let context = &setup.context;
     (options.progress)(0.4);
     let size = [view.width(), view.height()];
@@ -286,7 +290,8 @@ mod tests {
         let view = stage.view().unwrap();
         let prepared =
             Prepared { lines: MatchedLines::new(&stage.draw_list, &stage.mesh, None).unwrap(), decals: None };
-        let mut setup = Setup::<f64>::new((&stage, &stage.mesh, &view), &prepared, (64, true)).unwrap();
+        let mut setup =
+            Setup::<f64>::new((&stage, &stage.mesh, &view), &prepared, (64, true, false)).unwrap();
         let near: Vec<u32> = (0..setup.windows.len() as u32).collect();
         let place = TilePlace { corner: [0, 0], size: [23, 17] };
         let whole = setup.context.draw(place, &near, &mut ());

@@ -89,7 +89,11 @@ fn draw_with<T: Real>(prepared: &Prepare, view: &ViewFrame, options: &FrameOptio
     let planes = options.buffers.iter().filter_map(|name| plane(name, context, (&tiling, &tiles)));
     Ok(Frame {
         image: Buffer::from_values(view.width(), view.height(), codes),
-        planes: structures.into_iter().chain(planes).chain(touches.planes(view.height(), &|name| options.wants(name))).collect(),
+        planes: structures
+            .into_iter()
+            .chain(planes)
+            .chain(touches.planes(view.height(), &|name| options.wants(name)))
+            .collect(),
         counts: setup.counts(&tiles),
     })
 }

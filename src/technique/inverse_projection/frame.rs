@@ -40,7 +40,9 @@ pub fn draw(
     (options.progress)(0.5);
     let (width, height) = (view.width(), view.height());
     let progress = |share: f64| (options.progress)(0.5 + 0.5 * share);
-    let mut rows = parallel::map_telling(height, &progress, |y| row((&painter, settings.samples, index), y, width, options));
+    let mut rows = parallel::map_telling(height, &progress, |y| {
+        row((&painter, settings.samples, index), y, width, options)
+    });
     let mut touches = options.touches(width);
     rows.iter_mut().for_each(|row| touches.take(std::mem::take(&mut row.touches)));
     let codes = joined(rows.iter().map(|row| row.pixels.codes()));
@@ -65,7 +67,12 @@ pub fn explain(
     (steps, code_values(painter.backdrop().compositor.encoded(pixel.paint)))
 }
 
-fn row((painter, n, index): (&PixelPainter, u32, &EdgeIndex), y: usize, width: usize, options: &FrameOptions) -> Row {
+fn row(
+    (painter, n, index): (&PixelPainter, u32, &EdgeIndex),
+    y: usize,
+    width: usize,
+    options: &FrameOptions,
+) -> Row {
     let mut row = Row {
         pixels: Pixels::new(painter.backdrop().compositor, width, options.wants("color")),
         classes: Kept::new(options.wants("class")),

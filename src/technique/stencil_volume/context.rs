@@ -10,7 +10,7 @@ use crate::resolve::Paint;
 use crate::scene::{Group, Rule};
 use crate::space::{Plan, ViewFrame};
 use crate::stage::Stage;
-use crate::technique::stencil_volume::{FarPlane, Overflow, Settings, VolumeCaps};
+use crate::technique::stencil_volume::{FarPlane, Grouping, Overflow, Settings, VolumeCaps};
 use crate::terrain::Mesh;
 use crate::visibility::Sight;
 
@@ -45,7 +45,7 @@ pub struct FrameContext<'a> {
     pub backdrop: Backdrop<'a>,
     /// Whether the planes of the stencil are kept to look at.
     pub wants_traces: bool,
-    /// Whether it is kept which items touch pixels.
+    /// Whether it is kept which items touch pixels. One mask for all objects of a colour does not tell.
     pub wants_items: bool,
     /// The vectors that kernels are run with; the bits are the same with any.
     pub arch: pulp::Arch,
@@ -90,7 +90,7 @@ impl<'a> FrameContext<'a> {
             sight,
             way,
             wants_traces: shows_counting || options.wants(TRACES[0]),
-            wants_items: options.touches(0).is_wanted(),
+            wants_items: options.touches(0).is_wanted() && settings.grouping == Grouping::Object,
             arch: pulp::Arch::new(),
             looks,
             paints: styles.map(|style| backdrop.compositor.paint(style.paint)).collect(),

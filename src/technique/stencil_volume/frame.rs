@@ -67,9 +67,11 @@ pub fn draw((stage, view): (&Stage, &ViewFrame), extrusion: &Extrusion, options:
     let codes = tilings.pixels.assembled([0; 4], tiles.iter().map(|tile| tile.pixels.codes()));
     let mut planes = structures::planes(&context, options);
     planes.extend(options.buffers.iter().filter_map(|name| plane(name, &context, &tilings, &tiles)));
-    let mut touches = options.touches(view.width());
-    tiles.iter_mut().for_each(|tile| touches.take(std::mem::take(&mut tile.touches)));
-    planes.extend(touches.planes(view.height(), &|name| options.wants(name)));
+    if context.wants_items {
+        let mut touches = options.touches(view.width());
+        tiles.iter_mut().for_each(|tile| touches.take(std::mem::take(&mut tile.touches)));
+        planes.extend(touches.planes(view.height(), &|name| options.wants(name)));
+    }
     Frame {
         image: Buffer::from_values(view.width(), view.height(), codes),
         planes,

@@ -188,13 +188,6 @@ fn has_room((width, height): (usize, usize), n: u32) -> Result<()> {
 impl Prepared for Prepare<'_> {
     fn frame(&self, view: &ViewFrame, options: &FrameOptions) -> Result<Frame> {
         has_room((view.width(), view.height()), self.settings.samples)?;
-        let is_grouped = self.settings.grouping == Grouping::Color;
-        if is_grouped && PlaneKind::PICKS.iter().any(|kind| options.wants(kind.name)) {
-            return Err(Error::unsupported(
-                "stencil-volume applies one mask a colour: which of its objects holds a sample is not known",
-            )
-            .help("use technique.stencil-volume.grouping = \"object\", or leave out the buffers `id`, `id-starts` and `ids`"));
-        }
         Ok(frame::draw((self.stage, view), &self.extrusion, options))
     }
 
