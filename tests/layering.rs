@@ -143,6 +143,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "canvas",
             "visibility",
             "footprint",
+            "holding",
             "resolve",
             "raster",
             "stage",

@@ -9,29 +9,34 @@ use crate::truth::PixelCoverage;
 use serde_json::Value;
 use std::collections::BTreeSet;
 
+/// No item, in the buffers.
+const NO_ITEM: u32 = u32::MAX;
+
 /// The items that the buffers of a picture's runs name, and those at a pixel of it.
 pub(super) struct Picked<'a> {
     stage: &'a Stage,
     /// The columns of each layer; a layer may have none.
     attributes: &'a [Vec<Column>],
     pixel: Option<[usize; 2]>,
+    /// Whether the buffers are kept, so that all items in them are told of.
+    keeps_buffers: bool,
     named: BTreeSet<u32>,
     runs: Vec<PickedRun>,
 }
 
 impl<'a> Picked<'a> {
-    pub(super) fn new(stage: &'a Stage, attributes: &'a [Vec<Column>], pixel: Option<[usize; 2]>) -> Self {
-        Self { stage, attributes, pixel, named: BTreeSet::new(), runs: Vec::new() }
+    pub(super) fn new(
+        stage: &'a Stage,
+        attributes: &'a [Vec<Column>],
+        (pixel, keeps_buffers): (Option<[usize; 2]>, bool),
+    ) -> Self {
+        Self { stage, attributes, pixel, keeps_buffers, named: BTreeSet::new(), runs: Vec::new() }
     }
 
     /// Takes what the buffers of a run say; the truth also tells how much of the pixel each item covers.
     pub(super) fn take(&mut self, technique: &str, planes: &[Plane], coverage: Option<&PixelCoverage>) {
-        for plane in
-            planes.iter().filter(|plane| [PlaneKind::ID.name, PlaneKind::IDS.name].contains(&plane.name))
-        {
-            if let Values::U32(items) = &plane.values {
-                self.named.extend(items.iter().filter(|item| **item != NO_FEATURE));
-            }
+        if self.keeps_buffers {
+            self.named.extend(planes.iter().flat_map(items_in));
         }
         let Some(pixel) = self.pixel else { return };
         let found = picked(planes, pixel);
@@ -39,6 +44,7 @@ impl<'a> Picked<'a> {
             let entry = coverage?.items.iter().find(|entry| entry.item == item)?;
             Some([entry.low, entry.high])
         };
+        self.named.extend(found.iter().flat_map(|(_, items)| *items));
         let (topmost, items) = found.map_or((None, None), |(topmost, items)| (topmost, Some(items)));
         let items =
             items.map(|items| items.iter().map(|item| PickedItem { item: *item, coverage: covered(*item) }));
@@ -83,6 +89,16 @@ impl<'a> Picked<'a> {
             attributes: ByName::from_pairs(columns.iter().map(|column| (&column.name[..], value(column)))),
         }
     }
+}
+
+/// The items that a buffer names.
+fn items_in(plane: &Plane) -> impl Iterator<Item = u32> {
+    let names_items = [PlaneKind::ID, PlaneKind::IDS].iter().any(|kind| kind.name == plane.name);
+    let items: &[u32] = match &plane.values {
+        Values::U32(items) if names_items => items,
+        _ => &[],
+    };
+    items.iter().copied().filter(|item| *item != NO_ITEM)
 }
 
 /// An attribute as JSON has it.

@@ -60,7 +60,7 @@ impl Pictures<'_> {
             batch: &mut batch,
             watch,
         };
-        let mut picked = Picked::new(self.stage, self.attributes, self.pick);
+        let mut picked = Picked::new(self.stage, self.attributes, (self.pick, self.buffers.wants_picks()));
         let mut runs = Vec::new();
         if let Some(certified) = certified.as_ref().filter(|_| self.truth) {
             let (planes, coverage) = self.touched((&view, buffers), watch);
