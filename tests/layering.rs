@@ -58,6 +58,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "space",
             "predicate",
             "index",
+            "overlay",
             "tiling",
             "parallel",
             "parameter",
@@ -257,8 +258,9 @@ const CIRCLES: &[(&[&str], &str)] = &[];
 const FOR_OTHERS: &[(&str, &str)] =
     &[("from_plane", "who judges buffers of a program of one's own makes pictures of them")];
 
-/// Crates that one room alone may use.
-const OWNED: &[(&str, &str)] = &[("rayon", "parallel"), ("spade", "terrain"), ("exr", "compare")];
+/// Crates that some rooms alone may use: triangulations of points are the terrain's, those of polygons the room's that cuts polygons.
+const OWNED: &[(&str, &[&str])] =
+    &[("rayon", &["parallel"]), ("spade", &["terrain", "overlay"]), ("exr", &["compare"])];
 
 /// Ends of paths that only the command line may call: output, an exit, a clock.
 const ONLY_THE_COMMAND_LINE: &[&str] = &[
@@ -347,10 +349,10 @@ fn outside_world(file: &str, code: &Code) -> Vec<String> {
             let end: Vec<&str> = end.split("::").collect();
             path.len() >= end.len() && path[path.len() - end.len()..] == end[..]
         };
-        let owner = OWNED.iter().find(|(name, _)| path[0] == *name).map(|(_, owner)| *owner);
+        let owners = OWNED.iter().find(|(name, _)| path[0] == *name).map(|(_, owners)| *owners);
         let is_thread = path.len() > 1 && path[..2] == ["std", "thread"];
-        let owner = owner.or(is_thread.then_some("parallel"));
-        owner.is_some_and(|owner| room.as_deref() != Some(owner))
+        let owners = owners.or(is_thread.then_some(&["parallel"]));
+        owners.is_some_and(|owners| !room.as_deref().is_some_and(|room| owners.contains(&room)))
             || (!is_program && ONLY_THE_COMMAND_LINE.iter().any(ends))
     };
     found(file, code, &is_wrong)

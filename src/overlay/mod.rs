@@ -2,7 +2,7 @@
 //!
 //! Input: the members of a multi-polygon as rings, and which windings are inside one, either way around. Output: [`union_border`]: rings of which
 //! the same windings are inside what any member holds; `None` where members share no more than points of their borders, so that the rings as they
-//! are already tell; [`border_outside`]: those of what no member holds, within a frame. Refuses: members that lie over one another more often than
+//! are already tell; [`border_outside`]: those of what no member holds, within a frame; [`triangulated`]: what is inside of rings as triangles. Refuses: members that lie over one another more often than
 //! can be held, or told in seconds.
 //!
 //! Whether members overlap or share a piece of an edge is decided exactly. Where edges cross, the border has a corner at the crossing, rounded to
@@ -15,6 +15,9 @@ mod edges;
 mod equal;
 mod faces;
 mod planar;
+mod triangulation;
+
+pub use triangulation::triangulated;
 
 use crate::error::Result;
 use crate::space::{Plan, PlanBox};

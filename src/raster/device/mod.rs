@@ -1,8 +1,8 @@
 //! The imitated machine's path from a triangle of the world to triangles of the screen.
 //!
 //! Input: triangles of a [`Mesh`] by number, a [`ViewFrame`], a [`Device`]. Output: [`Primitive`]s: snapped screen triangles
-//! with depth, and [`Pipeline::draw`], which draws them into [`Samples`]; of segments [`LinePrimitive`]s, which draw
-//! themselves. What a graphics processor leaves open is chosen here, once:
+//! with depth, and [`Pipeline::draw`], which draws them into [`Samples`]; of segments [`LinePrimitive`]s and of triangles that are no
+//! mesh's [`Face`]s, which draw themselves. What a graphics processor leaves open is chosen here, once:
 //! - one matrix takes scene-local points to clip space; it is composed in double precision and rounded to the device's;
 //!   products are summed from left to right, without fused operations;
 //! - clip space is that of zero-to-one depth (0 <= z <= w); an infinite far plane clips nothing, depth is clamped;
@@ -18,7 +18,10 @@
 //! NaN nor infinity reaches a buffer.
 
 mod clip;
+mod convex;
 mod depth;
+mod face;
+mod fragment;
 mod line;
 mod matrix;
 mod number;
@@ -27,7 +30,9 @@ mod scan;
 mod surface;
 
 pub use depth::DepthBuffer;
-pub use line::{LineFragment, LinePrimitive, LineStyle, Stipple};
+pub use face::Face;
+pub use fragment::Fragment;
+pub use line::{LinePrimitive, LineStyle, Stipple};
 pub use number::Real;
 pub use offset::PolygonOffset;
 pub use scan::{Primitive, Window};
@@ -141,6 +146,15 @@ impl<T: Real> Pipeline<T> {
             self.volume.clip_segment(ends.map(|p| self.clip(p)))?.map(|end| self.screen_from_clip(end));
         let is_near = |[x, y, _]: &[T; 3]| x.get().abs() <= FARTHEST && y.get().abs() <= FARTHEST;
         ends.iter().all(is_near).then_some(LinePrimitive { ends })
+    }
+
+    /// Calls `emit` with what the near plane, the far plane and the guard band leave of a triangle.
+    pub fn faces(&self, triangle: [World; 3], mut emit: impl FnMut(Face<T>)) {
+        let corners = triangle.map(|p| self.clip(p));
+        self.volume.clip(&corners, false, |triangle| {
+            let corners = triangle.map(|corner| self.screen_from_clip(corner));
+            emit(Face::new(self.on_plane(&triangle, corners), self.subpixel_bits > 0));
+        });
     }
 
     /// The depth buffer.

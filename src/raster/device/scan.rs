@@ -25,7 +25,7 @@ pub struct Window {
 }
 
 impl Window {
-    fn shared_with(&self, other: &Self) -> Self {
+    pub(super) fn shared_with(&self, other: &Self) -> Self {
         let shared = |a: &Range<usize>, b: &Range<usize>| a.start.max(b.start)..a.end.min(b.end);
         Self { columns: shared(&self.columns, &other.columns), rows: shared(&self.rows, &other.rows) }
     }

@@ -1,15 +1,19 @@
-//! What a frame draws: strips of points on the mesh become segments on the screen, each with its style (3.2.1).
+//! What a frame draws: strips of points on the mesh become segments on the screen, each with its style (3.2.1); patches of fills become faces.
 //!
-//! Input: strips in the order in which they are drawn. Output: [`Segment`]s and their fragments. Refuses: nothing.
+//! Input: strips and patches, each in the order in which they are drawn. Output: [`Piece`]s and their fragments. Refuses: nothing.
 
-use super::settings::{Lines, Primitives, Settings, Widths};
+use super::fill::Patch;
+use super::settings::{Lines, Polygons, Primitives, Settings, Widths};
 use crate::draw_list::DrawList;
 use crate::parallel;
-use crate::raster::device::{LineFragment, LinePrimitive, LineStyle, Pipeline, Real, Stipple, Window};
+use crate::raster::device::{Face, Fragment, LinePrimitive, LineStyle, Pipeline, Real, Stipple, Window};
 use crate::scene::{Device, Width};
 use crate::space::{ViewFrame, World};
 use crate::terrain::lod::RightTriangle;
 use std::ops::Range;
+
+/// Patches that become faces at a time.
+const PATCHES: usize = 4096;
 
 /// What is drawn of a quad clipping.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,24 +26,37 @@ pub(super) struct Strip {
     pub points: Vec<World>,
 }
 
-/// A segment on the screen.
+/// A segment or a face on the screen.
 #[derive(Debug, Clone)]
-pub(super) struct Segment<T> {
+pub(super) struct Piece<T> {
     /// The item that it is of.
     pub item: u32,
-    /// The number of its triangle clipping among those that the frame draws.
+    /// The number of its triangle clipping among those that the frame draws; [`NO_CLIPPING`] of a face.
     pub clipping: u32,
-    /// The clipping's triangle.
+    /// The triangle that it lies on.
     pub triangle: RightTriangle,
     /// The pixels that it may cover.
     pub window: Window,
-    line: LinePrimitive<T>,
-    style: LineStyle,
-    /// The stipple's counter at its start.
-    counter: u64,
+    /// Whether its shares of pixels and those of the item's other pieces add up.
+    pub is_smooth: bool,
+    form: Form<T>,
 }
 
-/// How lines are drawn.
+/// No triangle clipping.
+pub(super) const NO_CLIPPING: u32 = u32::MAX;
+
+#[derive(Debug, Clone)]
+enum Form<T> {
+    Segment {
+        line: LinePrimitive<T>,
+        style: LineStyle,
+        /// The stipple's counter at its start.
+        counter: u64,
+    },
+    Face(Face<T>),
+}
+
+/// How lines and faces are drawn.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LineDrawing {
     settings: Settings,
@@ -52,8 +69,32 @@ impl LineDrawing {
     }
 
     /// Whether a line covers shares of pixels.
-    pub(super) fn is_antialiased(&self) -> bool {
+    fn is_antialiased(&self) -> bool {
         self.settings.lines == Lines::Antialiased
+    }
+
+    /// The faces of patches, in their order.
+    pub(super) fn faces<T: Real>(
+        &self,
+        patches: &[Patch],
+        (view, pipeline): (&ViewFrame, &Pipeline<T>),
+    ) -> Vec<Piece<T>> {
+        let picture = Window { columns: 0..view.width(), rows: 0..view.height() };
+        let is_smooth = self.settings.polygons == Polygons::Antialiased;
+        let of_patches = |patches: &&[Patch]| {
+            let mut out = Vec::new();
+            for patch in *patches {
+                for corners in patch.fan() {
+                    pipeline.faces(corners, |face| {
+                        let Some(window) = face.window(is_smooth, &picture) else { return };
+                        let (item, triangle, form) = (patch.item, patch.triangle, Form::Face(face));
+                        out.push(Piece { item, clipping: NO_CLIPPING, triangle, window, is_smooth, form });
+                    });
+                }
+            }
+            out
+        };
+        parallel::map(&patches.chunks(PATCHES).collect::<Vec<_>>(), of_patches).concat()
     }
 
     /// The segments of strips, in their order.
@@ -61,7 +102,7 @@ impl LineDrawing {
         &self,
         strips: &[Strip],
         (list, view, pipeline): (&DrawList, &ViewFrame, &Pipeline<T>),
-    ) -> Vec<Segment<T>> {
+    ) -> Vec<Piece<T>> {
         let mut first = 0;
         let numbered: Vec<(u32, &Strip)> = strips
             .iter()
@@ -80,7 +121,7 @@ impl LineDrawing {
         first: u32,
         strip: &Strip,
         (list, view, pipeline): (&DrawList, &ViewFrame, &Pipeline<T>),
-    ) -> Vec<Segment<T>> {
+    ) -> Vec<Piece<T>> {
         let picture = Window { columns: 0..view.width(), rows: 0..view.height() };
         let style = self.style(strip, list, view);
         let (mut out, mut counter) = (Vec::new(), 0);
@@ -91,8 +132,9 @@ impl LineDrawing {
                     counter = 0;
                 }
                 if let Some(window) = line.window(&style, &picture) {
-                    let (item, triangle) = (strip.item, *triangle);
-                    out.push(Segment { item, clipping, triangle, window, line, style, counter });
+                    let (item, triangle, is_smooth) = (strip.item, *triangle, self.is_antialiased());
+                    let form = Form::Segment { line, style, counter };
+                    out.push(Piece { item, clipping, triangle, window, is_smooth, form });
                 }
                 if self.settings.primitives == Primitives::Strips && self.settings.stipple != 0xffff {
                     counter += line.steps(&style);
@@ -132,9 +174,17 @@ impl LineDrawing {
     }
 }
 
-impl<T: Real> Segment<T> {
-    /// Calls `visit` with its fragments in a window of the picture, from its start to its end.
-    pub(super) fn fragments(&self, window: &Window, visit: &mut dyn FnMut(LineFragment)) {
-        self.line.draw(&self.style, self.counter, window, visit);
+impl<T: Real> Piece<T> {
+    /// Calls `visit` with its fragments in a window of the picture: of a segment from its start to its end.
+    pub(super) fn fragments(&self, window: &Window, visit: &mut dyn FnMut(Fragment)) {
+        match &self.form {
+            Form::Segment { line, style, counter } => line.draw(style, *counter, window, visit),
+            Form::Face(face) => face.draw(self.is_smooth, window, visit),
+        }
+    }
+
+    /// Whether it is a face.
+    pub(super) fn is_face(&self) -> bool {
+        matches!(self.form, Form::Face(_))
     }
 }

@@ -1,7 +1,7 @@
-//! One frame: lines over the mesh in use to segments, segments to tiles, tiles to a picture.
+//! One frame: lines over the mesh in use to segments, fills to faces, both to tiles, tiles to a picture.
 
 use super::Prepare;
-use super::drawing::{LineDrawing, Segment};
+use super::drawing::{LineDrawing, Piece};
 use super::mesh::MeshInUse;
 use super::step::Step;
 use super::strips::Overlay;
@@ -21,24 +21,26 @@ use crate::terrain::{Mesh, SKY};
 use crate::tiling::{TilePlace, Tiling};
 use crate::visibility::{Sight, TILE};
 
-/// The most tiles that segments may touch, all together: a number each.
+/// The most tiles that segments and faces may touch, all together: a number each.
 const MOST_TOUCHED: u64 = 1 << 30;
 
 /// No layer: the sky, or a mesh without levels.
 const NO_LAYER: u32 = u32::MAX;
 
-/// A frame with its segments found.
+/// A frame with what it draws found.
 struct Setup<'a, T> {
     context: FrameContext<'a, T>,
     overlay: Overlay,
     /// Strips that are to be wider than the device's lines.
     clamped: u64,
+    /// Pieces of fills on triangles of the mesh.
+    patches: u64,
 }
 
 /// Draws a frame of a view.
 ///
 /// # Errors
-/// When segments touch more tiles than there is room for.
+/// When segments and faces touch more tiles than there is room for.
 pub(super) fn draw(prepared: &Prepare, view: &ViewFrame, options: &FrameOptions) -> Result<Frame> {
     match prepared.stage.scene.device.precision {
         Precision::F64 => draw_with::<f64>(prepared, view, options),
@@ -60,16 +62,14 @@ fn draw_with<T: Real>(prepared: &Prepare, view: &ViewFrame, options: &FrameOptio
     let context = &setup.context;
     (options.progress)(0.5);
     let tiling = Tiling::new(view.width(), view.height(), options.tile);
-    let windows = context.segments.iter().map(|segment| {
-        let window = &segment.window;
-        [window.columns.clone(), window.rows.clone()]
-    });
+    let windows =
+        context.pieces.iter().map(|piece| [piece.window.columns.clone(), piece.window.rows.clone()]);
     let touched =
         |[columns, rows]: [std::ops::Range<usize>; 2]| tiling.tiles_in(columns, rows).count() as u64;
     if windows.clone().map(touched).sum::<u64>() > MOST_TOUCHED {
         return Err(Error::unsupported(format!(
-            "geometry-overlay: there is no room for {} segments that cover so much of the picture",
-            context.segments.len()
+            "geometry-overlay: there is no room for {} segments and faces that cover so much of the picture",
+            context.pieces.len()
         ))
         .help("make the lines thinner, or leave some out by `where`"));
     }
@@ -102,10 +102,9 @@ fn explain_with<T: Real>(prepared: &Prepare, view: &ViewFrame, corner: [usize; 2
     let mesh = &*prepared.stage.mesh_for(view);
     let setup = Setup::<T>::new(prepared, (mesh, view), TILE);
     let [x, y] = corner;
-    let holds =
-        |segment: &Segment<T>| segment.window.columns.contains(&x) && segment.window.rows.contains(&y);
-    let segments = (0..).zip(&setup.context.segments);
-    let near: Vec<u32> = segments.filter(|(_, segment)| holds(segment)).map(|(number, _)| number).collect();
+    let holds = |piece: &Piece<T>| piece.window.columns.contains(&x) && piece.window.rows.contains(&y);
+    let pieces = (0..).zip(&setup.context.pieces);
+    let near: Vec<u32> = pieces.filter(|(_, piece)| holds(piece)).map(|(number, _)| number).collect();
     let mut steps = Vec::new();
     let place = TilePlace { corner, size: [1, 1] };
     let drawn = setup.context.draw(place, &near, (true, false, Touches::default()), &mut steps);
@@ -119,12 +118,14 @@ impl<'a, T: Real> Setup<'a, T> {
         let (scene, device) = (&stage.scene, &stage.scene.device);
         let settings = &prepared.settings;
         let offset = PolygonOffset { factor: settings.offset_factor, units: settings.offset_units };
-        let overlay = MeshInUse::of(&stage.mesh, mesh)
-            .map(|in_use| prepared.overlay(&in_use, view))
+        let (overlay, patches) = MeshInUse::of(&stage.mesh, mesh)
+            .map(|in_use| (prepared.overlay(&in_use, view), prepared.patches(&in_use, view)))
             .unwrap_or_default();
         let pipeline = Pipeline::new(view, mesh, device);
         let drawing = LineDrawing::new(settings, device);
-        let segments = drawing.segments(&overlay.strips, (&stage.draw_list, view, &pipeline));
+        let mut pieces = drawing.segments(&overlay.strips, (&stage.draw_list, view, &pipeline));
+        pieces.extend(drawing.faces(&patches, (view, &pipeline)));
+        pieces.sort_by_key(|piece| piece.item);
         let clamped = drawing.clamped(&overlay.strips, &stage.draw_list, view);
         let lattice = Lattice::centres(view, 0);
         let mut sight = Sight::new(view, mesh, device, lattice, tile).with_polygon_offset(offset);
@@ -140,15 +141,15 @@ impl<'a, T: Real> Setup<'a, T> {
             backdrop,
             pipeline,
             offset,
-            drawing,
-            segments,
+            pieces,
         };
-        Self { context, overlay, clamped }
+        Self { context, overlay, clamped, patches: patches.len() as u64 }
     }
 
     fn counts(&self, tiles: &[Drawn]) -> Vec<(&'static str, u64)> {
         let overlay = &self.overlay;
         let sum = |f: fn(&Drawn) -> u64| tiles.iter().map(f).sum();
+        let faces = self.context.pieces.iter().filter(|piece| piece.is_face()).count() as u64;
         let drawn_points = overlay.strips.iter().map(|strip| strip.points.len() as u64).sum();
         let own = [
             ("quads", overlay.quads),
@@ -160,7 +161,9 @@ impl<'a, T: Real> Setup<'a, T> {
             ("points", overlay.points),
             ("points_drawn", drawn_points),
             ("clamped", self.clamped),
-            ("segments", self.context.segments.len() as u64),
+            ("segments", self.context.pieces.len() as u64 - faces),
+            ("fill_pieces", self.patches),
+            ("fill_triangles", faces),
             ("fragments", sum(|tile| tile.counts.fragments)),
             ("fragments_drawn", sum(|tile| tile.counts.drawn)),
         ];

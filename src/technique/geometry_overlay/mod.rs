@@ -8,7 +8,7 @@
 //! 3. drawing: lines as OpenGL draws them, moved before the mesh by polygon offset (`drawing`, `tile`; 3.2.1).
 //!
 //! Polygons are drawn as their outlines: a fill without one by its border, one pixel wide, in its colour; an outline on its border, whichever side of
-//! it the style asks for. A mesh without levels (`terrain.lod`) has only
+//! it the style asks for. As an option, fills are triangles, cut to those of the mesh as lines are (`fill`; the paper has lines alone). A mesh without levels (`terrain.lod`) has only
 //! the smallest triangles; cells may be split in any way then. Where the paper is silent, see `dag` and `docs/semantics.md`.
 //!
 //! Over a globe the places of lines among the posts are those of the plan; at a pole, where all columns meet, lines go along with them.
@@ -17,6 +17,7 @@
 
 mod dag;
 mod drawing;
+mod fill;
 mod frame;
 mod grid_map;
 mod line_strips;
@@ -34,7 +35,7 @@ mod tile;
 
 pub use dag::{Bytes, Counts, PointForm, Storage, StoredLayers};
 pub use line_strips::LineStrip;
-pub use settings::{Borrowed, Lines, Primitives, Settings, Widths};
+pub use settings::{Borrowed, Lines, Polygons, Primitives, Settings, Widths};
 pub use step::Step;
 pub use stored::StoredQuad;
 
@@ -45,7 +46,9 @@ use crate::error::{Error, Result};
 use crate::scene::{Line, StrokeForm, TechniqueSettings};
 use crate::space::ViewFrame;
 use crate::stage::Stage;
+use fill::{Fills, Patch};
 use grid_map::GridMap;
+use mesh::MeshInUse;
 use store::Store;
 
 /// The technique, said once.
@@ -63,6 +66,8 @@ pub const DECLARATION: Declaration = Declaration {
         PlaneKind::structure("line-vertices"),
         PlaneKind::structure("crossings"),
         PlaneKind::structure("directions"),
+        PlaneKind::structure("fill-vertices"),
+        PlaneKind::structure("fill-triangles"),
         PlaneKind::DEPTH,
         PlaneKind::TRIANGLE,
         PlaneKind::PLAN,
@@ -91,18 +96,29 @@ pub struct Prepare<'s> {
     stage: &'s Stage,
     settings: Settings,
     store: Store,
+    /// None where polygons are their outlines.
+    fills: Fills,
 }
 
 impl<'s> Prepare<'s> {
-    /// Indexes the scene's lines. Their clippings are made when a view first uses a quad.
+    /// Indexes the scene's lines, and triangulates fills where they are drawn. The lines' clippings are made when a view first uses a quad.
     ///
     /// # Errors
     /// When the technique does not draw such a scene.
     pub fn new(stage: &'s Stage) -> Result<Self> {
         applies(stage)?;
-        let map = GridMap::new(&stage.mesh.lattice().ok_or_else(no_quads)?);
-        let store = Store::new(&stage.draw_list, &map);
-        Ok(Self { stage, settings: stage.scene.technique.get(), store })
+        let settings: Settings = stage.scene.technique.get();
+        let (list, map) = (&stage.draw_list, GridMap::new(&stage.mesh.lattice().ok_or_else(no_quads)?));
+        let has_fills = settings.polygons != Polygons::Outlines;
+        let is_line = |item: u32| !has_fills || !fill::is_area(list.style_of(item));
+        let store = Store::new(list, &map, is_line);
+        let fills = if has_fills { Fills::new(list, &map)? } else { Fills::default() };
+        Ok(Self { stage, settings, store, fills })
+    }
+
+    /// What a view draws of fills.
+    fn patches(&self, mesh: &MeshInUse, view: &ViewFrame) -> Vec<Patch> {
+        self.fills.patches(mesh, &self.quads(mesh, view))
     }
 }
 
@@ -146,6 +162,6 @@ impl Prepared for Prepare<'_> {
     }
 
     fn structure_bytes(&self) -> usize {
-        self.store.bytes()
+        self.store.bytes() + self.fills.bytes()
     }
 }

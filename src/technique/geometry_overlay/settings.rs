@@ -7,6 +7,8 @@ settings! {
     pub struct Settings of "geometry-overlay" {
         /// How lines are rasterized.
         "Wartell et al. 3.2.1" lines: Lines = Lines::Gl;
+        /// What of polygons is drawn.
+        polygons: Polygons = Polygons::Outlines;
         /// How wide lines are.
         "Wartell et al. 3.1" widths: Widths = Widths::Style;
         /// Polygon offset of the mesh: how much of a triangle's depth slope it is moved back by.
@@ -33,6 +35,18 @@ words! {
         /// As OpenGL does: the diamond-exit rule, wide ones by copies of each fragment.
         Gl = "gl",
         /// By the share of each pixel that they cover.
+        Antialiased = "antialiased",
+    }
+}
+
+words! {
+    /// What of polygons is drawn.
+    pub enum Polygons {
+        /// Their borders, as lines (the paper, which has lines alone).
+        Outlines = "outlines",
+        /// Fills as triangles on the mesh: of each pixel whose centre they cover.
+        Filled = "filled",
+        /// Fills as triangles on the mesh, by the share of each pixel that they cover.
         Antialiased = "antialiased",
     }
 }

@@ -21,11 +21,13 @@ pub enum Step {
         /// The depth that is stored for it, moved back by the polygon offset.
         depth: f64,
     },
-    /// A segment of a line makes a fragment here.
+    /// A segment of a line or a piece of a fill makes a fragment here.
     Fragment {
         /// The item.
         item: u32,
-        /// The triangle of the clipping that it is a segment of.
+        /// Whether it is a piece of a fill.
+        is_of_fill: bool,
+        /// The triangle on which it lies.
         triangle: RightTriangle,
         /// Its depth.
         depth: f64,
@@ -49,12 +51,13 @@ impl fmt::Display for Step {
                 }
                 write!(f, ", depth {depth:.9} (moved back)")
             }
-            Self::Fragment { item, triangle, depth, share, is_drawn } => {
+            Self::Fragment { item, is_of_fill, triangle, depth, share, is_drawn } => {
                 let [i, j] = triangle.apex;
                 write!(
                     f,
-                    "item {item} covers {:.1} % with a segment on the triangle at post {i}, {j} of layer {}, depth {depth:.9}: {}",
+                    "item {item} covers {:.1} % with a {} on the triangle at post {i}, {j} of layer {}, depth {depth:.9}: {}",
                     100.0 * share,
+                    if *is_of_fill { "piece of its fill" } else { "segment" },
                     triangle.layer(),
                     if *is_drawn { "drawn" } else { "behind the surface" }
                 )

@@ -27,9 +27,9 @@ fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 }
 
 impl Store {
-    /// The lines of a draw list: an item's strokes, what a stroke that is an area is along, or the border of a fill.
-    pub(super) fn new(list: &DrawList, map: &GridMap) -> Self {
-        let chains = list.numbered().flat_map(|(item, of)| {
+    /// The lines of a draw list: an item's strokes, what a stroke that is an area is along, or the border of a fill; of the items that `is_line` names.
+    pub(super) fn new(list: &DrawList, map: &GridMap, is_line: impl Fn(u32) -> bool) -> Self {
+        let chains = list.numbered().filter(|(item, _)| is_line(*item)).flat_map(|(item, of)| {
             let style = list.style_of(item);
             let chains = match style.role {
                 Role::Fill if style.swath.is_some() => list.centre_lines(of),

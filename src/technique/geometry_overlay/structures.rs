@@ -1,6 +1,7 @@
-//! The triangle-clipping DAGs of the quads in use as buffers: tables that a graphics processor can have as its storage buffers.
+//! The triangle-clipping DAGs of the quads in use and the triangles of fills as buffers: tables that a graphics processor can have as its storage buffers.
 
 use super::dag::Arrays;
+use super::fill::FillTriangle;
 use super::mesh::MeshInUse;
 use super::{DECLARATION, Prepare};
 use crate::buffer::{Plane, Values};
@@ -28,7 +29,21 @@ pub(super) fn planes(
     quads.sort_unstable();
     quads.dedup();
     let mut arrays = prepared.store.arrays(mesh, &quads)?;
-    Ok(wanted.filter_map(|name| plane(name, &mut arrays)).collect())
+    let of = |name| plane(name, &mut arrays).or_else(|| of_fills(name, prepared));
+    Ok(wanted.filter_map(of).collect())
+}
+
+/// A table of the fills' triangles.
+fn of_fills(name: &'static str, prepared: &Prepare) -> Option<Plane> {
+    let fills = &prepared.fills;
+    Some(match name {
+        "fill-vertices" => table(name, &mut fills.vertices().to_vec(), Values::F64),
+        "fill-triangles" => {
+            let row = |of: &FillTriangle| [of.item, of.corners[0], of.corners[1], of.corners[2]];
+            table(name, &mut fills.triangles().iter().map(row).collect(), Values::U32)
+        }
+        _ => return None,
+    })
 }
 
 /// A structure, taken out of the arrays.

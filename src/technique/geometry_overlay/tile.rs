@@ -1,9 +1,9 @@
-//! A rectangle of pixels: fragments of lines, the depth test against the mesh, composition (3.2.1).
+//! A rectangle of pixels: fragments of lines and fills, the depth test against the mesh, composition (3.2.1).
 //!
-//! Input: a frame's segments that may touch the rectangle, in the order in which they are drawn. Output: its pixels, and what was counted. Each pixel is decided by
+//! Input: a frame's pieces that may touch the rectangle, in the order in which they are drawn. Output: its pixels, and what was counted. Each pixel is decided by
 //! itself, so that neither tiles nor threads matter. Refuses: nothing.
 
-use super::drawing::{LineDrawing, Segment};
+use super::drawing::{NO_CLIPPING, Piece};
 use super::step::Step;
 use crate::buffer::Touches;
 use crate::canvas::{Backdrop, Kept, LastGround, Pixels, Record};
@@ -25,9 +25,8 @@ pub(super) struct FrameContext<'a, T> {
     pub backdrop: Backdrop<'a>,
     pub pipeline: Pipeline<T>,
     pub offset: PolygonOffset,
-    pub drawing: LineDrawing,
-    /// The segments of the view, in the order in which they are drawn.
-    pub segments: Vec<Segment<T>>,
+    /// The segments and faces of the view, in the order in which they are drawn.
+    pub pieces: Vec<Piece<T>>,
     /// The paint of each style of items.
     pub paints: Vec<Paint>,
 }
@@ -35,7 +34,7 @@ pub(super) struct FrameContext<'a, T> {
 /// What was counted.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Counts {
-    /// Fragments of lines.
+    /// Fragments of lines and fills.
     pub fragments: u64,
     /// Those that the depth test kept.
     pub drawn: u64,
@@ -44,15 +43,12 @@ pub(super) struct Counts {
 /// A finished rectangle of pixels, rows from the top.
 pub(super) struct Drawn {
     pub pixels: Pixels,
-    /// The number of the topmost segment's triangle clipping, where that is wanted; [`NO_CLIPPING`] for none.
+    /// The number of the topmost segment's triangle clipping, where that is wanted; [`NO_CLIPPING`] for none, or a fill.
     pub clippings: Kept<u32>,
     /// Which items have fragments in its pixels, where that is wanted.
     pub touches: Touches,
     pub counts: Counts,
 }
-
-/// No triangle clipping.
-pub(super) const NO_CLIPPING: u32 = u32::MAX;
 
 /// A fragment that the depth test kept.
 #[derive(Debug, Clone, Copy)]
@@ -62,6 +58,7 @@ struct Entry {
     item: u32,
     clipping: u32,
     share: f64,
+    is_smooth: bool,
 }
 
 /// The surface that was asked for last.
@@ -73,7 +70,7 @@ struct LastSurface<T> {
 }
 
 impl<T: Real> FrameContext<'_, T> {
-    /// Draws a rectangle; `near`: the segments that may touch it.
+    /// Draws a rectangle; `near`: the pieces that may touch it.
     pub(super) fn draw<R: Record<Step>>(
         &self,
         place: TilePlace,
@@ -131,8 +128,8 @@ impl<T: Real> FrameContext<'_, T> {
         let mut entries = Vec::new();
         let mut last = LastSurface { pixel: usize::MAX, depth: None };
         for &number in near {
-            let segment = &self.segments[number as usize];
-            segment.fragments(&window, &mut |fragment| {
+            let piece = &self.pieces[number as usize];
+            piece.fragments(&window, &mut |fragment| {
                 counts.fragments += 1;
                 let pixel = (fragment.row - y) * width + fragment.column - x;
                 if last.pixel != pixel {
@@ -141,16 +138,18 @@ impl<T: Real> FrameContext<'_, T> {
                 }
                 let is_drawn = last.depth.is_none_or(|depth| self.is_before(T::of(fragment.depth), depth));
                 record.step(|| Step::Fragment {
-                    item: segment.item,
-                    triangle: segment.triangle,
+                    item: piece.item,
+                    is_of_fill: piece.is_face(),
+                    triangle: piece.triangle,
                     depth: fragment.depth,
                     share: fragment.coverage,
                     is_drawn,
                 });
                 if is_drawn {
                     counts.drawn += 1;
-                    let (item, clipping) = (segment.item, segment.clipping);
-                    entries.push(Entry { pixel: pixel as u32, item, clipping, share: fragment.coverage });
+                    let Piece { item, clipping, is_smooth, .. } = *piece;
+                    let (pixel, share) = (pixel as u32, fragment.coverage);
+                    entries.push(Entry { pixel, item, clipping, share, is_smooth });
                 }
             });
         }
@@ -195,7 +194,7 @@ impl<T: Real> FrameContext<'_, T> {
         }
     }
 
-    /// The ground, and over it a pixel's fragments. Those of an item that were made by area are parts of one line: their shares add up.
+    /// The ground, and over it a pixel's fragments. Those of an item that were made by area are parts of one line or fill: their shares add up.
     fn composed(&self, ground: Paint, entries: &[Entry]) -> Paint {
         let list = &self.stage.draw_list;
         let mut stack = Stack::on(ground);
@@ -210,13 +209,9 @@ impl<T: Real> FrameContext<'_, T> {
 
     /// Calls `visit` with the item and the share of a pixel of each of its fragments, or of all of an item's that were made by area.
     fn shares(&self, entries: &[Entry], visit: &mut dyn FnMut(u32, f64)) {
-        if self.drawing.is_antialiased() {
-            for same in entries.chunk_by(|a, b| a.item == b.item) {
-                let share = same.iter().map(|entry| entry.share).sum::<f64>();
-                visit(same[0].item, crate::math::min(share, 1.0));
-            }
-        } else {
-            entries.iter().for_each(|entry| visit(entry.item, 1.0));
+        for same in entries.chunk_by(|a, b| a.item == b.item && b.is_smooth) {
+            let share = same.iter().map(|entry| entry.share).sum::<f64>();
+            visit(same[0].item, crate::math::min(share, 1.0));
         }
     }
 }

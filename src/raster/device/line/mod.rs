@@ -1,7 +1,7 @@
 //! Line segments on the screen -> fragments, as OpenGL draws them (specification 2.1, section 3.4; 4.6, section 14.5).
 //!
 //! Input: a [`LinePrimitive`] (clipped, in pixels of the screen, snapped as the device snaps), a [`LineStyle`], the
-//! line stipple's counter, a [`Window`] of pixels. Output: a [`LineFragment`] for each pixel that the line covers
+//! line stipple's counter, a [`Window`] of pixels. Output: a [`Fragment`] for each pixel that the line covers
 //! there: by the diamond-exit rule, decided exactly (`diamond.rs`), in order from the line's start; or anti-aliased
 //! (`rectangle.rs`), dash by dash from the start, each row by row. What is drawn does not depend on the window.
 //!
@@ -25,9 +25,10 @@ mod style;
 #[cfg(test)]
 mod tests;
 
-pub use segment::{LineFragment, LinePrimitive};
+pub use segment::LinePrimitive;
 pub use style::{LineStyle, Stipple};
 
+use super::fragment::Fragment;
 use super::number::Real;
 use super::scan::Window;
 use diamond::Diamonds;
@@ -47,16 +48,10 @@ impl<T: Real> LinePrimitive<T> {
     /// `counter` is the line stipple's at the start: 0 for each line of its own (GL_LINES), in a strip (GL_LINE_STRIP)
     /// the sum of the [steps](Self::steps) before. A pixel at which an anti-aliased line's stipple begins again is
     /// visited once a dash.
-    pub fn draw(
-        &self,
-        style: &LineStyle,
-        counter: u64,
-        window: &Window,
-        visit: &mut dyn FnMut(LineFragment),
-    ) {
+    pub fn draw(&self, style: &LineStyle, counter: u64, window: &Window, visit: &mut dyn FnMut(Fragment)) {
         let mut emit = |[column, row]: [usize; 2], coverage: f64| {
             let depth = self.depth_at(column as f64 + 0.5, row as f64 + 0.5).get();
-            visit(LineFragment { column, row, depth, coverage });
+            visit(Fragment { column, row, depth, coverage });
         };
         if style.is_smooth() {
             rectangle::visit(self.plane(), style, counter, window, &mut emit);

@@ -15,20 +15,6 @@ pub struct LinePrimitive<T> {
     pub ends: [[T; 3]; 2],
 }
 
-/// A pixel that a line covers.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LineFragment {
-    /// The pixel's column.
-    pub column: usize,
-    /// The pixel's row.
-    pub row: usize,
-    /// Depth at the pixel's centre, projected on the line: beyond an end it may leave 0..=1
-    /// ([`super::super::DepthBuffer::store`] clamps it).
-    pub depth: f64,
-    /// How much of the pixel is covered: 1, of an anti-aliased line more than 0 and at most 1.
-    pub coverage: f64,
-}
-
 impl<T: Real> LinePrimitive<T> {
     /// The ends' places.
     pub(super) fn plane(&self) -> Plane {

@@ -25,6 +25,20 @@ pub fn edge_of(triangle: &RightTriangle, edge: usize) -> [Post; 2] {
     [corners[edge], corners[(edge + 1) % 3]]
 }
 
+/// The halves of the cell of `size` posts a side at column and row, in such cells, which is split from south-west to north-east or the other way.
+pub fn halves_of_cell(cell: [u32; 2], size: u32, is_sw_ne: bool) -> [RightTriangle; 2] {
+    let halves = RightTriangle::of_cell(cell, size);
+    if is_sw_ne == splits_sw_ne(cell) {
+        return halves;
+    }
+    // The other diagonal: the ends of the longest sides are apexes.
+    halves.map(|RightTriangle { apex, left, right }| RightTriangle {
+        apex: left,
+        left: [0, 1].map(|k| left[k] + right[k] - apex[k]),
+        right: apex,
+    })
+}
+
 /// The smallest triangles of a block.
 pub struct Cells<'a> {
     block: Block,
@@ -39,21 +53,10 @@ impl<'a> Cells<'a> {
 
     /// The halves of the cell at column and row, in cells.
     fn halves(&self, cell: [u32; 2]) -> [RightTriangle; 2] {
-        let stride = self.block.stride;
-        let halves = RightTriangle::of_cell(cell, stride);
-        let is_other = match self.layers {
-            Layers::All => false,
-            Layers::Smallest(splits) => splits(cell) != splits_sw_ne(cell),
-        };
-        if !is_other {
-            return halves;
+        match self.layers {
+            Layers::All => RightTriangle::of_cell(cell, self.block.stride),
+            Layers::Smallest(splits) => halves_of_cell(cell, self.block.stride, splits(cell)),
         }
-        // The other diagonal: the ends of the longest sides are apexes.
-        halves.map(|RightTriangle { apex, left, right }| RightTriangle {
-            apex: left,
-            left: [0, 1].map(|k| left[k] + right[k] - apex[k]),
-            right: apex,
-        })
     }
 
     /// The triangle that holds a moved point; `None` outside.

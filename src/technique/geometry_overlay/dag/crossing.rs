@@ -88,5 +88,6 @@ impl Crossing {
 fn quotient(of: &Expansion, by: &Expansion) -> f64 {
     let divisor = by.rounded();
     let first = of.rounded() / divisor;
-    first + of.minus(&by.scaled(first)).rounded() / divisor
+    // Of the two zeros the positive one, whichever way a line was walked.
+    first + of.minus(&by.scaled(first)).rounded() / divisor + 0.0
 }

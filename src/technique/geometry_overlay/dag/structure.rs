@@ -4,6 +4,7 @@
 
 use super::crossing::Crossing;
 use super::grid::{Block, GridPoint};
+use super::plane::Plane;
 use crate::terrain::lod::{Post, RightTriangle};
 use std::ops::{Add, Mul, Range, Sub};
 
@@ -115,40 +116,14 @@ impl QuadClipping {
     where
         V: Copy + Add<Output = V> + Sub<Output = V> + Mul<f64, Output = V>,
     {
-        let triangle = clipping.triangle;
-        let [apex, left, right] = triangle.corners().map(&of);
-        let is_whole = [apex, left, right].iter().all(is_there);
-        let corner = move |post: Post| match post {
-            post if post == triangle.apex => apex,
-            post if post == triangle.left => left,
-            _ => right,
-        };
-        let [entrance, exit] = clipping.crossings().map(move |number| {
+        let plane = Plane::new(clipping.triangle, of);
+        let is_whole = plane.corners().iter().all(is_there);
+        let [entrance, exit] = clipping.crossings().map(|number| {
             let crossing = self.crossings.get(number? as usize)?;
-            Some(on_edge(crossing, crossing.direction.edge_of(&triangle)?, corner))
+            Some((crossing.at, plane.on_edge(crossing)?))
         });
-        let vertices = self.vertices[clipping.vertices()].iter().map(move |&[x, y]| {
-            let [east, north] = [x - f64::from(triangle.apex[0]), y - f64::from(triangle.apex[1])];
-            // Legs at a right angle, as long as powers of two or diagonals of such squares.
-            let share = |end: Post| {
-                let [u, v] = [0, 1].map(|k| f64::from(end[k]) - f64::from(triangle.apex[k]));
-                (u * east + v * north) / (u * u + v * v)
-            };
-            let along = (left - apex) * share(triangle.left);
-            ([x, y], apex + along + (right - apex) * share(triangle.right))
-        });
+        let vertices = self.vertices[clipping.vertices()].iter().map(move |point| (*point, plane.at(*point)));
         let all = entrance.into_iter().chain(vertices).chain(exit);
         all.filter(move |_| is_whole)
     }
-}
-
-/// A crossing with what an edge has there.
-fn on_edge<V>(crossing: &Crossing, [low, high]: [Post; 2], of: impl Fn(Post) -> V) -> (GridPoint, V)
-where
-    V: Copy + Add<Output = V> + Sub<Output = V> + Mul<f64, Output = V>,
-{
-    let k = usize::from(low[0] == high[0]);
-    let [from, to] = [low, high].map(|end| f64::from(end[k]));
-    let (start, end) = (of(low), of(high));
-    (crossing.at, start + (end - start) * ((crossing.at[k] - from) / (to - from)))
 }

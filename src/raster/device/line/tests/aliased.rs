@@ -78,14 +78,14 @@ proptest! {
                 let window = Window { columns: columns.clone(), rows };
                 let part = fragments(ends, &style, 5, &window);
                 let reached = line::<f64>(ends).window(&style, &window);
-                let is_reached = |f: &crate::raster::device::LineFragment| {
+                let is_reached = |f: &crate::raster::device::Fragment| {
                     reached.as_ref().is_some_and(|w| w.columns.contains(&f.column) && w.rows.contains(&f.row))
                 };
                 prop_assert!(part.iter().all(is_reached), "{:?} {:?}", part, reached);
                 parts.extend(part);
             }
         }
-        let sorted = |mut all: Vec<crate::raster::device::LineFragment>| {
+        let sorted = |mut all: Vec<crate::raster::device::Fragment>| {
             all.sort_by_key(|f| (f.column, f.row));
             all
         };

@@ -1,6 +1,6 @@
 //! Lines on a small picture.
 
-use crate::raster::device::{LineFragment, LinePrimitive, LineStyle, Real, Stipple, Window};
+use crate::raster::device::{Fragment, LinePrimitive, LineStyle, Real, Stipple, Window};
 use crate::scene::Device;
 
 /// The picture's columns, and its rows.
@@ -30,7 +30,7 @@ pub(super) fn plain() -> LineStyle {
     aliased(1.0, Stipple::SOLID)
 }
 
-pub(super) fn fragments(ends: Ends, style: &LineStyle, counter: u64, window: &Window) -> Vec<LineFragment> {
+pub(super) fn fragments(ends: Ends, style: &LineStyle, counter: u64, window: &Window) -> Vec<Fragment> {
     let mut all = Vec::new();
     line::<f64>(ends).draw(style, counter, window, &mut |fragment| all.push(fragment));
     all

@@ -1,7 +1,7 @@
 //! From the world to fragments.
 
 use crate::raster::device::{
-    LineFragment, LinePrimitive, LineStyle, Pipeline, PolygonOffset, Real, Stipple, Window,
+    Fragment, LinePrimitive, LineStyle, Pipeline, PolygonOffset, Real, Stipple, Window,
 };
 use crate::raster::{Lattice, Samples};
 use crate::scene::{DepthFormat, Device, Diagonal, Posts, Surface};
@@ -34,7 +34,7 @@ fn device(depth: DepthFormat, subpixel_bits: u32) -> Device {
     Device { depth, subpixel_bits, ..Device::default() }
 }
 
-fn fragments<T: Real>(line: &LinePrimitive<T>, style: &LineStyle) -> Vec<LineFragment> {
+fn fragments<T: Real>(line: &LinePrimitive<T>, style: &LineStyle) -> Vec<Fragment> {
     let mut all = Vec::new();
     line.draw(style, 0, &picture(), &mut |fragment| all.push(fragment));
     all
@@ -103,7 +103,7 @@ fn no_segment_however_far_its_ends_gives_a_number_out_of_range() {
         for k in 0..64u32 {
             let bit = |n: u32| if k >> n & 1 == 1 { reach } else { -reach };
             let ends = [World::new(bit(0), bit(1), bit(2)), World::new(bit(3), bit(4), bit(5) * 0.5)];
-            let mut check = |all: Vec<LineFragment>| {
+            let mut check = |all: Vec<Fragment>| {
                 drawn += all.len();
                 assert!(all.iter().all(|f| f.depth.is_finite() && f.coverage > 0.0 && f.coverage <= 1.0));
             };
@@ -156,7 +156,7 @@ fn polygon_offset_moves_the_depth_buffer_away_from_the_eye_and_lines_before_the_
         let style = LineStyle::new(1.0, Stipple::SOLID, false, &device);
         let all = fragments(&line, &style);
         let passed = |samples: &Samples| {
-            let is_before = |f: &&LineFragment| {
+            let is_before = |f: &&Fragment| {
                 let ground = samples.keys[f.row * samples.stride() + f.column];
                 plain.depth().passes(plain.depth().store(f.depth), ground)
             };

@@ -1,5 +1,5 @@
 use super::drawing::{Ends, SIZE, fragments, picture, smooth};
-use crate::raster::device::{LineFragment, Stipple, Window};
+use crate::raster::device::{Fragment, Stipple, Window};
 use dashu::rational::{RBig, Relaxed};
 use proptest::prelude::*;
 use std::collections::BTreeMap;
@@ -43,7 +43,7 @@ fn area_in(polygon: &[[R; 2]], column: usize, row: usize) -> f64 {
     (twice / R::from(2)).canonicalize().to_f64().value().abs()
 }
 
-fn coverage(all: &[LineFragment]) -> BTreeMap<(usize, usize), f64> {
+fn coverage(all: &[Fragment]) -> BTreeMap<(usize, usize), f64> {
     let mut sums = BTreeMap::new();
     all.iter().for_each(|f| *sums.entry((f.column, f.row)).or_default() += f.coverage);
     sums

@@ -43,9 +43,8 @@ fn a_strip_that_goes_on_counting_has_the_gaps_of_the_whole_line() {
         strip.extend(fragments(part, &style, counter, &picture()));
         counter += line::<f64>(part).steps(&style);
     }
-    let places = |all: &[crate::raster::device::LineFragment]| {
-        all.iter().map(|f| (f.column, f.row)).collect::<Vec<_>>()
-    };
+    let places =
+        |all: &[crate::raster::device::Fragment]| all.iter().map(|f| (f.column, f.row)).collect::<Vec<_>>();
     assert_eq!(places(&strip), places(&whole));
     assert_eq!(counter - 3, fragments([at(0), at(6)], &plain(), 0, &picture()).len() as u64);
     assert_ne!(whole.len() as u64, counter - 3, "the pattern has gaps");
