@@ -23,6 +23,13 @@ impl<T: Real> Face<T> {
         Self { primitive: Primitive { id: 0, corners }, is_snapped }
     }
 
+    /// The face with its depth moved, the same all over it.
+    #[must_use]
+    pub fn moved(self, by: T) -> Self {
+        let corners = self.primitive.corners.map(|[x, y, depth]| [x, y, depth + by]);
+        Self { primitive: Primitive { corners, ..self.primitive }, ..self }
+    }
+
     /// The pixels of a window among which all fragments are (a few more may be in it), of an anti-aliased face (`is_smooth`) or of another; `None`: there are
     /// none.
     pub fn window(&self, is_smooth: bool, within: &Window) -> Option<Window> {

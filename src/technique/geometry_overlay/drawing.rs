@@ -6,7 +6,9 @@ use super::fill::Patch;
 use super::settings::{Lines, Polygons, Primitives, Settings, Widths};
 use crate::draw_list::DrawList;
 use crate::parallel;
-use crate::raster::device::{Face, Fragment, LinePrimitive, LineStyle, Pipeline, Real, Stipple, Window};
+use crate::raster::device::{
+    Face, Fragment, LinePrimitive, LineStyle, Pipeline, PolygonOffset, Real, Stipple, Window,
+};
 use crate::scene::{Device, Width};
 use crate::space::{ViewFrame, World};
 use crate::terrain::lod::RightTriangle;
@@ -84,8 +86,10 @@ impl LineDrawing {
         let of_patches = |patches: &&[Patch]| {
             let mut out = Vec::new();
             for patch in *patches {
+                let forward = if is_smooth { self.forward(patch, (view, pipeline)) } else { T::of(0.0) };
                 for corners in patch.fan() {
                     pipeline.faces(corners, |face| {
+                        let face = face.moved(forward);
                         let Some(window) = face.window(is_smooth, &picture) else { return };
                         let (item, triangle, form) = (patch.item, patch.triangle, Form::Face(face));
                         out.push(Piece { item, clipping: NO_CLIPPING, triangle, window, is_smooth, form });
@@ -95,6 +99,15 @@ impl LineDrawing {
             out
         };
         parallel::map(&patches.chunks(PATCHES).collect::<Vec<_>>(), of_patches).concat()
+    }
+
+    /// How far a patch that covers shares of pixels is moved towards the eye. What it covers lies beside the pixel's centre, on another triangle perhaps: by the
+    /// slope of its own, as the mesh is moved back by that of the triangle at the centre.
+    fn forward<T: Real>(&self, patch: &Patch, (view, pipeline): (&ViewFrame, &Pipeline<T>)) -> T {
+        let nearest = patch.ground.iter().map(|at| view.depth(*at)).fold(f64::INFINITY, crate::math::min);
+        let surface = pipeline.surface_depth(view, &patch.ground, crate::math::max(nearest, view.near()));
+        let offset = PolygonOffset { factor: -self.settings.offset_factor, units: 0.0 };
+        offset.at(surface.slope, surface.depth, pipeline.depth())
     }
 
     /// The segments of strips, in their order.

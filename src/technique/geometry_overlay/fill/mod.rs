@@ -44,6 +44,8 @@ pub(super) struct Patch {
     pub item: u32,
     /// The mesh's triangle.
     pub triangle: RightTriangle,
+    /// Its corners.
+    pub ground: [World; 3],
     count: u8,
     corners: [World; MOST_CORNERS],
 }
@@ -154,7 +156,8 @@ impl Fills {
                 *corner = place;
                 count += 1;
             }
-            patches.push(Patch { item: of.item, triangle: *triangle, count, corners });
+            let on = [0, 1, 2].map(|corner| ground.corner(corner));
+            patches.push(Patch { item: of.item, triangle: *triangle, ground: on, count, corners });
         }
     }
 
