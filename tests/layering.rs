@@ -109,6 +109,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "stage",
             "draw_list",
             "terrain",
+            "parameter",
             "scene",
             "space",
             "predicate",

@@ -1,14 +1,17 @@
 //! What a technique's picture may be, of whatever right program draws it: for each pixel the colours that machines within a declared envelope
 //! may come to.
 //!
-//! Input: a stage, a view, a technique at the scene's settings. Output: an [`Allowed`], which bundles carry and [`crate::compare`] judges by. No
-//! technique's own code decides: what may be seen and held within a sample's square is found with the truth's certified pieces
+//! Input: a stage, a view, a technique at the scene's settings. Output: an [`Allowed`], which bundles carry and [`crate::compare`] judges by; and, for
+//! who fails, what pictures would be by other choices ([`alternatives()`]). No technique's own code decides: what may be seen and held within a sample's square is found with the truth's certified pieces
 //! ([`crate::truth::probe`]) over the technique's footprints. Refuses: techniques without a model.
 
+mod alternatives;
+mod by_kind;
 mod clipmap;
 mod composition;
 mod dynamic_line;
 mod envelope;
+mod far_plane;
 mod geometry_overlay;
 mod inverse_projection;
 mod model;
@@ -20,16 +23,18 @@ mod static_decal;
 mod stencil_volume;
 mod surface;
 
+pub use alternatives::alternatives;
 pub use envelope::Envelope;
 
-use crate::compare::{Allowed, FeatureRun, Hypothesis, Stage as StageOfPicture};
+use crate::compare::Allowed;
 use crate::error::Result;
 use crate::scene::Device;
 use crate::space::ViewFrame;
 use crate::stage::Stage;
 use crate::technique::{self, Kind};
+use by_kind::{guesses, pictures};
 use envelope::DEPTH_STEPS;
-use model::{Guess, View};
+use model::View;
 use sampled::Pictures;
 
 /// What a technique's picture of a view may be. `progress` is told the share that is done (0..=1), from any thread.
@@ -43,57 +48,10 @@ pub fn allowed(
 ) -> Result<Allowed> {
     technique::applies(kind, stage)?;
     let guesses = guesses(kind, &stage.scene.device);
-    let view = View { stage, frame, progress };
-    let settings = &stage.scene.technique;
-    let Pictures { mut hypotheses, stages, features } = match kind {
-        Kind::StencilVolume => stencil_volume::sampling(&settings.get())?.pictures(&view, &guesses),
-        Kind::StaticDecal => {
-            static_decal::sampling(&settings.get(), &stage.draw_list)?.pictures(&view, &guesses)
-        }
-        Kind::InverseProjection => by_guess(&view, &guesses, |view, guess| {
-            Ok((inverse_projection::picture(&settings.get(), view, guess), None))
-        })?,
-        Kind::Clipmap => by_guess(&view, &guesses, |view, guess| Ok((clipmap::picture(view, guess)?, None)))?,
-        Kind::DynamicLine => by_guess(&view, &guesses, dynamic_line::picture)?,
-        Kind::GeometryOverlay => {
-            by_guess(&view, &guesses, |view, guess| Ok((geometry_overlay::picture(view, guess)?, None)))?
-        }
-    };
-    hypotheses.iter_mut().zip(&guesses).for_each(|(hypothesis, guess)| hypothesis.says = guess.says());
-    Ok(Allowed { width: frame.width(), height: frame.height(), hypotheses, stages, features })
-}
-
-/// What machines may choose once for a whole picture, from what is likely to what is coarse.
-fn guesses(kind: Kind, device: &Device) -> Vec<Guess> {
-    let has_blends = matches!(kind, Kind::StencilVolume | Kind::GeometryOverlay);
-    let of_envelope = |envelope| {
-        let guess = Guess::of(envelope);
-        let coarse = has_blends.then(|| guess.clone().with_coarse_blends());
-        std::iter::once(guess).chain(coarse)
-    };
-    Envelope::of(device).into_iter().flat_map(of_envelope).collect()
-}
-
-/// A picture by a guess, and another that is looked at with it.
-type Drawn = ((Hypothesis, Vec<StageOfPicture>, Vec<FeatureRun>), Option<Hypothesis>);
-
-/// The pictures by guesses one after the other; the last guess is the widest.
-fn by_guess(
-    view: &View,
-    guesses: &[Guess],
-    draw: impl Fn(&View, &Guess) -> Result<Drawn>,
-) -> Result<Pictures> {
-    let mut all = Pictures::default();
-    let mut others = Vec::new();
-    for (k, guess) in guesses.iter().enumerate() {
-        let progress = |share: f64| (view.progress)((k as f64 + share) / guesses.len() as f64);
-        let ((hypothesis, stages, features), other) = draw(&View { progress: &progress, ..*view }, guess)?;
-        all.hypotheses.push(hypothesis);
-        others.extend(other);
-        (all.stages, all.features) = (stages, features);
-    }
-    all.hypotheses.append(&mut others);
-    Ok(all)
+    let Pictures { hypotheses, stages, features } =
+        pictures(kind, &View { stage, frame, progress }, &guesses)?;
+    let (width, height) = (frame.width(), frame.height());
+    Ok(Allowed { width, height, hypotheses, stages, features, alternatives: Vec::new() })
 }
 
 /// What is allowed for a device, by name: numbers of the widest envelope.

@@ -1,6 +1,7 @@
 //! Techniques that take samples: a pixel is the mean of what points of it see and are held by.
 
 use super::envelope::COORDINATES;
+use super::far_plane::FarPlane;
 use super::model::{Guess, View};
 use super::picture;
 use super::pixel::{Blending, PixelRange};
@@ -9,7 +10,9 @@ use crate::buffer::Buffer;
 use crate::compare::{FeatureRun, Hypothesis, Stage};
 use crate::footprint::Strokes;
 use crate::resolve::Compositor;
+use crate::space::Screen;
 use crate::truth::{Probe, Sample, probe};
+use std::borrow::Cow;
 
 /// Where a technique takes samples, and what strokes it has.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,6 +23,8 @@ pub(super) struct Sampling {
     /// How many shifts' worth of depth a comparison of two surfaces may be off: see [`Probe::depths_of_shifts`].
     pub(super) depths_of_shifts: f64,
     pub(super) blending: Blending,
+    /// Whether what crosses a finite far plane may be painted on the sky.
+    pub(super) paints_sky: bool,
 }
 
 /// What a pixel may be by each guess, and what its centre may see by the last.
@@ -49,13 +54,21 @@ impl Sampling {
             along: &along,
             share: COORDINATES,
         };
-        let judge = |_: [usize; 2], samples: &[Sample]| {
+        let widest = guesses.last().filter(|_| self.paints_sky);
+        let far = widest.and_then(|guess| FarPlane::of(view, self.strokes, guess));
+        let judge = |pixel: [usize; 2], samples: &[Sample]| {
             let range = |guess: &Guess| {
                 let shift = guess.envelope.shift();
                 let first = shifts.iter().position(|of| *of == shift).unwrap_or(0) * of.spots.len();
                 let blending = if guess.has_coarse_blends { Blending::CoarseTarget } else { self.blending };
-                let samples = &samples[first..first + count];
-                PixelRange::of_samples(samples, (&stage.draw_list, &compositor), blending)
+                let mut samples = Cow::Borrowed(&samples[first..first + count]);
+                if let Some(far) = &far {
+                    for (sample, spot) in samples.to_mut().iter_mut().zip(&self.spots) {
+                        let [x, y] = [0, 1].map(|k| pixel[k] as f64 + spot[k]);
+                        far.add_to(sample, Screen::new(x, y), shift);
+                    }
+                }
+                PixelRange::of_samples(&samples, (&stage.draw_list, &compositor), blending)
             };
             Judged {
                 ranges: guesses.iter().map(range).collect(),

@@ -23,6 +23,7 @@ Examples:
   drapery export scene.toml -t clipmap -o bundle
   drapery export scene.toml -t stencil-volume --set image.width=800 -o bundle
   drapery export scene.toml -t clipmap --device lavapipe -o bundle
+  drapery export scene.toml -t static-decal --alternatives -o bundle
   drapery export --conformance -t stencil-volume -o set
   drapery compare bundle mine.png
 
@@ -43,6 +44,10 @@ pub(super) struct Arguments {
     /// Write the conformance set: of the technique, or of all.
     #[arg(long, conflicts_with = "scene")]
     conformance: bool,
+    /// Write what the picture would be by other choices, too (joins, sides, samples, filters, diagonals, blending): where a frame fails,
+    /// `compare` tells by which it would not.
+    #[arg(long)]
+    alternatives: bool,
     /// Change the scene: a dotted path and a TOML value; may be repeated. No value removes the key.
     #[arg(long = "set", value_name = "PATH=VALUE")]
     overrides: Vec<String>,
@@ -77,7 +82,8 @@ fn conformance(arguments: &Arguments, technique: Option<Kind>, budget: Budget) -
     let changes = overrides.iter().map(|text| Override::parse(text));
     let changes = changes.collect::<Result<Vec<Override>>>()?;
     let (batch, bar) = (Batch::into(&arguments.output)?, Bar::new());
-    let set = Conformance { technique, changes: &changes, budget };
+    let alternatives = arguments.alternatives;
+    let set = Conformance { technique, changes: &changes, budget, alternatives };
     let count = parallel::with_threads(arguments.threads, || set.write(batch, &bar))??;
     bar.say(&format!(
         "{count} bundles; what they expose: {}",
@@ -102,7 +108,8 @@ fn bundle(arguments: &Arguments, technique: Kind, budget: Budget) -> Outcome {
         } else {
             bar.note(&format!("the bundle has no {SCENE_FILE}: more than {MOST_IN_A_SCENE_FILE} vertices"));
         }
-        Bundle { stage, hash, attributes: &attributes, technique, budget }.write(batch, &bar)
+        let alternatives = arguments.alternatives;
+        Bundle { stage, hash, attributes: &attributes, technique, budget, alternatives }.write(batch, &bar)
     };
     let done = parallel::with_threads(arguments.threads, export)?;
     done.map_err(|error| scene_input::blame(&text, error))?;

@@ -17,6 +17,17 @@ pub struct Allowed {
     pub stages: Vec<Stage>,
     /// Which features have a say in which pixels, by rows.
     pub features: Vec<FeatureRun>,
+    /// What the picture would be by other choices, each tried on a picture that fails; none of them lets one pass. May be empty.
+    pub alternatives: Vec<Alternative>,
+}
+
+/// What a picture would be if something were chosen otherwise than the scene has it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Alternative {
+    /// The key of the scene file and its value, as `--set` has it.
+    pub choice: String,
+    /// The picture; what it says is what the choice means.
+    pub hypothesis: Hypothesis,
 }
 
 /// What a picture may be by one set of choices that a program makes the same way everywhere.

@@ -34,13 +34,13 @@ mod report;
 mod submitted;
 mod verdict;
 
-pub use allowed::{Allowed, Choice, Extremes, FeatureRun, Hypothesis, Stage, StageRange};
+pub use allowed::{Allowed, Alternative, Choice, Extremes, FeatureRun, Hypothesis, Stage, StageRange};
 pub use bundle::{ConformanceCase, ConformanceSet, Judge};
 pub use difference::Difference;
 pub use expected::{Expected, Mismatch, Side};
 pub use image::{Image, ValuePlace};
 pub use judgement::{
-    Fitted, Gates, Involved, Judgement, Lean, Lopsided, MOST_IN_WINDOW, Ruling, StageFound, StageOutcome,
+    Fitted, Gates, Involved, Judgement, Lean, Lopsided, MOST_IN_WINDOW, Otherwise, Ruling, StageFound, StageOutcome,
     Tried,
 };
 pub use metrics::{Metrics, WINDOW, Window};

@@ -25,6 +25,13 @@ pub fn stage_allowed(
         Ok(told)
     });
     let hypotheses = hypotheses.collect::<Result<Vec<Value>>>()?;
+    let alternatives = allowed.alternatives.iter().map(|of| {
+        let mut told = stage_hypothesis(&of.hypothesis, (allowed.width, allowed.height), batch)?;
+        told["says"] = of.hypothesis.says[..].into();
+        told["choice"] = of.choice[..].into();
+        Ok(told)
+    });
+    let alternatives = alternatives.collect::<Result<Vec<Value>>>()?;
     let stages = allowed.stages.iter().map(|of| stage_range(of, (allowed.width, allowed.height), batch));
     let stages = stages.collect::<Result<Vec<Value>>>()?;
     let rows = allowed.features.iter().map(|r| [r.row, r.first, r.last, r.layer, r.feature]);
@@ -40,6 +47,7 @@ pub fn stage_allowed(
         "hypotheses": hypotheses,
         "stages": stages,
         "features": features,
+        "alternatives": alternatives,
     });
     let text = serde_json::to_string_pretty(&told);
     let text = text.map_err(|error| Error::internal(format!("allowed.json: {error}")).caused_by(error))?;
@@ -141,6 +149,7 @@ mod tests {
                 Stage { buffer: "triangle".into(), range: StageRange::OneOf(vec![(0, 7.0), (0, 8.0)]) },
             ],
             features: vec![FeatureRun { row: 0, first: 0, last: 1, layer: 2, feature: 3 }],
+            alternatives: Vec::new(),
         }
     }
 

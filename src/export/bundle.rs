@@ -46,12 +46,15 @@ pub struct Bundle<'a> {
     pub technique: Kind,
     /// How exact the truth is.
     pub budget: Budget,
+    /// Whether it holds what pictures would be by other choices, for who fails: each takes as long as what is allowed, and as many bytes.
+    pub alternatives: bool,
 }
 
 impl<'a> Bundle<'a> {
     /// A bundle with the default truth, of a scene that no file says.
     pub fn of(stage: &'a Stage, technique: Kind) -> Self {
-        Self { stage, hash: "", attributes: &[], technique, budget: Budget::default() }
+        let budget = Budget::default();
+        Self { stage, hash: "", attributes: &[], technique, budget, alternatives: false }
     }
 
     /// Writes the bundle into a folder, which is made where it is missing; times are not measured.
@@ -122,7 +125,13 @@ impl<'a> Bundle<'a> {
     fn stage_allowed(&self, view: &ViewFrame, batch: &mut Batch, watch: &dyn Watch) -> Result<()> {
         watch.start("what is allowed");
         match allowed::allowed(self.technique, (self.stage, view), &|share| watch.done(share)) {
-            Ok(all) => {
+            Ok(mut all) => {
+                if self.alternatives {
+                    watch.start("other choices");
+                    let told = |share: f64| watch.done(share);
+                    all.alternatives =
+                        allowed::alternatives(self.technique, (self.stage, view), &all, &told)?;
+                }
                 let envelope = ByName::from_pairs(allowed::envelope(&self.stage.scene.device));
                 stage_allowed((&all, &envelope), self.technique.name(), batch)
             }

@@ -2,10 +2,11 @@
 
 use super::filter::{Candidates, Filtered, Picture};
 use super::lines::{Held, Lines, Place};
+use super::order::{merged, once_each, unsorted};
 use super::patch::Patch;
 use crate::allowed::composition::{Composed, Composer, Laid};
 use crate::allowed::model::{Guess, Judged, View};
-use crate::allowed::pixel::{BLEND, ColorRange, PixelRange};
+use crate::allowed::pixel::{ColorRange, PixelRange, rounding};
 use crate::allowed::stages::stages;
 use crate::allowed::surface::{Surface, Surfaces, surfaces};
 use crate::allowed::{picture, static_decal};
@@ -19,7 +20,7 @@ use crate::resolve::{Compositor, Paint};
 use crate::scene::Width;
 use crate::space::{Plan, World};
 use crate::technique::dynamic_line::{
-    Antialiasing, Corners, LineOverlaps, Settings, Simplification, Sorting, ThinLines,
+    Antialiasing, Corners, Settings, Simplification, Sorting, ThinLines,
 };
 use crate::technique::static_decal as decals;
 use crate::terrain::{Mesh, SKY};
@@ -125,9 +126,6 @@ struct Unsmoothed {
 /// More paints of a pixel are not told one by one.
 const MOST_PAINTS: usize = 12;
 
-/// More entries of an unsorted list are not tried in each order.
-const MOST_UNSORTED: usize = 4;
-
 impl Frame<'_> {
     /// What the picture may be; where it is smoothed, also what it may be if the filter reads rounded pixels.
     fn judged(&self) -> (Judged, Option<Hypothesis>) {
@@ -212,26 +210,11 @@ impl Frame<'_> {
             // There are too many to have been told: whatever they are, they lie somewhere between.
             None => return Some(vec![self.anything(&held)]),
         };
+        let overlaps = self.settings.overlaps;
         Some(match self.settings.sorting {
-            Sorting::Selection => vec![merged(&self.once_each(&held), &statics)],
-            Sorting::None => self.unsorted(&held).iter().map(|lines| merged(lines, &statics)).collect(),
+            Sorting::Selection => vec![merged(&once_each(&held, overlaps), &statics)],
+            Sorting::None => unsorted(&held, overlaps).iter().map(|lines| merged(lines, &statics)).collect(),
         })
-    }
-
-    /// Lines in draw order.
-    fn once_each(&self, held: &[Held]) -> Vec<Laid> {
-        let laid = |of: &Held| {
-            let known = match (of.least, of.most) {
-                (0, 0) => Known::Out,
-                (0, _) => Known::Open,
-                _ => Known::In,
-            };
-            match self.settings.overlaps {
-                LineOverlaps::Once => Laid::once(of.item, known),
-                LineOverlaps::Double => Laid { least: of.least, most: of.most, ..Laid::once(of.item, known) },
-            }
-        };
-        held.iter().map(laid).collect()
     }
 
     /// Any of all items, any number of times.
@@ -240,61 +223,6 @@ impl Frame<'_> {
         let count = self.view.stage.draw_list.items().len() as u32;
         let of = |item: u32| Laid { most: OFTEN, ..Laid::once(item, Known::Open) };
         (0..count.min(64)).map(of).chain(held.iter().map(|held| of(held.item))).collect()
-    }
-
-    /// Lines in each order that a parallel machine may find them in, from the lowest on (Fig. 3.7a).
-    fn unsorted(&self, held: &[Held]) -> Vec<Vec<Laid>> {
-        let most: u32 = held.iter().map(|of| of.most).sum();
-        if held.len() == 1 {
-            return vec![self.once_each(held)];
-        }
-        if most as usize > MOST_UNSORTED {
-            // Any number of any of them, twice: whatever comes last is over all others.
-            let laid: Vec<Laid> =
-                held.iter().map(|of| Laid { least: 0, ..Laid::once(of.item, Known::Open) }).collect();
-            let often = Laid { most: most + 1, ..Laid::once(held[0].item, Known::Open) };
-            let all = held.iter().map(|of| Laid { item: of.item, ..often });
-            return vec![laid.iter().copied().chain(all.clone()).chain(all).collect()];
-        }
-        let entries: Vec<(u32, Known)> = held
-            .iter()
-            .flat_map(|of| {
-                (0..of.most).map(|k| (of.item, if k < of.least { Known::In } else { Known::Open }))
-            })
-            .collect();
-        let mut orders = vec![Vec::new()];
-        for entry in entries {
-            orders = orders
-                .into_iter()
-                .flat_map(|order: Vec<(u32, Known)>| {
-                    (0..=order.len()).map(move |at| {
-                        let mut with = order.clone();
-                        with.insert(at, entry);
-                        with
-                    })
-                })
-                .collect();
-        }
-        orders.iter().flat_map(|order| self.runs(order)).collect()
-    }
-
-    /// A list as it is composed: of entries of one line that follow one another one counts, if overlaps do not. Each open entry is tried both ways, as what lies
-    /// between two entries matters.
-    fn runs(&self, order: &[(u32, Known)]) -> Vec<Vec<Laid>> {
-        let open: Vec<usize> = (0..order.len()).filter(|k| order[*k].1 == Known::Open).collect();
-        let list = |answers: usize| {
-            let is_in =
-                |k: usize| open.iter().position(|o| *o == k).is_none_or(|bit| answers >> bit & 1 == 1);
-            let mut laid: Vec<Laid> = Vec::new();
-            for (item, _) in (0..order.len()).filter(|k| is_in(*k)).map(|k| order[k]) {
-                let is_again = laid.last().is_some_and(|last| last.item == item);
-                if !(is_again && self.settings.overlaps == LineOverlaps::Once) {
-                    laid.push(Laid::once(item, Known::In));
-                }
-            }
-            laid
-        };
-        (0..1 << open.len()).map(list).collect()
     }
 
     /// Whether the surface under a place of a segment is no deeper than what a pixel and those around it see of the terrain.
@@ -330,6 +258,7 @@ impl Frame<'_> {
     ) -> Vec<PixelRange> {
         let (width, height) = (self.view.frame.width(), self.view.frame.height());
         let read = pixels.iter().map(|of| candidates(of, &self.composer.compositor)).collect();
+        let slack = rounding(&self.composer.compositor);
         let weight = 0.5 / f64::from(1u32 << self.guess.envelope.filter_bits);
         let picture = Picture { size: [width, height], pixels: read, weight };
         let told = |share: f64| (self.view.progress)(0.8 + 0.2 * share);
@@ -337,7 +266,7 @@ impl Frame<'_> {
             (0..width)
                 .map(|x| {
                     let own = &pixels[y * width + x];
-                    PixelRange { items: own.items.clone(), ..of_filtered(&picture.filtered([x, y])) }
+                    PixelRange { items: own.items.clone(), ..of_filtered(&picture.filtered([x, y]), slack) }
                 })
                 .collect::<Vec<_>>()
         });
@@ -349,7 +278,7 @@ impl Unsmoothed {
     /// As it is judged: its list is composed by one program (4.4.2), and rounded once.
     fn range(&self, compositor: &Compositor) -> PixelRange {
         let of = Composed { range: self.around.unwrap_or(PaintRange::ANY), each: self.each.clone() };
-        PixelRange::of_composed(&of, self.items.clone(), BLEND, compositor)
+        PixelRange::of_composed(&of, self.items.clone(), rounding(compositor), compositor)
     }
 
     /// What the filter may read.
@@ -377,21 +306,8 @@ fn joined(all: impl Iterator<Item = Composed>) -> Composed {
     all.reduce(whole).unwrap_or(Composed { range: PaintRange::ANY, each: Vec::new() })
 }
 
-/// Lines among static decals, from the lowest on: by the draw order that both share, whatever the lines' own order is.
-fn merged(lines: &[Laid], statics: &[Laid]) -> Vec<Laid> {
-    let (mut lines, mut statics) = (lines.iter().rev().peekable(), statics.iter().rev().peekable());
-    let mut all = Vec::new();
-    while let (Some(line), Some(other)) = (lines.peek(), statics.peek()) {
-        all.extend(if line.item > other.item { lines.next() } else { statics.next() });
-    }
-    all.extend(lines.chain(statics));
-    all.reverse();
-    all
-}
-
-/// A filtered pixel as it is judged: rounded.
-fn of_filtered(filtered: &Filtered) -> PixelRange {
-    let slack = BLEND;
+/// A filtered pixel as it is judged: off by `slack`, as it is rounded.
+fn of_filtered(filtered: &Filtered, slack: f64) -> PixelRange {
     let straight = |[r, g, b, a]: [f64; 4]| {
         let by = |v: f64| if a > 0.0 { math::min(v / a, 1.0) } else { 0.0 };
         [by(r), by(g), by(b), a]

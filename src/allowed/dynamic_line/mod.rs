@@ -7,7 +7,10 @@ mod filter;
 mod frame;
 mod kept;
 mod lines;
+mod maker;
+mod order;
 mod outline;
 mod patch;
+mod segment;
 
 pub(super) use frame::picture;

@@ -9,7 +9,7 @@ use super::stipple::Count;
 use crate::allowed::composition::{Composed, Composer, Laid};
 use crate::allowed::model::{Guess, Judged, View};
 use crate::allowed::picture as pictures;
-use crate::allowed::pixel::{BLEND, PixelRange};
+use crate::allowed::pixel::{PixelRange, rounding};
 use crate::allowed::stages::{Seen, stages};
 use crate::allowed::surface::surfaces;
 use crate::buffer::Buffer;
@@ -151,6 +151,7 @@ impl Overlay<'_> {
     /// The fragments that a strip may have, with their pixels.
     fn fragments(&self, number: u32, strip: &LineStrip) -> Vec<(usize, Fragment)> {
         let (width, doubt) = self.width(strip);
+        let step = 1.0 / f64::from(1u32 << self.guess.envelope.subpixel_bits);
         let whole = [width - doubt, width + doubt].map(|width| (width.round() as u32).max(1));
         let mut out = Vec::new();
         for ready in self.ready(strip, whole) {
@@ -175,7 +176,7 @@ impl Overlay<'_> {
                     out.push((pixel[1] * self.view.frame.width() + pixel[0], fragment));
                 };
                 if self.settings.lines == Lines::Antialiased {
-                    let share = share(line, width, pixel);
+                    let share = share(line, (width, step), pixel);
                     if share[1] > 0.0 {
                         add(Kind::Share(share));
                     }
@@ -268,7 +269,7 @@ impl Overlay<'_> {
         let mut items: Vec<u32> = fragments.iter().map(|fragment| fragment.item).collect();
         items.dedup();
         let roundings = if self.guess.has_coarse_blends { 3 } else { 1 };
-        let slack = BLEND * f64::from(roundings * blends.min(MOST_BLENDS));
+        let slack = rounding(&self.composer.compositor) * f64::from(roundings * blends.min(MOST_BLENDS));
         PixelRange::of_composed(&all, items, slack, &self.composer.compositor)
     }
 

@@ -58,7 +58,7 @@ pub(in crate::cli) struct Arguments {
     /// A picture of the same size: its pixels that are not black (nor transparent) are not looked at.
     #[arg(long, value_name = "FILE")]
     pub ignore: Option<PathBuf>,
-    /// A weak pass fails.
+    /// A weak pass fails, and so does a frame with a buffer that is not as allowed.
     #[arg(long)]
     pub strict: bool,
     /// Write the verdict as JSON; `-`: on stdout, instead of the text.

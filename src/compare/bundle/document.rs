@@ -16,6 +16,16 @@ pub(super) struct Document {
     pub stages: Vec<StageFiles>,
     /// A table.
     pub features: String,
+    /// What pictures would be by other choices; few bundles have any.
+    #[serde(default)]
+    pub alternatives: Vec<AlternativeFiles>,
+}
+
+#[derive(Debug, Deserialize)]
+pub(super) struct AlternativeFiles {
+    pub choice: String,
+    #[serde(flatten)]
+    pub hypothesis: HypothesisFiles,
 }
 
 #[derive(Debug, Deserialize)]

@@ -1,11 +1,11 @@
 //! What a bundle allows, read.
 
-use super::document::{self, Document, HypothesisFiles, StageFiles};
+use super::document::{self, AlternativeFiles, Document, HypothesisFiles, StageFiles};
 use super::file::document;
 use super::manifest::Manifest;
 use super::names::{self, names};
 use super::table::{self, Size};
-use crate::compare::allowed::{Allowed, Hypothesis, Stage, StageRange};
+use crate::compare::allowed::{Allowed, Alternative, Hypothesis, Stage, StageRange};
 use crate::compare::judgement::{Gates, Judgement};
 use crate::compare::read::same_file;
 use crate::compare::read::{Array, codes};
@@ -54,7 +54,10 @@ impl Judge {
             document.hypotheses.iter().map(|files| reader.hypothesis(files)).collect::<Result<_>>()?;
         let stages = document.stages.iter().map(|files| reader.stage(files, &path)).collect::<Result<_>>()?;
         let features = reader.table(&document.features, table::runs)?;
-        let allowed = Allowed { width: size.width, height: size.height, hypotheses, stages, features };
+        let alternatives =
+            document.alternatives.iter().map(|files| reader.alternative(files)).collect::<Result<_>>()?;
+        let Size { width, height } = size;
+        let allowed = Allowed { width, height, hypotheses, stages, features, alternatives };
         Ok(Self { allowed, technique: document.technique, picture: document.picture, manifest })
     }
 
@@ -139,6 +142,11 @@ impl Reader<'_> {
         let choices = self.table(choices, table::choices)?;
         let extremes = self.table(extremes, table::extremes)?;
         Ok(Hypothesis { name: name.clone(), says: says.clone(), lo: low, hi: high, choices, extremes })
+    }
+
+    fn alternative(&self, files: &AlternativeFiles) -> Result<Alternative> {
+        let AlternativeFiles { choice, hypothesis } = files;
+        Ok(Alternative { choice: choice.clone(), hypothesis: self.hypothesis(hypothesis)? })
     }
 
     fn stage(&self, files: &StageFiles, document: &Path) -> Result<Stage> {

@@ -4,6 +4,7 @@ use super::fit::{Fit, Picture};
 use super::gates::Gates;
 use super::involved::{Involved, involved};
 use super::lean::{Lean, Lopsided};
+use super::otherwise::{Otherwise, otherwise};
 use super::stages::{StageFound, stages};
 use crate::buffer::Buffer;
 use crate::compare::allowed::Allowed;
@@ -41,6 +42,8 @@ pub struct Fitted {
     pub stages: Vec<StageFound>,
     /// The features that have a say in failing pixels, most first.
     pub features: Vec<Involved>,
+    /// Of a picture that fails, the other choices by which fewer pixels would, fewest first.
+    pub otherwise: Vec<Otherwise>,
     /// Of each pixel, whether it fails.
     fails: Vec<bool>,
 }
@@ -105,6 +108,8 @@ impl Judgement {
             Some("dense")
         } else if strict && fitted.lean.lopsided().is_some() {
             Some("lopsided")
+        } else if strict && fitted.first_stage().is_some() {
+            Some("stage")
         } else {
             None
         }
@@ -138,12 +143,17 @@ impl fmt::Display for Judgement {
             (_, Some("dense")) => {
                 write!(
                     f,
-                    "FAIL: {} pixels outside of what is allowed lie in one window ({densest} may be)",
-                    fitted.in_window()
+                    "FAIL: {} pixels outside of what is allowed lie in one window ({densest} may be){}",
+                    fitted.in_window(),
+                    fitted.instead()
                 )
             }
             (_, Some("lopsided")) => write!(f, "FAIL: {}", lean()),
-            (_, Some(_)) => write!(f, "FAIL: {outside}"),
+            (_, Some("stage")) => {
+                let buffer = fitted.first_stage().map_or("", |stage| &stage.buffer);
+                write!(f, "FAIL: {outside}, but the buffer `{buffer}` is not as allowed")
+            }
+            (_, Some(_)) => write!(f, "FAIL: {outside}{}", fitted.instead()),
             (Ruling::Weak, _) => write!(f, "WEAK PASS: {outside}, but {}", lean()),
             _ => write!(f, "PASS: {outside}"),
         }
@@ -160,6 +170,12 @@ impl Fitted {
     pub fn windows(&self) -> Vec<Window> {
         let picture = self.difference.distances();
         windows(self.fails.clone(), picture.width(), picture.height())
+    }
+
+    /// By which other choice the picture would pass, after the verdict's sentence; empty: by none that is known.
+    fn instead(&self) -> String {
+        let first = self.otherwise.first().filter(|of| of.passes);
+        first.map_or_else(String::new, |of| format!("; by {} it would pass", of.choice))
     }
 
     /// The first stage whose buffer differs.
@@ -230,6 +246,10 @@ fn fitted(allowed: &Allowed, frame: &Submitted, gates: Gates) -> Fitted {
         }
     }
     let distances = best.fit.distances(&allowed.hypotheses[best.at], &picture);
+    let otherwise = match best.rank {
+        (Ruling::Fail, failing) => otherwise(allowed, &picture, gates, failing),
+        _ => Vec::new(),
+    };
     let tried = allowed.hypotheses.iter().zip(failing);
     Fitted {
         tried: tried.map(|(hypothesis, failing)| Tried { name: hypothesis.name.clone(), failing }).collect(),
@@ -239,6 +259,7 @@ fn fitted(allowed: &Allowed, frame: &Submitted, gates: Gates) -> Fitted {
         lean: best.lean,
         stages: stages(&allowed.stages, (width, height), &frame.buffers, ignored),
         features: involved(&allowed.features, &best.fit.fails, width),
+        otherwise,
         fails: best.fit.fails,
     }
 }

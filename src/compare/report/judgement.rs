@@ -3,12 +3,17 @@
 use super::case::{COMPARE_SCHEMA, Case, Failure};
 use super::numbers::{Row, channel_names, measured_rows, metrics_json, short};
 use crate::compare::bundle::Judge;
-use crate::compare::judgement::{Fitted, Involved, Judgement, Lopsided, Ruling, StageFound, StageOutcome};
+use crate::compare::judgement::{
+    Fitted, Involved, Judgement, Lopsided, Otherwise, Ruling, StageFound, StageOutcome,
+};
 use crate::error::Result;
 use serde_json::{Value, json};
 
 /// So many features are told by name.
 const MOST_FEATURES: usize = 20;
+
+/// So many other choices are told in the text.
+const MOST_CHOICES: usize = 3;
 
 /// A judgement, and who judged what.
 #[derive(Debug, Clone, Copy)]
@@ -80,6 +85,7 @@ impl JudgementReport<'_> {
         if !others.is_empty() {
             rows.push(("others", others.join(", ")));
         }
+        rows.extend(fitted.otherwise.iter().take(MOST_CHOICES).map(|of| ("instead", instead_text(of))));
         rows.extend(measured_rows(&fitted.difference, &fitted.metrics));
         let lean = fitted.lean;
         rows.push((
@@ -153,6 +159,11 @@ impl JudgementReport<'_> {
         document["metrics"] = metrics_json(&fitted.metrics, &fitted.difference);
         document["hypothesis"] = json!(fitted.tried[fitted.best].name);
         document["hypotheses"] = json!(hypotheses);
+        let otherwise = fitted.otherwise.iter().map(|of| {
+            let Otherwise { choice, says, failing, passes } = of;
+            json!({ "choice": choice, "says": says, "failing": failing, "passes": passes })
+        });
+        document["otherwise"] = otherwise.collect();
         document["open"] = json!(fitted.lean);
         document["weak"] = json!(weak);
         document["stages"] = fitted.stages.iter().map(stage_json).collect();
@@ -167,6 +178,13 @@ pub(super) fn word(ruling: Ruling) -> &'static str {
         Ruling::Pass => "pass",
         Ruling::Weak => "weak-pass",
         Ruling::Fail => "fail",
+    }
+}
+
+fn instead_text(Otherwise { choice, says, failing, passes }: &Otherwise) -> String {
+    match passes {
+        true => format!("by {choice} it would pass: {says}"),
+        false => format!("by {choice} {failing} pixels would fail"),
     }
 }
 

@@ -19,7 +19,7 @@ pub struct SingleSegment {
     quad_ends: [Vec2; 2],
     /// From there to its left corners: the miter vector or the normal, as long as half the width; the right ones are opposite.
     miters: [Vec2; 2],
-    /// From a vertex to the corners of the gap there, which a bevel closes; both the same where there is none.
+    /// From a vertex to the corners of the gap there, which a bevel closes, or of a miter's half before the vertex; both the same where there is none.
     bevels: [[Vec2; 2]; 2],
 }
 
@@ -45,7 +45,13 @@ impl SingleSegment {
                 Corner::None => {}
                 Corner::Round => ends[end] = End::Round,
                 // The angle bisector, as long as to where the sides meet (Fig. 3.10c).
-                Corner::Miter => miters[end] = (n1 + n2) * (half / (1.0 + n1.dot(n2))),
+                Corner::Miter => {
+                    miters[end] = (n1 + n2) * (half / (1.0 + n1.dot(n2)));
+                    // Cells refer to the segment behind a join for the whole of it: it holds the other half, too.
+                    if end == 0 {
+                        bevels[0] = [n1 * half, miters[0]].map(|to| to * outer);
+                    }
+                }
                 Corner::Bevel => bevels[end] = [n1, n2].map(|n| n * (outer * half)),
             }
         }

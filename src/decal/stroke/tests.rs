@@ -630,9 +630,23 @@ fn in_single_precision_both_halves_of_the_corner_where_a_closed_line_begins_are_
 }
 
 #[test]
+fn in_single_precision_a_segment_holds_all_of_the_join_at_its_start_as_cells_refer_to_it_alone_there() {
+    let path = [(-10.0, 0.0), (0.0, 0.0), (0.0, 10.0)].map(plan);
+    for join in [Join::Miter { limit: 4.0 }, Join::Bevel] {
+        let rules = rules(2.0, join, Cap::Butt, Joins::Style);
+        let (single, exact) =
+            (SingleSegment::new(&path, false, 1, &rules), Segment::new(&path, false, 1, &rules));
+        for (x, y) in [(0.2, -0.5), (0.5, -0.2), (0.4, -0.9), (0.9, -0.4)] {
+            let holds = exact.holds(Plan::new(f64::from(x), f64::from(y)));
+            assert_eq!(single.holds([x, y]), holds, "{join:?} {x} {y}");
+        }
+    }
+}
+
+#[test]
 fn in_single_precision_miters_of_a_segment_that_is_shorter_than_they_are_lose_what_the_segment_before_it_has()
 {
-    // Half a width of 4. The miters, 4 (-3, 1) and 4 (-1, -1/2), make these quadrilaterals, two triangles each.
+    // Half a width of 4. The miters, 4 (-3, 1) and 4 (-1, -1/2), make these quadrilaterals, two triangles each, and the joins' halves before the vertices.
     let path = [(-20.0, 0.0), (0.0, 0.0), (-4.0, 3.0), (-4.0, 20.0)].map(plan);
     let rules = rules(8.0, Join::Miter { limit: 4.0 }, Cap::Butt, Joins::Style);
     let triangles = [
@@ -642,6 +656,8 @@ fn in_single_precision_miters_of_a_segment_that_is_shorter_than_they_are_lose_wh
         [(-8.0, 1.0), (0.0, 5.0), (12.0, -4.0)],
         [(-8.0, 1.0), (0.0, 5.0), (-8.0, 20.0)],
         [(-8.0, 20.0), (0.0, 20.0), (0.0, 5.0)],
+        [(0.0, 0.0), (0.0, -4.0), (12.0, -4.0)],
+        [(-4.0, 3.0), (-6.4, -0.2), (-8.0, 1.0)],
     ];
     let depth_in = |at: Plan, corners: [(f64, f64); 3]| {
         let [a, b, c] = corners.map(plan);

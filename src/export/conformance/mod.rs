@@ -34,6 +34,8 @@ pub struct Conformance<'a> {
     pub changes: &'a [Override],
     /// How exact the truth is.
     pub budget: Budget,
+    /// Whether bundles hold what pictures would be by other choices.
+    pub alternatives: bool,
 }
 
 /// A bundle of the set, as `conformance.json` tells of it.
@@ -79,7 +81,8 @@ impl Conformance<'_> {
                 let bundle = format!("{}/{}", case.name, kind.name());
                 batch.enter(&bundle);
                 let hash = &scene.text.file.hash;
-                let made = Bundle { hash, budget: self.budget, ..Bundle::of(&scene.stage, kind) };
+                let (budget, alternatives) = (self.budget, self.alternatives);
+                let made = Bundle { hash, budget, alternatives, ..Bundle::of(&scene.stage, kind) };
                 made.stage_into(&mut batch, watch)?;
                 let name = format!("{}.{}", case.name, kind.name());
                 table.cases.push(Told { name, bundle, exposes: case.exposes });

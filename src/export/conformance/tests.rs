@@ -120,7 +120,7 @@ fn the_set_of_a_technique_is_its_bundles_and_a_table_of_them() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("set");
     let budget = Budget::new(0.5, 2).unwrap();
-    let set = Conformance { technique: Some(Kind::DynamicLine), changes: &[], budget };
+    let set = Conformance { technique: Some(Kind::DynamicLine), changes: &[], budget, alternatives: false };
     let count = set.write(Batch::into(&out).unwrap(), &crate::measure::Unwatched).unwrap();
     let text = std::fs::read(out.join("conformance.json")).unwrap();
     let table: serde_json::Value = serde_json::from_slice(&text).unwrap();
