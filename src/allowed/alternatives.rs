@@ -86,7 +86,7 @@ pub fn alternatives(
     progress: &(dyn Fn(f64) + Sync),
 ) -> Result<Vec<Alternative>> {
     let choices = choices(kind, stage);
-    let guess = guess(kind, stage);
+    let guess = guess(kind, (stage, frame));
     let known = allowed.hypotheses.iter().find(|hypothesis| hypothesis.name == guess.name);
     let mut found = Vec::new();
     for (k, choice) in choices.iter().enumerate() {
@@ -136,8 +136,8 @@ fn choices(kind: Kind, stage: &Stage) -> Vec<Choice> {
 }
 
 /// Of the first envelope's guesses the one that allows most.
-fn guess(kind: Kind, stage: &Stage) -> Guess {
-    let all = guesses(kind, &stage.scene.device);
+fn guess(kind: Kind, (stage, frame): (&Stage, &ViewFrame)) -> Guess {
+    let all = guesses(kind, &stage.scene.device, frame);
     let first = all[0].envelope;
     let of_first = all.into_iter().filter(|guess| guess.envelope == first);
     of_first.last().unwrap_or_else(|| Guess::of(first))

@@ -7,6 +7,7 @@ use super::{clipmap, dynamic_line, geometry_overlay, inverse_projection, static_
 use crate::compare::{FeatureRun, Hypothesis, Stage};
 use crate::error::Result;
 use crate::scene::Device;
+use crate::space::ViewFrame;
 use crate::technique::Kind;
 
 /// The pictures of a technique by guesses, and the buffers behind them by the last.
@@ -32,12 +33,15 @@ pub(super) fn pictures(kind: Kind, view: &View, guesses: &[Guess]) -> Result<Pic
 }
 
 /// What machines may choose once for a whole picture, from what is likely to what is coarse; at least one.
-pub(super) fn guesses(kind: Kind, device: &Device) -> Vec<Guess> {
+pub(super) fn guesses(kind: Kind, device: &Device, view: &ViewFrame) -> Vec<Guess> {
     let has_blends = matches!(kind, Kind::StencilVolume | Kind::GeometryOverlay);
+    let has_far_plane = kind == Kind::StencilVolume && view.far().is_finite();
     let of_envelope = |envelope| {
         let guess = Guess::of(envelope);
         let coarse = has_blends.then(|| guess.clone().with_coarse_blends());
-        std::iter::once(guess).chain(coarse)
+        let bare: Vec<Guess> = std::iter::once(guess).chain(coarse).collect();
+        let painted = bare.clone().into_iter().filter(|_| has_far_plane).map(Guess::with_painted_sky);
+        bare.iter().cloned().chain(painted).collect::<Vec<Guess>>()
     };
     Envelope::of(device).into_iter().flat_map(of_envelope).collect()
 }

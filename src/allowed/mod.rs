@@ -47,7 +47,7 @@ pub fn allowed(
     progress: &(dyn Fn(f64) + Sync),
 ) -> Result<Allowed> {
     technique::applies(kind, stage)?;
-    let guesses = guesses(kind, &stage.scene.device);
+    let guesses = guesses(kind, &stage.scene.device, frame);
     let Pictures { hypotheses, stages, features } =
         pictures(kind, &View { stage, frame, progress }, &guesses)?;
     let (width, height) = (frame.width(), frame.height());

@@ -25,18 +25,25 @@ pub(super) struct Guess {
     pub(super) envelope: Envelope,
     /// Whether a target of code values rounds what it blends before it does.
     pub(super) has_coarse_blends: bool,
+    /// Whether volumes that cross the far plane are painted on the sky.
+    pub(super) paints_sky: bool,
 }
 
 impl Guess {
     /// By an envelope alone.
     pub(super) fn of(envelope: Envelope) -> Self {
         let name = format!("{}-bit-vertices", envelope.subpixel_bits);
-        Self { name, envelope, has_coarse_blends: false }
+        Self { name, envelope, has_coarse_blends: false, paints_sky: false }
     }
 
     /// The same on a machine that blends code values, not numbers.
     pub(super) fn with_coarse_blends(self) -> Self {
         Self { name: format!("{}-coarse-blends", self.name), has_coarse_blends: true, ..self }
+    }
+
+    /// The same on a machine to which faces beyond the far plane are as far as the sky.
+    pub(super) fn with_painted_sky(self) -> Self {
+        Self { name: format!("{}-painted-sky", self.name), paints_sky: true, ..self }
     }
 
     /// What it assumes, in a sentence.
@@ -48,6 +55,10 @@ impl Guess {
             }
             false => "",
         };
-        format!("vertices are snapped to {subpixel_bits} bits behind a pixel's point, or less{blends}")
+        let sky = match self.paints_sky {
+            true => ", and volumes that cross the far plane are painted on the sky: their depths are clamped there",
+            false => "",
+        };
+        format!("vertices are snapped to {subpixel_bits} bits behind a pixel's point, or less{blends}{sky}")
     }
 }

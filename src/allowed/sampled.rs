@@ -23,8 +23,6 @@ pub(super) struct Sampling {
     /// How many shifts' worth of depth a comparison of two surfaces may be off: see [`Probe::depths_of_shifts`].
     pub(super) depths_of_shifts: f64,
     pub(super) blending: Blending,
-    /// Whether what crosses a finite far plane may be painted on the sky.
-    pub(super) paints_sky: bool,
 }
 
 /// What a pixel may be by each guess, and what its centre may see by the last.
@@ -54,18 +52,18 @@ impl Sampling {
             along: &along,
             share: COORDINATES,
         };
-        let widest = guesses.last().filter(|_| self.paints_sky);
-        let far = widest.and_then(|guess| FarPlane::of(view, self.strokes, guess));
+        let painting = guesses.iter().rfind(|guess| guess.paints_sky);
+        let far = painting.map(|guess| FarPlane::new(view, self.strokes, guess));
         let judge = |pixel: [usize; 2], samples: &[Sample]| {
             let range = |guess: &Guess| {
                 let shift = guess.envelope.shift();
                 let first = shifts.iter().position(|of| *of == shift).unwrap_or(0) * of.spots.len();
                 let blending = if guess.has_coarse_blends { Blending::CoarseTarget } else { self.blending };
                 let mut samples = Cow::Borrowed(&samples[first..first + count]);
-                if let Some(far) = &far {
+                if let Some(far) = far.as_ref().filter(|_| guess.paints_sky) {
                     for (sample, spot) in samples.to_mut().iter_mut().zip(&self.spots) {
                         let [x, y] = [0, 1].map(|k| pixel[k] as f64 + spot[k]);
-                        far.add_to(sample, Screen::new(x, y), shift);
+                        far.paint(sample, Screen::new(x, y), shift);
                     }
                 }
                 PixelRange::of_samples(&samples, (&stage.draw_list, &compositor), blending)

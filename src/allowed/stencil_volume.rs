@@ -33,5 +33,5 @@ pub(super) fn sampling(settings: &Settings) -> Result<Sampling> {
         VolumeJoins::Style => Strokes::Polygons,
     };
     // A wall's depth is that of a place within a shift, and the terrain's that of another within a shift: two apart, and one from here.
-    Ok(Sampling { spots, strokes, depths_of_shifts: 3.0, blending: Blending::Target, paints_sky: true })
+    Ok(Sampling { spots, strokes, depths_of_shifts: 3.0, blending: Blending::Target })
 }
