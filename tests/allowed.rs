@@ -72,6 +72,47 @@ fn what_bugs_draw_is_not_allowed() {
     }
 }
 
+/// A field that reaches beyond the far plane, before hills that end at it.
+fn far_plane() -> String {
+    let layers = "[[layer]]\nfeatures = [{ polygon = [[-200, -250], [200, -250], [260, 300], [-260, 300]] }]\nfill = { color = \"#3388ff\", opacity = 0.6 }\n";
+    scene(HILLS, "eye = [40, -420, 260], target = [0, 0, 40], far_m = 420", layers)
+}
+
+#[test]
+fn machines_may_paint_the_sky_where_volumes_cross_the_far_plane_all_of_it_or_nothing() {
+    let machine = &["device.subpixel_bits=8", "device.depth=\"unorm24\""][..];
+    let all = allowed_of(Kind::StencilVolume, &stage(&far_plane(), machine));
+    let painted = frame_of(Kind::StencilVolume, &stage(&far_plane(), machine), &[]).image;
+    let bare = frame_of(Kind::StencilVolume, &stage(&far_plane(), &[]), &[]).image;
+    let outside = |name: &str, image| {
+        outside(all.hypotheses.iter().find(|h| h.name == name).unwrap(), image)
+    };
+    let (painted_of, bare_of) = ("8-bit-vertices-painted-sky", "8-bit-vertices");
+    assert_eq!([outside(painted_of, &painted), outside(bare_of, &bare)], [0, 0]);
+    assert!(outside(painted_of, &bare) > 20 && outside(bare_of, &painted) > 20, "one is not the other");
+}
+
+#[test]
+fn who_chose_otherwise_is_told_what() {
+    let (stage, kind) = (stage(&outlines(), &["device.subpixel_bits=8"]), Kind::StencilVolume);
+    let view = stage.view().unwrap();
+    let all = allowed_of(kind, &stage);
+    let alternatives = drapery::allowed::alternatives(kind, (&stage, &view), &all, &|_| {}).unwrap();
+    let choices: Vec<&str> = alternatives.iter().map(|of| &of.choice[..]).collect();
+    assert!(!choices.iter().any(|choice| choice.contains("samples")), "one sample it has: {choices:?}");
+    for choice in ["technique.stencil-volume.joins=\"style\"", "compositing.space=\"linear\""] {
+        let other = drawing::stage(&outlines(), &[choice]);
+        let image = frame_of(kind, &other, &[]).image;
+        assert!(best(&all, &image) > 10, "{choice}");
+        let fit: Vec<&str> = alternatives
+            .iter()
+            .filter(|of| outside(&of.hypothesis, &image) == 0)
+            .map(|of| &of.choice[..])
+            .collect();
+        assert_eq!(fit, [choice]);
+    }
+}
+
 /// Every scene among the goldens, by every machine that is allowed: some minutes of a release build.
 #[test]
 #[ignore = "minutes: what is allowed of some goldens is golden itself"]

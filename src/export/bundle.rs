@@ -5,8 +5,8 @@ use super::manifest::stage_manifest;
 use super::readme::readme;
 use super::run_files::RunFiles;
 use super::{
-    Buffers, FeatureTable, Parameters, TilePicture, plan_points, stage_allowed, tiles, triangles, vertices,
-    write_features,
+    Buffers, FeatureTable, Parameters, TilePicture, item_paints, items, plan_points, stage_allowed, tiles,
+    triangles, vertices, write_features,
 };
 use crate::allowed;
 use crate::buffer::Buffer;
@@ -150,6 +150,10 @@ impl<'a> Bundle<'a> {
             let name = format!("mesh.{}.npy", table.name);
             let table = Npy::new(&table)?;
             batch.stage(&name, |to| table.write(to))?;
+        }
+        for (name, table) in [("items", items(draw_list)), ("items.paint", item_paints(draw_list))] {
+            let table = Npy::new(&table)?;
+            batch.stage(&format!("{name}.npy"), |to| table.write(to))?;
         }
         let scene_in_one = glb(scene, draw_list, mesh)?;
         batch.stage("scene.glb", |to| to.write_all(&scene_in_one))?;

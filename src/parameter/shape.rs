@@ -135,6 +135,11 @@ impl Range {
 }
 
 impl Shape {
+    /// The words of this shape, where it is one of words.
+    pub fn choices(&self) -> Vec<&'static str> {
+        if let Shape::Choice(names, _) = self { names() } else { Vec::new() }
+    }
+
     /// What a word of this shape means.
     pub fn meaning(&self, word: &str) -> Option<&'static str> {
         let Shape::Choice(names, meanings) = self else { return None };

@@ -276,7 +276,7 @@ fn difference(distances: &[(usize, [f64; 4])], (width, height): (usize, usize)) 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::compare::allowed::{Extremes, Hypothesis};
+    use crate::compare::allowed::{Alternative, Extremes, Hypothesis, Stage, StageRange};
 
     const WHITE: [u16; 4] = [u16::MAX; 4];
 
@@ -326,6 +326,43 @@ mod tests {
         let strict = Gates { strict: true, ..Gates::default() };
         let judgement = Judgement::on(&allowed(40, vec![leaning.clone()]), &frame(&[5; 40]), strict);
         assert_eq!((judgement.ruling(), judgement.failure()), (Ruling::Fail, Some("lopsided")));
+    }
+
+    #[test]
+    fn a_picture_that_fails_is_tried_by_other_choices_which_never_let_it_pass() {
+        let other = |choice: &str, codes| Alternative {
+            choice: choice.into(),
+            hypothesis: grey("with", codes, 4),
+        };
+        let all = Allowed {
+            alternatives: vec![other("a=1", [25, 40]), other("b=2", [0, 90]), other("c=3", [1, 2])],
+            ..allowed(4, vec![grey("own", [0, 10], 4)])
+        };
+        let on = |codes: &[u16]| Judgement::on(&all, &frame(codes), Gates::default());
+        let failed = on(&[5, 30, 30, 50]);
+        assert_eq!(failed.failure(), Some("outside"));
+        assert!(failed.to_string().ends_with("; by b=2 it would pass"), "{failed}");
+        let otherwise = failed.outcome.unwrap().otherwise;
+        let told: Vec<_> = otherwise.iter().map(|of| (&of.choice[..], of.failing, of.passes)).collect();
+        assert_eq!(told, [("b=2", 0, true), ("a=1", 2, false)]);
+        let passed = on(&[5; 4]);
+        assert!(passed.passed() && passed.outcome.unwrap().otherwise.is_empty());
+    }
+
+    #[test]
+    fn a_buffer_that_is_not_as_allowed_fails_a_frame_only_where_one_is_strict() {
+        let range = StageRange::Between { components: 1, lo: vec![1.0; 2], hi: vec![2.0; 2] };
+        let stages = vec![Stage { buffer: "depth".into(), range }];
+        let all = Allowed { stages, ..allowed(2, vec![grey("a", [0, 10], 2)]) };
+        let on = |depth: f64, strict: bool| {
+            let mut frame = frame(&[5, 5]);
+            frame.buffers.insert("depth".into(), Image::new(2, 1, 1, vec![1.5, depth]).unwrap());
+            Judgement::on(&all, &frame, Gates { strict, ..Gates::default() })
+        };
+        assert!(on(9.0, false).passed() && on(1.5, true).passed());
+        let failed = on(9.0, true);
+        assert_eq!((failed.ruling(), failed.failure()), (Ruling::Fail, Some("stage")));
+        assert!(failed.to_string().contains("the buffer `depth` is not as allowed"), "{failed}");
     }
 
     #[test]

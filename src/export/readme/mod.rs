@@ -50,6 +50,7 @@ fn add_device(text: &mut String, device: &Device) {
          differs from them at samples that lie near an edge: export with another `--device`.\n\n"
     });
     add_values(text, Device::TABLE, &device.values());
+    add_others(text, Device::TABLE, &device.values());
     text.push_str(
         "\nWhat an imitated device does: vertices go to clip space by `clip_from_world`, composed in double precision and rounded to `precision`; sums are from left to \
          right, without fused operations. Screen positions are snapped to 2^-`subpixel_bits` pixels, to nearest, ties to even. Depth is clamped and interpolated linearly on the screen. \
@@ -69,6 +70,18 @@ fn add_values(text: &mut String, table: &TableShape, values: &[(&'static str, Va
         let meaning = meaning.map(|meaning| format!(" Here: {meaning}")).unwrap_or_default();
         let section = key.section.unwrap_or("");
         let _ = writeln!(text, "| `{}` | `{value}` | {}{meaning} | {section} |", key.name, key.doc);
+    }
+}
+
+/// Of keys with words, those that do not stand here.
+fn add_others(text: &mut String, table: &TableShape, values: &[(&'static str, Value)]) {
+    text.push_str("\nWhat else they may say:\n\n");
+    for key in table.keys {
+        let Some((_, Value::Word(own))) = values.iter().find(|(name, _)| *name == key.name) else { continue };
+        for word in key.shape.choices().into_iter().filter(|word| word != own) {
+            let meaning = key.shape.meaning(word).unwrap_or("");
+            let _ = writeln!(text, "- `{} = \"{word}\"`: {meaning}", key.name);
+        }
     }
 }
 
@@ -157,6 +170,8 @@ mod tests {
             );
         }
         assert!(exact.contains("exact mathematics") && exact.contains("| `precision` | `\"f64\"` |"));
+        assert!(exact.contains("\n- `depth = \"unorm24\"`: 24-bit fixed point"), "{exact}");
+        assert!(!exact.contains("\n- `precision = \"f64\"`"), "what stands in the table is no other value");
         assert!(single.contains("**the device below**") && single.contains("| `precision` | `\"f32\"` |"));
     }
 }
