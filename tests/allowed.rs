@@ -84,9 +84,7 @@ fn machines_may_paint_the_sky_where_volumes_cross_the_far_plane_all_of_it_or_not
     let all = allowed_of(Kind::StencilVolume, &stage(&far_plane(), machine));
     let painted = frame_of(Kind::StencilVolume, &stage(&far_plane(), machine), &[]).image;
     let bare = frame_of(Kind::StencilVolume, &stage(&far_plane(), &[]), &[]).image;
-    let outside = |name: &str, image| {
-        outside(all.hypotheses.iter().find(|h| h.name == name).unwrap(), image)
-    };
+    let outside = |name: &str, image| outside(all.hypotheses.iter().find(|h| h.name == name).unwrap(), image);
     let (painted_of, bare_of) = ("8-bit-vertices-painted-sky", "8-bit-vertices");
     assert_eq!([outside(painted_of, &painted), outside(bare_of, &bare)], [0, 0]);
     assert!(outside(painted_of, &bare) > 20 && outside(bare_of, &painted) > 20, "one is not the other");

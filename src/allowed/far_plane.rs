@@ -89,7 +89,9 @@ impl<'a> FarPlane<'a> {
                 return Known::Open;
             }
             let wanted = self.footprints.wants_polygon(item);
-            if self.footprints.wants_stroke(item) || wanted != Some(self.footprints.polygon_holds(item, plan.min)) {
+            if self.footprints.wants_stroke(item)
+                || wanted != Some(self.footprints.polygon_holds(item, plan.min))
+            {
                 return Known::Out;
             }
             if self.sure[item as usize].is_some_and(is_within) { Known::In } else { Known::Open }
@@ -140,8 +142,7 @@ fn heights_under(mesh: &Mesh, list: &DrawList, item: &Item) -> Option<Heights> {
         Plan::new(x, along(plan.min.y, plan.max.y, k / PLACES))
     });
     let found = places.filter_map(|at| mesh.height_at(at));
-    let [low, high] = found.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], z| {
-        [math::min(z, low), math::max(z, high)]
-    });
+    let [low, high] = found
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], z| [math::min(z, low), math::max(z, high)]);
     (low <= high).then_some([low, high])
 }

@@ -56,7 +56,9 @@ impl Guess {
             false => "",
         };
         let sky = match self.paints_sky {
-            true => ", and volumes that cross the far plane are painted on the sky: their depths are clamped there",
+            true => {
+                ", and volumes that cross the far plane are painted on the sky: their depths are clamped there"
+            }
             false => "",
         };
         format!("vertices are snapped to {subpixel_bits} bits behind a pixel's point, or less{blends}{sky}")

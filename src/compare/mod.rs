@@ -40,8 +40,8 @@ pub use difference::Difference;
 pub use expected::{Expected, Mismatch, Side};
 pub use image::{Image, ValuePlace};
 pub use judgement::{
-    Fitted, Gates, Involved, Judgement, Lean, Lopsided, MOST_IN_WINDOW, Otherwise, Ruling, StageFound, StageOutcome,
-    Tried,
+    Fitted, Gates, Involved, Judgement, Lean, Lopsided, MOST_IN_WINDOW, Otherwise, Ruling, StageFound,
+    StageOutcome, Tried,
 };
 pub use metrics::{Metrics, WINDOW, Window};
 pub use page::{Shown, page};

@@ -19,9 +19,7 @@ use crate::parallel;
 use crate::resolve::{Compositor, Paint};
 use crate::scene::Width;
 use crate::space::{Plan, World};
-use crate::technique::dynamic_line::{
-    Antialiasing, Corners, Settings, Simplification, Sorting, ThinLines,
-};
+use crate::technique::dynamic_line::{Antialiasing, Corners, Settings, Simplification, Sorting, ThinLines};
 use crate::technique::static_decal as decals;
 use crate::terrain::{Mesh, SKY};
 

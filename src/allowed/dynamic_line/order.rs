@@ -40,9 +40,7 @@ pub(super) fn unsorted(held: &[Held], overlaps: LineOverlaps) -> Vec<Vec<Laid>> 
     }
     let entries: Vec<(u32, Known)> = held
         .iter()
-        .flat_map(|of| {
-            (0..of.most).map(|k| (of.item, if k < of.least { Known::In } else { Known::Open }))
-        })
+        .flat_map(|of| (0..of.most).map(|k| (of.item, if k < of.least { Known::In } else { Known::Open })))
         .collect();
     let mut orders = vec![Vec::new()];
     for entry in entries {
@@ -65,8 +63,7 @@ pub(super) fn unsorted(held: &[Held], overlaps: LineOverlaps) -> Vec<Vec<Laid>> 
 fn runs(order: &[(u32, Known)], overlaps: LineOverlaps) -> Vec<Vec<Laid>> {
     let open: Vec<usize> = (0..order.len()).filter(|k| order[*k].1 == Known::Open).collect();
     let list = |answers: usize| {
-        let is_in =
-            |k: usize| open.iter().position(|o| *o == k).is_none_or(|bit| answers >> bit & 1 == 1);
+        let is_in = |k: usize| open.iter().position(|o| *o == k).is_none_or(|bit| answers >> bit & 1 == 1);
         let mut laid: Vec<Laid> = Vec::new();
         for (item, _) in (0..order.len()).filter(|k| is_in(*k)).map(|k| order[k]) {
             let is_again = laid.last().is_some_and(|last| last.item == item);

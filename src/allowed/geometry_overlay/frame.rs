@@ -151,7 +151,6 @@ impl Overlay<'_> {
     /// The fragments that a strip may have, with their pixels.
     fn fragments(&self, number: u32, strip: &LineStrip) -> Vec<(usize, Fragment)> {
         let (width, doubt) = self.width(strip);
-        let step = 1.0 / f64::from(1u32 << self.guess.envelope.subpixel_bits);
         let whole = [width - doubt, width + doubt].map(|width| (width.round() as u32).max(1));
         let mut out = Vec::new();
         for ready in self.ready(strip, whole) {
@@ -176,7 +175,7 @@ impl Overlay<'_> {
                     out.push((pixel[1] * self.view.frame.width() + pixel[0], fragment));
                 };
                 if self.settings.lines == Lines::Antialiased {
-                    let share = share(line, (width, step), pixel);
+                    let share = share(line, width, pixel);
                     if share[1] > 0.0 {
                         add(Kind::Share(share));
                     }

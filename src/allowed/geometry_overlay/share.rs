@@ -5,17 +5,14 @@ use crate::math;
 use crate::space::Plan;
 use glam::DVec2;
 
-/// At least and at most; a line so many pixels wide, whose ends a machine snaps to a grid of such a step, or to none.
-pub(super) fn share(line: &ScreenLine, (width, step): (f64, f64), [x, y]: [usize; 2]) -> [f64; 2] {
-    let ([a, b], stray) = between(line, step);
+/// At least and at most; a line so many pixels wide.
+pub(super) fn share(line: &ScreenLine, width: f64, [x, y]: [usize; 2]) -> [f64; 2] {
+    let [a, b] = line.ends;
     let length = (b - a).length();
     let along = if length > 0.0 { (b - a) / length } else { DVec2::X };
     let off = std::f64::consts::SQRT_2 * line.stray;
-    // How far a square of places reaches along a direction.
-    let [aside, ahead] = [along.perp(), along].map(|n| n.abs().dot(stray));
     // Ends that stray turn the rectangle about its middle, too: its own ends the more the wider it is.
-    let turn = 2.0 * aside / length;
-    let [by_side, by_end] = [aside * (1.0 + turn), ahead + turn * width / 2.0];
+    let [by_side, by_end] = [off * (1.0 + 2.0 * off / length), off * (1.0 + width / length)];
     let area = |sign: f64| {
         let limits = [-by_end * sign, length + by_end * sign, width / 2.0 + by_side * sign];
         if limits[0] >= limits[1] || limits[2] <= 0.0 {
@@ -35,27 +32,6 @@ pub(super) fn share(line: &ScreenLine, (width, step): (f64, f64), [x, y]: [usize
     let least = if length > 8.0 * off { area(-1.0) } else { 0.0 };
     let most = if length > 8.0 * off { area(1.0) } else { around(line, width, off, [x, y]) };
     [math::max(least - ROUNDING, 0.0), math::min(most + ROUNDING, 1.0)]
-}
-
-/// The middles of what the ends may be, and how far they may lie from there along each axis: an end lies between where it is without a grid and its place on
-/// the grid, but for rounding (so do, as far as that, finer grids' places).
-fn between(line: &ScreenLine, step: f64) -> ([Plan; 2], DVec2) {
-    let rounding = line.stray - step / 2.0;
-    let mut most = DVec2::ZERO;
-    let middles = line.ends.map(|end| {
-        let to_grid = (end.to_vec() / step).round() * step - end.to_vec();
-        let mut middle = end;
-        for k in 0..2 {
-            // Nearly halfway between two places it may go either way.
-            let is_either = step / 2.0 - to_grid[k].abs() <= rounding;
-            let half = if is_either { step / 2.0 } else { to_grid[k].abs() / 2.0 };
-            most[k] = math::max(half, most[k]);
-            let by = if is_either { 0.0 } else { to_grid[k] / 2.0 };
-            middle = middle + if k == 0 { DVec2::new(by, 0.0) } else { DVec2::new(0.0, by) };
-        }
-        middle
-    });
-    (middles, most + rounding)
 }
 
 /// Far more than what adding up the areas of a pixel may be off.
@@ -98,22 +74,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_end_lies_between_its_own_place_and_that_on_the_grid() {
-        let line = ScreenLine::of_ends([Plan::new(0.3, 0.5), Plan::new(8.0, 0.7495)], 0.25 + 0.001);
-        let ([a, b], stray) = between(&line, 0.5);
-        assert!((a - Plan::new(0.4, 0.5)).length() < 1e-12, "{a:?}: from 0.3 to 0.5");
-        assert!((b - Plan::new(8.0, 0.7495)).length() < 1e-12, "{b:?}: 0.7495 is nearly halfway from 0.5 to 1");
-        assert!((stray - DVec2::new(0.101, 0.251)).length() < 1e-12, "{stray}");
-    }
-
-    #[test]
     fn a_share_lies_within_what_straying_ends_leave() {
         let line = ScreenLine::of_ends([Plan::new(-3.0, 0.5), Plan::new(0.5, 0.5)], 0.001);
-        let [least, most] = share(&line, (1.0, 0.001), [0, 0]);
+        let [least, most] = share(&line, 1.0, [0, 0]);
         assert!(least < 0.5 && least > 0.49 && most > 0.5 && most < 0.51, "{least} {most}");
-        assert!(share(&line, (1.0, 0.001), [3, 5])[1] < 1e-5);
+        assert!(share(&line, 1.0, [3, 5])[1] < 1e-5);
         let dot = ScreenLine::of_ends([Plan::new(0.5, 0.5), Plan::new(0.501, 0.5)], 0.01);
-        let [least, most] = share(&dot, (1.0, 0.001), [0, 0]);
+        let [least, most] = share(&dot, 1.0, [0, 0]);
         assert!(least == 0.0 && most > 0.001 && most < 0.2, "{most}");
     }
 }

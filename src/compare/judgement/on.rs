@@ -330,10 +330,8 @@ mod tests {
 
     #[test]
     fn a_picture_that_fails_is_tried_by_other_choices_which_never_let_it_pass() {
-        let other = |choice: &str, codes| Alternative {
-            choice: choice.into(),
-            hypothesis: grey("with", codes, 4),
-        };
+        let other =
+            |choice: &str, codes| Alternative { choice: choice.into(), hypothesis: grey("with", codes, 4) };
         let all = Allowed {
             alternatives: vec![other("a=1", [25, 40]), other("b=2", [0, 90]), other("c=3", [1, 2])],
             ..allowed(4, vec![grey("own", [0, 10], 4)])

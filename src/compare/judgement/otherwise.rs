@@ -19,7 +19,12 @@ pub struct Otherwise {
 }
 
 /// The choices by which fewer than so many pixels lie outside, fewest first.
-pub(super) fn otherwise(allowed: &Allowed, picture: &Picture, gates: Gates, failing: usize) -> Vec<Otherwise> {
+pub(super) fn otherwise(
+    allowed: &Allowed,
+    picture: &Picture,
+    gates: Gates,
+    failing: usize,
+) -> Vec<Otherwise> {
     let mut all: Vec<Otherwise> = Vec::new();
     for of in &allowed.alternatives {
         let fit = Fit::of(&of.hypothesis, picture);
