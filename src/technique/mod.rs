@@ -7,6 +7,7 @@
 //! To add a technique: a folder with its [`Declaration`], and its line in the list below. The scene file with its check and schema, the
 //! command line, goldens, reports and bundles go by the list.
 
+mod analytic;
 pub mod clipmap;
 mod declaration;
 pub mod dynamic_line;

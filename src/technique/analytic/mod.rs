@@ -1,0 +1,4 @@
+//! Analytic coverage (ours).
+
+mod coverage;
+mod pieces;

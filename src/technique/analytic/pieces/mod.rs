@@ -1,0 +1,1 @@
+//! Strokes as convex pieces of the plan.
