@@ -62,6 +62,7 @@ const fn tried(kind: Kind) -> &'static [Tried] {
         Kind::GeometryOverlay => {
             &[("lines", &[Word("gl"), Word("antialiased")]), ("widths", &[Word("style"), Word("one")])]
         }
+        Kind::Analytic => &[],
     }
 }
 

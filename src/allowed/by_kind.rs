@@ -5,7 +5,7 @@ use super::model::{Guess, View};
 use super::sampled::Pictures;
 use super::{clipmap, dynamic_line, geometry_overlay, inverse_projection, static_decal, stencil_volume};
 use crate::compare::{FeatureRun, Hypothesis, Stage};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::scene::Device;
 use crate::space::ViewFrame;
 use crate::technique::Kind;
@@ -26,6 +26,10 @@ pub(super) fn pictures(kind: Kind, view: &View, guesses: &[Guess]) -> Result<Pic
         Kind::DynamicLine => by_guess(view, guesses, dynamic_line::picture)?,
         Kind::GeometryOverlay => {
             by_guess(view, guesses, |view, guess| Ok((geometry_overlay::picture(view, guess)?, None)))?
+        }
+        Kind::Analytic => {
+            return Err(Error::unsupported("nobody knows what analytic's picture may be on other machines")
+                .help("judge it by the truth's intervals, or by its picture and a tolerance"));
         }
     };
     all.hypotheses.iter_mut().zip(guesses).for_each(|(hypothesis, guess)| hypothesis.says = guess.says());

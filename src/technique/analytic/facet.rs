@@ -1,0 +1,212 @@
+//! A triangle as a picture has it: which pixels it may cover, how near it is, and the maps between the screen and the plan.
+//!
+//! Within a triangle everything follows from its corners' homogeneous coordinates (x, y, w): the weights that a point of the screen has of
+//! them are linear in it, up to a factor (Olano & Greer 1997, "Triangle scan conversion using 2D homogeneous coordinates"). So a straight
+//! line of the plan is one of the screen, and no corner needs to lie before the eye.
+
+use super::convex::Side;
+use crate::math;
+use crate::space::{Lens, Plan, ViewFrame};
+use crate::terrain::SurfaceTriangle;
+use glam::{DVec2, DVec3};
+
+/// A triangle seen from less than this from its edge covers nothing: the determinant's share of its terms.
+const EDGE_ON: f64 = 1e-15;
+
+/// A triangle of the terrain in screen coordinates that are counted from a tile's corner.
+#[derive(Debug, Clone)]
+pub(super) struct Facet {
+    /// Its number.
+    pub(super) id: u32,
+    /// Its sides, lines of the screen.
+    pub(super) sides: [Side; 3],
+    /// How near it is: the larger, the nearer. Of a central lens 1 / depth, of a parallel one -depth; linear in the screen.
+    pub(super) key: Side,
+    /// The columns and rows that it may reach: x from, y from, x to, y to.
+    pub(super) reach: [f64; 4],
+    /// What keeps it beyond the near plane and before the far one, where it reaches over them.
+    pub(super) planes: [Option<Side>; 2],
+    /// Weights of the corners from (x, y, 1), up to a factor.
+    weights: [DVec3; 3],
+    /// Homogeneous coordinates of the first corner, and how they grow east and north.
+    from_plan: [DVec3; 3],
+    plan: [Plan; 3],
+    is_central: bool,
+}
+
+impl Facet {
+    /// A triangle in a view, with the screen counted from `origin`; `None`: it is seen edge-on.
+    pub(super) fn new(view: &ViewFrame, origin: DVec2, id: u32, triangle: &SurfaceTriangle) -> Option<Self> {
+        let corners = triangle.world.map(|corner| {
+            let h = view.homogeneous(corner - view.eye()) + view.homogeneous_eye();
+            DVec3::new(h.x - origin.x * h.z, h.y - origin.y * h.z, h.z)
+        });
+        let depths = triangle.world.map(|corner| view.depth(corner));
+        let [a, b, c] = corners;
+        let normals = [b.cross(c), c.cross(a), a.cross(b)];
+        let det = a.dot(normals[0]);
+        if det.is_nan() || det.abs() <= EDGE_ON * a.length() * b.length() * c.length() {
+            return None;
+        }
+        let weights = normals.map(|normal| normal / det);
+        let is_central = matches!(view.lens(), Lens::Central { .. });
+        let key = match is_central {
+            true => weights[0] + weights[1] + weights[2],
+            false => -(weights[0] * depths[0] + weights[1] * depths[1] + weights[2] * depths[2]),
+        };
+        let key = line(key);
+        let plan = triangle.plan();
+        Some(Self {
+            id,
+            sides: weights.map(unit),
+            key,
+            reach: reach(view, &corners, &depths, is_central),
+            planes: planes(view, key, &depths, is_central),
+            weights,
+            from_plan: from_plan(&corners, &plan),
+            plan,
+            is_central,
+        })
+    }
+
+    /// The greatest key in a square of the screen around a point.
+    #[inline]
+    pub(super) fn nearest_in(&self, middle: DVec2, half: f64) -> f64 {
+        self.key.at(middle) + half * self.key.normal.abs().element_sum()
+    }
+
+    /// The plan point of a point of the screen.
+    #[inline]
+    pub(super) fn plan_at(&self, at: DVec2) -> Plan {
+        let h = at.extend(1.0);
+        let [of_a, of_b, of_c] = self.weights.map(|row| row.dot(h));
+        let [a, b, c] = self.plan;
+        let all = of_a + of_b + of_c;
+        a + ((b - a) * (of_b / all) + (c - a) * (of_c / all))
+    }
+
+    /// How far east (axis 0) or north (axis 1) of a line of the plan a point (x, y, 1) of the screen lies, up to a positive factor.
+    pub(super) fn beyond(&self, axis: usize, at: f64) -> DVec3 {
+        let of = self.plan.map(|p| if axis == 0 { p.x - at } else { p.y - at });
+        self.weights[0] * of[0] + self.weights[1] * of[1] + self.weights[2] * of[2]
+    }
+
+    /// Homogeneous coordinates of a plan point of the triangle's plane.
+    #[inline]
+    pub(super) fn homogeneous(&self, at: Plan) -> DVec3 {
+        let from = at - self.plan[0];
+        self.from_plan[0] + self.from_plan[1] * from.x + self.from_plan[2] * from.y
+    }
+
+    /// Whether plan points have a place on the plane; they have none where the corners' lie on a line.
+    pub(super) fn has_plan(&self) -> bool {
+        self.from_plan.iter().all(|row| row.is_finite())
+    }
+
+    /// Whether what turns left in the plan turns the other way on the screen, y down.
+    pub(super) fn is_mirrored(&self) -> bool {
+        let [first, east, north] = self.from_plan;
+        first.dot(east.cross(north)) < 0.0
+    }
+
+    /// The least w that plan points at some points of the screen have.
+    pub(super) fn least_w(&self, polygon: &[DVec2]) -> f64 {
+        if !self.is_central {
+            return 1.0;
+        }
+        let nearest = polygon.iter().map(|p| self.key.at(*p)).fold(0.0, |most, key| math::max(key, most));
+        1.0 / nearest
+    }
+}
+
+/// A row that is multiplied with (x, y, 1), as a line.
+fn line(row: DVec3) -> Side {
+    Side { normal: row.truncate(), offset: row.z }
+}
+
+/// The same in pixels, where it is a line that has pixels.
+fn unit(row: DVec3) -> Side {
+    let length = row.truncate().length();
+    line(if length > 0.0 { row / length } else { row })
+}
+
+/// The columns and rows that a triangle may reach; all where it comes near the eye's plane.
+fn reach(view: &ViewFrame, corners: &[DVec3; 3], depths: &[f64; 3], is_central: bool) -> [f64; 4] {
+    if is_central && depths.iter().any(|depth| *depth < 0.5 * view.near()) {
+        return [f64::NEG_INFINITY, f64::NEG_INFINITY, f64::INFINITY, f64::INFINITY];
+    }
+    let points = corners.map(|h| h.truncate() / h.z);
+    let low = points[0].min(points[1]).min(points[2]);
+    let high = points[0].max(points[1]).max(points[2]);
+    [low.x, low.y, high.x, high.y]
+}
+
+/// What cuts a triangle at the near and the far plane.
+fn planes(view: &ViewFrame, key: Side, depths: &[f64; 3], is_central: bool) -> [Option<Side>; 2] {
+    let key_of = |depth: f64| if is_central { 1.0 / depth } else { -depth };
+    let nearer = depths.iter().any(|depth| *depth < view.near());
+    let farther = depths.iter().any(|depth| *depth >= view.far());
+    let beyond_near = Side { normal: -key.normal, offset: key_of(view.near()) - key.offset };
+    let before_far = Side { normal: key.normal, offset: key.offset - key_of(view.far()) };
+    [nearer.then_some(beyond_near), farther.then_some(before_far)]
+}
+
+/// The first corner's homogeneous coordinates, and what they grow by along the plan's axes.
+fn from_plan([a, b, c]: &[DVec3; 3], plan: &[Plan; 3]) -> [DVec3; 3] {
+    let (along, other) = (plan[1] - plan[0], plan[2] - plan[0]);
+    let area = along.perp_dot(other);
+    let (u, v) = (*b - *a, *c - *a);
+    [*a, (u * other.y - v * along.y) / area, (v * along.x - u * other.x) / area]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::space::{Screen, Viewpoint, World};
+    use crate::visibility::hit;
+
+    fn views() -> [ViewFrame; 2] {
+        let view = Viewpoint {
+            eye: World::new(10.0, -200.0, 90.0),
+            target: World::new(0.0, 0.0, 5.0),
+            up: DVec3::Z,
+            near: 0.1,
+            far: f64::INFINITY,
+        };
+        [
+            ViewFrame::perspective(&view, 50.0, (640, 480)).unwrap(),
+            ViewFrame::orthographic(&view, 300.0, (640, 480)).unwrap(),
+        ]
+    }
+
+    #[test]
+    fn a_point_of_the_screen_has_the_plan_point_and_the_depth_of_its_ray() {
+        let triangle = SurfaceTriangle::vertical([
+            World::new(-300.0, -350.0, -20.0),
+            World::new(300.0, -160.0, 10.0),
+            World::new(0.0, 400.0, 80.0),
+        ]);
+        let origin = DVec2::new(64.0, 128.0);
+        for view in views() {
+            let facet = Facet::new(&view, origin, 7, &triangle).unwrap();
+            for at in [DVec2::new(100.5, 200.25), DVec2::new(256.0, 112.0)] {
+                let screen = Screen::new(at.x + origin.x, at.y + origin.y);
+                let seen = hit(&view, &view.ray(screen), &triangle);
+                assert!((facet.plan_at(at) - seen.plan).length() < 1e-9);
+                let key = if facet.is_central { 1.0 / seen.depth } else { -seen.depth };
+                assert!((facet.key.at(at) - key).abs() < 1e-12 * (1.0 + key.abs()));
+                let back = facet.homogeneous(seen.plan);
+                assert!((back.truncate() / back.z - at).length() < 1e-9);
+            }
+            assert!(facet.is_mirrored(), "north is up, y is down");
+        }
+    }
+
+    #[test]
+    fn a_triangle_that_is_seen_edge_on_is_none() {
+        let view = views()[1];
+        let eye = view.eye();
+        let corners = [eye, eye + view.forward() * 100.0, eye + (view.forward() + view.up()) * 100.0];
+        assert!(Facet::new(&view, DVec2::ZERO, 0, &SurfaceTriangle::vertical(corners)).is_none());
+    }
+}

@@ -1,0 +1,122 @@
+//! One frame: its tiles, in parallel, and what is told of them.
+
+use super::Prepare;
+use super::look::Looks;
+use super::sheet::TILE;
+use super::step::Step;
+use super::texels::Texels;
+use super::tile::{Painter, Pixel, Room, SAMPLED};
+use crate::buffer::{Buffer, Plane, Values};
+use crate::canvas::{Backdrop, Frame, FrameOptions, GBuffer, Pixels, picture_plane, surface_plane};
+use crate::parallel::{self, Progress};
+use crate::raster::Lattice;
+use crate::resolve::{Paint, code_values};
+use crate::space::ViewFrame;
+use crate::terrain::Mesh;
+use crate::tiling::Tiling;
+
+/// The buffers, in the order in which a frame has them.
+const ORDER: [&str; 8] = ["depth", "triangle", "plan", "fragments", "class", "edges", "fallback", "color"];
+
+/// Draws a frame of a view.
+pub(super) fn draw(prepared: &Prepare, view: &ViewFrame, options: &FrameOptions) -> Frame {
+    let mesh = &*prepared.stage.mesh_for(view);
+    let backdrop = Backdrop::of(&prepared.stage.scene, mesh);
+    let looks = looks(prepared, &backdrop);
+    let painter = painter(prepared, view, (mesh, &looks), backdrop);
+    let tiling = Tiling::new(view.width(), view.height(), TILE);
+    let numbers: Vec<usize> = (0..tiling.count()).collect();
+    let progress = Progress::new(numbers.len(), options.progress);
+    let tiles = parallel::map_with(&numbers, Room::default, |room, k| {
+        let pixels = painter.tile(&tiling.place(*k), room);
+        progress.step();
+        pixels
+    });
+    let sky = Pixel { paint: painter.backdrop.sky, class: 0, edges: 0, fragments: 0, fallback: 0 };
+    let pixels = tiling.assembled(sky, tiles.iter().map(Vec::as_slice));
+    drop(tiles);
+    let mut coded = Pixels::new(painter.backdrop.compositor, pixels.len(), options.wants("color"));
+    pixels.iter().for_each(|pixel| coded.push(pixel.paint));
+    let wants_surface = ["depth", "triangle", "plan"].iter().any(|name| options.wants(name));
+    let centres = wants_surface.then(|| {
+        let lattice = Lattice::centres(view, 0);
+        GBuffer::new(view, mesh, &prepared.stage.scene.device, lattice, options.tile)
+    });
+    let size = tiling.size();
+    let wanted = ORDER.into_iter().filter(|name| options.wants(name));
+    Frame {
+        image: Buffer::from_values(size[0], size[1], coded.codes().to_vec()),
+        planes: wanted.filter_map(|name| plane(name, size, (&pixels, &coded), centres.as_ref())).collect(),
+        counts: counts(&pixels),
+    }
+}
+
+/// Decides one pixel of a view as a frame does: its steps and its code values.
+pub(super) fn explain(prepared: &Prepare, view: &ViewFrame, [x, y]: [usize; 2]) -> (Vec<Step>, [u8; 4]) {
+    let mesh = &*prepared.stage.mesh_for(view);
+    let backdrop = Backdrop::of(&prepared.stage.scene, mesh);
+    let looks = looks(prepared, &backdrop);
+    let painter = painter(prepared, view, (mesh, &looks), backdrop);
+    let tiling = Tiling::new(view.width(), view.height(), TILE);
+    let place = tiling.place(y / TILE * tiling.across() + x / TILE);
+    let mut steps = Vec::new();
+    let paint: Paint = painter.one(&place, [x % TILE, y % TILE], &mut steps);
+    (steps, code_values(painter.backdrop.compositor.encoded(paint)))
+}
+
+fn looks<'s>(prepared: &Prepare<'s>, backdrop: &Backdrop) -> Looks<'s> {
+    let mode = prepared.stage.scene.compositing.mode;
+    Looks::new(&prepared.stage.draw_list, &backdrop.compositor, mode)
+}
+
+fn painter<'a>(
+    prepared: &'a Prepare,
+    view: &'a ViewFrame,
+    (mesh, looks): (&'a Mesh, &'a Looks<'a>),
+    backdrop: Backdrop<'a>,
+) -> Painter<'a> {
+    Painter {
+        features: &prepared.features,
+        settings: prepared.settings,
+        view,
+        mesh,
+        backdrop,
+        looks,
+        texels: Texels::of(&prepared.stage.scene),
+    }
+}
+
+fn plane(
+    name: &'static str,
+    size: [usize; 2],
+    (pixels, coded): (&[Pixel], &Pixels),
+    centres: Option<&GBuffer>,
+) -> Option<Plane> {
+    let numbers = |of: fn(&Pixel) -> u32| Values::U32(pixels.iter().map(of).collect());
+    let bytes = |of: fn(&Pixel) -> u8| Values::U8(pixels.iter().map(of).collect());
+    let (components, values) = match name {
+        "fragments" => (1, numbers(|pixel| pixel.fragments)),
+        "class" => (1, bytes(|pixel| pixel.class)),
+        "edges" => (1, numbers(|pixel| pixel.edges)),
+        "fallback" => (1, bytes(|pixel| pixel.fallback)),
+        "color" => (4, Values::F64(coded.colors().as_flattened().to_vec())),
+        _ => return surface_plane(name, centres?.sight(), 0),
+    };
+    Some(picture_plane(name, size, components, values))
+}
+
+fn counts(pixels: &[Pixel]) -> Vec<(&'static str, u64)> {
+    let of_class = |class: u8| pixels.iter().filter(|pixel| pixel.class == class).count() as u64;
+    let of_fallback = |why: u8| pixels.iter().filter(|pixel| pixel.fallback == why).count() as u64;
+    vec![
+        ("point_pixels", of_class(0)),
+        ("half_plane_pixels", of_class(1)),
+        ("band_pixels", of_class(2)),
+        ("slab_pixels", of_class(3)),
+        ("sampled_pixels", of_class(SAMPLED)),
+        ("crowded_by_fragments", of_fallback(1)),
+        ("crowded_by_edges", of_fallback(2)),
+        ("fragments", pixels.iter().map(|pixel| u64::from(pixel.fragments)).sum()),
+        ("edges", pixels.iter().map(|pixel| u64::from(pixel.edges)).sum()),
+    ]
+}

@@ -1,0 +1,363 @@
+//! What items do to one fragment: N, P or F of each, and of those that are P what their edges cut.
+
+use super::coverage::{Class, Coverage, Inside, Membership};
+use super::facet::Facet;
+use super::features::{Edge, Stroked};
+use super::look::{Look, Looks};
+use super::near::{Local, Near, meets};
+use super::pieces::{self, HalfWidth, Pieces, stroke_pieces};
+use crate::math;
+use crate::predicate::orient2d;
+use crate::resolve::{Compositor, Paint, Stack};
+use crate::scene::Width;
+use crate::space::{Lens, Plan, PlanBox, ViewFrame};
+use crate::terrain::Mesh;
+use glam::DVec2;
+use std::ops::Range;
+
+/// How far a chord of a round part may be off, in pixels.
+const SAGITTA: f64 = 1.0 / 512.0;
+
+/// A fragment of a pixel, or a sample.
+#[derive(Debug)]
+pub(super) struct Place<'a> {
+    pub(super) facet: &'a Facet,
+    /// Its corners on the screen; of a sample the one point.
+    pub(super) screen: &'a [DVec2],
+    /// The same in the plan.
+    pub(super) plan: &'a [Plan],
+    /// The pixel's corner, from which the closed forms count.
+    pub(super) pixel: DVec2,
+}
+
+impl Place<'_> {
+    /// A place inside, on which data hardly have an edge.
+    fn inside(&self) -> DVec2 {
+        let (mut sum, mut all, mut weight) = (DVec2::ZERO, 0.0, 1.0);
+        for p in self.screen {
+            sum += *p * weight;
+            all += weight;
+            weight = 0.618_033_988_749_895 * weight + 0.3;
+        }
+        sum / all
+    }
+
+    /// The smallest way in the plan of a pixel's way on the screen, metres.
+    fn finest(&self) -> f64 {
+        const STEP: f64 = 0.25;
+        let middle = self.inside();
+        let at = self.facet.plan_at(middle);
+        let [dx, dy] = [DVec2::X, DVec2::Y].map(|axis| (self.facet.plan_at(middle + axis * STEP) - at) / STEP);
+        // The smaller singular value of the map: its determinant over the larger one.
+        let (sum, det) = (dx.length_squared() + dy.length_squared(), dx.perp_dot(dy).abs());
+        let root = math::max(sum * sum - 4.0 * det * det, 0.0).sqrt();
+        det / (0.5 * (sum + root)).sqrt()
+    }
+}
+
+/// What an item does to a fragment.
+#[derive(Debug, Clone)]
+struct Entry {
+    /// Its place among those near.
+    local: usize,
+    /// Its area's edges that cut the fragment; none where all of the fragment is in the area, or there is none.
+    edges: Range<usize>,
+    /// Its stroke's pieces that cut the fragment; none where one holds all of it, or there is no stroke.
+    rings: Range<usize>,
+}
+
+impl Entry {
+    fn is_partial(&self) -> bool {
+        !(self.edges.is_empty() && self.rings.is_empty())
+    }
+}
+
+/// What was found out about a fragment.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Painted {
+    pub(super) paint: Paint,
+    pub(super) class: Class,
+    /// Parts of edges in it.
+    pub(super) edges: usize,
+}
+
+/// Lists that are used again from fragment to fragment.
+#[derive(Debug, Default)]
+pub(super) struct Lists {
+    entries: Vec<Entry>,
+    edges: Vec<Edge>,
+    /// Where each piece's corners end.
+    rings: Vec<usize>,
+    corners: Vec<Plan>,
+    pieces: Pieces,
+    cover: Coverage,
+    projected: Vec<DVec2>,
+    /// Whether the items of each set are to be told.
+    pub(super) wants_sets: bool,
+    /// The items of each set that was found, with its share, if they are to be told.
+    pub(super) sets: Vec<(Vec<u32>, f64)>,
+}
+
+/// Paints fragments over the ground.
+#[derive(Debug)]
+pub(super) struct Items<'a> {
+    pub(super) view: &'a ViewFrame,
+    pub(super) mesh: &'a Mesh,
+    pub(super) looks: &'a Looks<'a>,
+    pub(super) compositor: Compositor,
+    /// The most parts of edges in a fragment.
+    pub(super) crowd: usize,
+}
+
+impl Items<'_> {
+    /// The mean paint of a fragment over a ground of one paint; `None`: its edges are too many.
+    pub(super) fn paint(&self, place: &Place, near: &Near, ground: Paint, lists: &mut Lists) -> Option<Painted> {
+        self.classify(place, near, lists);
+        lists.sets.clear();
+        if lists.entries.iter().any(Entry::is_partial) {
+            return self.measure(place, near, ground, lists);
+        }
+        let paint = self.composed(near, lists, 0, ground);
+        if lists.wants_sets {
+            lists.sets.push((items_of(near, &lists.entries, 0), 1.0));
+        }
+        Some(Painted { paint, class: Class::Point, edges: 0 })
+    }
+
+    /// Finds the items that cover some of a fragment, from the top down to one that hides the others.
+    fn classify(&self, place: &Place, near: &Near, lists: &mut Lists) {
+        lists.entries.clear();
+        lists.edges.clear();
+        lists.rings.clear();
+        lists.corners.clear();
+        let bounds = PlanBox::around(place.plan.iter().copied());
+        let inside = place.facet.plan_at(place.inside());
+        let inside = if place.plan.len() == 1 { place.plan[0] } else { inside };
+        let mut finest = None;
+        for (local, of) in near.items.iter().enumerate().rev() {
+            let look = self.looks.of(of.item);
+            let edges = lists.edges.len();
+            if let Some(area) = look.area {
+                let cutting = near.edges(of).iter().filter(|edge| cuts(edge, place.plan, &bounds));
+                lists.edges.extend(cutting.copied());
+                if lists.edges.len() == edges && !area.holds(near.turns_at(of, inside)) {
+                    continue;
+                }
+            }
+            let rings = lists.rings.len();
+            if look.line.is_some() {
+                let finest = *finest.get_or_insert_with(|| place.finest());
+                if !self.add_pieces((near, of, look), place, (&bounds, finest), lists) {
+                    lists.edges.truncate(edges);
+                    continue;
+                }
+            }
+            let entry = Entry { local, edges: edges..lists.edges.len(), rings: rings..lists.rings.len() };
+            let hides = look.is_opaque && !entry.is_partial();
+            lists.entries.push(entry);
+            if hides {
+                break;
+            }
+        }
+        lists.entries.reverse();
+    }
+
+    /// Adds the pieces of an item's stroke that cut a fragment; none where one holds it. Returns whether the stroke may cover any of it.
+    fn add_pieces(
+        &self,
+        (near, of, look): (&Near, &Local, &Look),
+        place: &Place,
+        (bounds, finest): (&PlanBox, f64),
+        lists: &mut Lists,
+    ) -> bool {
+        let Some(line) = &look.line else { return false };
+        let (first, first_corner) = (lists.rings.len(), lists.corners.len());
+        let half = self.half_width(&line.width, place);
+        let around = pieces::Near { plan: *bounds, sagitta: SAGITTA * finest };
+        let meets = |stroked: &&Stroked| stroked.bounds.meets(bounds);
+        for stroked in near.strokes(of).iter().filter(meets) {
+            lists.pieces.clear();
+            stroke_pieces(&stroked.segment, line, half, &around, &mut lists.pieces);
+            for ring in lists.pieces.rings() {
+                match held(ring, place.plan) {
+                    Held::All => {
+                        lists.rings.truncate(first);
+                        lists.corners.truncate(first_corner);
+                        return true;
+                    }
+                    Held::Some => {
+                        lists.corners.extend_from_slice(ring);
+                        lists.rings.push(lists.corners.len());
+                    }
+                    Held::None => {}
+                }
+            }
+        }
+        lists.rings.len() > first
+    }
+
+    /// Half a stroke's width near a place: of one in pixels the tangent of how it grows with the distance from the eye (Zechmeister 2020, eq. 4.1).
+    fn half_width(&self, width: &Width, place: &Place) -> HalfWidth {
+        let width = match width {
+            Width::Metres(width) => {
+                return HalfWidth { at: place.plan[0], half: width / 2.0, gradient: DVec2::ZERO };
+            }
+            Width::Pixels(width) => width,
+        };
+        let at = if place.plan.len() == 1 { place.plan[0] } else { place.facet.plan_at(place.inside()) };
+        let Lens::Central { pixel } = self.view.lens() else {
+            let half = 0.5 * width * self.view.lens().pixel();
+            return HalfWidth { at, half, gradient: DVec2::ZERO };
+        };
+        let triangle = self.mesh.surface_triangle(place.facet.id);
+        let Some((triangle, [east, north])) = triangle.and_then(|of| Some((of, of.world_from_plan()?))) else {
+            return HalfWidth { at, half: 0.0, gradient: DVec2::ZERO };
+        };
+        let from = at - triangle.plan()[0];
+        let away = triangle.world[0] + (east * from.x + north * from.y) - self.view.eye();
+        let (growth, distance) = (0.5 * width * pixel, away.length());
+        let gradient = DVec2::new(away.dot(east), away.dot(north)) * (growth / distance);
+        HalfWidth { at, half: growth * distance, gradient }
+    }
+
+    /// The mean paint of a fragment that edges cut.
+    fn measure(&self, place: &Place, near: &Near, ground: Paint, lists: &mut Lists) -> Option<Painted> {
+        let mut cover = std::mem::take(&mut lists.cover);
+        let class = self.fill(place, near, lists, &mut cover).and_then(|()| cover.measure(self.crowd));
+        lists.cover = cover;
+        let class = class?;
+        let (mut paint, mut all) = (Paint::CLEAR, 0.0);
+        for &(set, area) in lists.cover.areas() {
+            paint = paint.plus(self.composed(near, lists, set, ground).times(area));
+            all += area;
+        }
+        if lists.wants_sets {
+            let share = |&(set, area): &(u64, f64)| (items_of(near, &lists.entries, set), area / all);
+            lists.sets = lists.cover.areas().iter().map(share).collect();
+        }
+        Some(Painted { paint: paint.divided_by(all), class, edges: lists.cover.edges() })
+    }
+
+    /// Tells the closed forms what cuts a fragment.
+    fn fill(&self, place: &Place, near: &Near, lists: &mut Lists, cover: &mut Coverage) -> Option<()> {
+        lists.projected.clear();
+        lists.projected.extend(place.screen.iter().map(|p| *p - place.pixel));
+        cover.begin(&lists.projected);
+        let least = 0.5 * place.facet.least_w(place.screen);
+        let is_mirrored = place.facet.is_mirrored();
+        let partial = lists.entries.iter().filter(|entry| entry.is_partial());
+        for entry in partial.clone() {
+            let area = self.looks.of(near.items[entry.local].item).area.filter(|_| !entry.edges.is_empty());
+            let area = area.map(|area| Inside { rule: area.rule, is_wanted: area.is_wanted });
+            let number = cover.item(Membership { area, has_stroke: !entry.rings.is_empty() })?;
+            for edge in &lists.edges[entry.edges.clone()] {
+                lists.projected.clear();
+                project(place, &[edge.from, edge.to], least, &mut lists.projected);
+                if let [from, to] = lists.projected[..] {
+                    let (from, to) = if is_mirrored { (to, from) } else { (from, to) };
+                    cover.edge(number, from, to);
+                }
+            }
+            for ring in entry.rings.clone() {
+                let first = ring.checked_sub(1).map_or(0, |before| lists.rings[before]);
+                lists.projected.clear();
+                project(place, &lists.corners[first..lists.rings[ring]], least, &mut lists.projected);
+                if lists.projected.len() > 2 {
+                    cover.piece(number, &lists.projected);
+                }
+            }
+        }
+        let at = place.facet.plan_at(cover.reference()? + place.pixel);
+        for (number, entry) in (0..).zip(partial).filter(|(_, entry)| !entry.edges.is_empty()) {
+            cover.winding(number, near.turns_at(&near.items[entry.local], at));
+        }
+        Some(())
+    }
+
+    /// The items of a set over a ground.
+    fn composed(&self, near: &Near, lists: &Lists, set: u64, ground: Paint) -> Paint {
+        let mut stack = Stack::on(ground);
+        for_each_of(near, &lists.entries, set, |item| {
+            let look = self.looks.of(item);
+            stack.draw(look.group, |below| self.compositor.over(below, look.paint));
+        });
+        stack.finished()
+    }
+}
+
+/// Calls `visit` with the items of a set, whose bits are those of the partial ones, and with those that cover all.
+fn for_each_of(near: &Near, entries: &[Entry], set: u64, mut visit: impl FnMut(u32)) {
+    let mut bit = 0;
+    for entry in entries {
+        let is_in = if entry.is_partial() {
+            bit += 1;
+            set >> (bit - 1) & 1 == 1
+        } else {
+            true
+        };
+        if is_in {
+            visit(near.items[entry.local].item);
+        }
+    }
+}
+
+fn items_of(near: &Near, entries: &[Entry], set: u64) -> Vec<u32> {
+    let mut items = Vec::new();
+    for_each_of(near, entries, set, |item| items.push(item));
+    items
+}
+
+/// Whether an edge cuts a fragment: has some of its corners on either side.
+fn cuts(edge: &Edge, plan: &[Plan], bounds: &PlanBox) -> bool {
+    if !meets(edge, bounds) {
+        return false;
+    }
+    let mut sides = plan.iter().map(|p| orient2d(edge.from, edge.to, *p));
+    let Some(first) = sides.find(|side| *side != 0.0) else { return false };
+    sides.any(|side| side * first < 0.0)
+}
+
+/// How much of a fragment a convex piece holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Held {
+    None,
+    Some,
+    All,
+}
+
+fn held(ring: &[Plan], plan: &[Plan]) -> Held {
+    let turn: f64 = (2..ring.len()).map(|k| (ring[k - 1] - ring[0]).perp_dot(ring[k] - ring[0])).sum();
+    let mut all = turn != 0.0;
+    for (k, from) in ring.iter().enumerate() {
+        let side = ring[(k + 1) % ring.len()] - *from;
+        let values = plan.iter().map(|p| turn.signum() * side.perp_dot(*p - *from));
+        let (mut is_apart, mut is_in) = (true, true);
+        for value in values {
+            is_apart &= value <= 0.0;
+            is_in &= value >= 0.0;
+        }
+        if is_apart && side != DVec2::ZERO {
+            return Held::None;
+        }
+        all &= is_in;
+    }
+    if all { Held::All } else { Held::Some }
+}
+
+/// Adds the picture of a convex polygon or an edge of the plan, counted from the pixel's corner, as far as it lies clearly before the eye.
+fn project(place: &Place, points: &[Plan], least: f64, out: &mut Vec<DVec2>) {
+    let is_closed = points.len() > 2;
+    let mut before = is_closed.then(|| place.facet.homogeneous(points[points.len() - 1]));
+    for p in points {
+        let h = place.facet.homogeneous(*p);
+        if let Some(was) = before.filter(|was| (was.z < least) != (h.z < least)) {
+            let share = (least - was.z) / (h.z - was.z);
+            let at = was + (h - was) * share;
+            out.push(at.truncate() / least - place.pixel);
+        }
+        if h.z >= least {
+            out.push(h.truncate() / h.z - place.pixel);
+        }
+        before = Some(h);
+    }
+}

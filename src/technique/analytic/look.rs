@@ -1,0 +1,63 @@
+//! How items look, as painting them needs it.
+
+use crate::draw_list::{DrawList, Side};
+use crate::resolve::{Compositor, Paint};
+use crate::scene::{BlendMode, Group, Line, Rule};
+
+/// Which side of a border counts.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Area {
+    pub(super) rule: Rule,
+    /// Whether the inside is wanted; else the outside.
+    pub(super) is_wanted: bool,
+}
+
+impl Area {
+    /// Whether a place is wanted around which the border turns so often.
+    pub(super) fn holds(self, turns: i32) -> bool {
+        self.rule.contains(turns) == self.is_wanted
+    }
+}
+
+/// How an item looks.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Look {
+    pub(super) paint: Paint,
+    pub(super) group: Option<Group>,
+    /// Its stroke; `None` of an item that is its area.
+    pub(super) line: Option<Line>,
+    /// The area that it is, or that its stroke is cut to.
+    pub(super) area: Option<Area>,
+    /// Whether nothing below it shows.
+    pub(super) is_opaque: bool,
+}
+
+/// How all items look.
+#[derive(Debug)]
+pub(super) struct Looks<'s> {
+    list: &'s DrawList,
+    of_styles: Vec<Look>,
+}
+
+impl<'s> Looks<'s> {
+    /// Those of a list.
+    pub(super) fn new(list: &'s DrawList, compositor: &Compositor, mode: BlendMode) -> Self {
+        let look = |style: &crate::draw_list::ItemStyle| Look {
+            paint: compositor.paint(style.paint),
+            group: style.group,
+            line: style.stroke,
+            area: match (style.stroke, style.cut) {
+                (Some(_), None) => None,
+                (_, cut) => Some(Area { rule: style.rule, is_wanted: cut != Some(Side::Outside) }),
+            },
+            is_opaque: mode == BlendMode::Over && style.group.is_none() && style.paint.0[3] >= 1.0,
+        };
+        Self { list, of_styles: list.styles().iter().map(look).collect() }
+    }
+
+    /// That of an item.
+    #[inline]
+    pub(super) fn of(&self, item: u32) -> &Look {
+        &self.of_styles[self.list.items()[item as usize].style as usize]
+    }
+}

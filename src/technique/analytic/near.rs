@@ -1,0 +1,129 @@
+//! What of the items matters to a box of the plan: N, P or F of each (tile, then block).
+//!
+//! An item that covers nothing of the box (N) is left out. One with edges or segments near is P, with the winding number of its area's border
+//! at one place; one that covers all of it (F) hides what lies below, if it is opaque.
+
+use super::features::{Edge, Features, Stroked, crossing};
+use super::look::Looks;
+use crate::space::{Plan, PlanBox};
+use std::ops::Range;
+
+/// An item near a box.
+#[derive(Debug, Clone)]
+pub(super) struct Local {
+    pub(super) item: u32,
+    /// How often its area's border turns around [`Near::at`].
+    turns: i32,
+    edges: Range<u32>,
+    strokes: Range<u32>,
+}
+
+/// The items that may cover some of a box of the plan, in draw order.
+#[derive(Debug)]
+pub(super) struct Near {
+    /// Where winding numbers are known: a place in the box.
+    at: Plan,
+    pub(super) items: Vec<Local>,
+    edges: Vec<Edge>,
+    strokes: Vec<Stroked>,
+}
+
+impl Default for Near {
+    fn default() -> Self {
+        Self { at: Plan::default(), items: Vec::new(), edges: Vec::new(), strokes: Vec::new() }
+    }
+}
+
+/// A place in a box on which data hardly have an edge.
+fn odd_place(plan: &PlanBox) -> Plan {
+    let size = plan.max - plan.min;
+    plan.min + glam::DVec2::new(0.381_966_011_250_105 * size.x, 0.723_606_797_749_979 * size.y)
+}
+
+impl Near {
+    /// What of all items matters to a box; `most` is half the width that a stroke of one pixel has there at most.
+    pub(super) fn find(&mut self, features: &Features, looks: &Looks, plan: &PlanBox, most: f64) {
+        self.clear(plan);
+        features.edges_near(plan, |edge| self.edges.push(edge));
+        features.strokes_near(plan, most, |stroked| self.strokes.push(stroked));
+        // Those of both kinds of widths come one after the other.
+        self.strokes.sort_by_key(|stroked| stroked.item);
+        let mut turns: Vec<(u32, i32)> = Vec::new();
+        features.crossings_east_of(self.at, |item, turn| turns.push((item, turn)));
+        turns.sort_by_key(|(item, _)| *item);
+        let of_edges = self.edges.iter().map(|edge| edge.item);
+        let of_strokes = self.strokes.iter().map(|stroked| stroked.item);
+        let mut items: Vec<u32> = of_edges.chain(of_strokes).chain(turns.iter().map(|(item, _)| *item)).collect();
+        items.sort_unstable();
+        items.dedup();
+        for item in items {
+            let edges = range_of(&self.edges, item, |edge| edge.item);
+            let strokes = range_of(&self.strokes, item, |stroked| stroked.item);
+            let own = range_of(&turns, item, |(item, _)| *item);
+            let turns = turns[own.start as usize..own.end as usize].iter().map(|(_, turn)| turn).sum();
+            self.keep(looks, Local { item, turns, edges, strokes });
+        }
+    }
+
+    /// What of what matters to a box matters to a smaller one in it.
+    pub(super) fn narrow(&self, looks: &Looks, plan: &PlanBox, out: &mut Self) {
+        out.clear(plan);
+        for local in &self.items {
+            let (edges, strokes) = (out.edges.len() as u32, out.strokes.len() as u32);
+            let turns = self.turns_at(local, out.at);
+            let near = self.edges(local).iter().filter(|edge| meets(edge, plan));
+            out.edges.extend(near);
+            let near = self.strokes(local).iter().filter(|stroked| stroked.bounds.meets(plan));
+            out.strokes.extend(near);
+            let (edges, strokes) = (edges..out.edges.len() as u32, strokes..out.strokes.len() as u32);
+            out.keep(looks, Local { item: local.item, turns, edges, strokes });
+        }
+    }
+
+    fn clear(&mut self, plan: &PlanBox) {
+        self.at = odd_place(plan);
+        self.items.clear();
+        self.edges.clear();
+        self.strokes.clear();
+    }
+
+    /// Keeps an item, unless it covers nothing of the box; where it covers all and is opaque, forgets what lies below.
+    fn keep(&mut self, looks: &Looks, local: Local) {
+        let look = looks.of(local.item);
+        let is_in = look.area.is_none_or(|area| area.holds(local.turns));
+        let has_edges = !local.edges.is_empty();
+        if (look.line.is_some() && local.strokes.is_empty()) || !(has_edges || is_in) {
+            return;
+        }
+        if look.line.is_none() && !has_edges && look.is_opaque {
+            self.items.clear();
+        }
+        self.items.push(local);
+    }
+
+    /// The edges of an item's area.
+    pub(super) fn edges(&self, of: &Local) -> &[Edge] {
+        &self.edges[of.edges.start as usize..of.edges.end as usize]
+    }
+
+    /// The segments of an item's stroke.
+    pub(super) fn strokes(&self, of: &Local) -> &[Stroked] {
+        &self.strokes[of.strokes.start as usize..of.strokes.end as usize]
+    }
+
+    /// How often the border of an item's area turns around a place in the box.
+    pub(super) fn turns_at(&self, of: &Local, at: Plan) -> i32 {
+        of.turns + self.edges(of).iter().map(|edge| crossing(edge, self.at, at)).sum::<i32>()
+    }
+}
+
+/// Whether an edge's box meets another.
+pub(super) fn meets(edge: &Edge, plan: &PlanBox) -> bool {
+    PlanBox::around([edge.from, edge.to]).meets(plan)
+}
+
+/// Where an item's entries lie in a list sorted by items.
+fn range_of<T>(list: &[T], item: u32, of: impl Fn(&T) -> u32) -> Range<u32> {
+    let from = list.partition_point(|entry| of(entry) < item);
+    from as u32..list.partition_point(|entry| of(entry) <= item) as u32
+}

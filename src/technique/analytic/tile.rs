@@ -1,0 +1,349 @@
+//! A tile of the picture: what its pixels see, which items are near its blocks, each pixel's paint.
+
+use super::convex::{area, holds, middle};
+use super::coverage::Class;
+use super::facet::Facet;
+use super::features::Features;
+use super::items::{Items, Lists, Painted, Place};
+use super::look::Looks;
+use super::near::Near;
+use super::sheet::{BLOCK, Fragment, Sheet};
+use super::step::{Fallback, Step};
+use super::texels::Texels;
+use super::{Settings, gather};
+use crate::canvas::{Backdrop, GBuffer, LastGround, Record};
+use crate::math;
+use crate::raster::Lattice;
+use crate::resolve::Paint;
+use crate::scene::Device;
+use crate::space::{Lens, Plan, PlanBox, ViewFrame};
+use crate::terrain::{Mesh, SKY};
+use crate::tiling::TilePlace;
+use glam::DVec2;
+
+/// A pixel that is covered by more than this is covered wholly.
+const WHOLE: f64 = 1.0 - 1e-9;
+
+/// What stays the same for all tiles of a frame.
+#[derive(Debug)]
+pub(super) struct Painter<'a> {
+    pub(super) features: &'a Features<'a>,
+    pub(super) settings: Settings,
+    pub(super) view: &'a ViewFrame,
+    pub(super) mesh: &'a Mesh,
+    pub(super) backdrop: Backdrop<'a>,
+    pub(super) looks: &'a Looks<'a>,
+    pub(super) texels: Option<Texels>,
+}
+
+/// What a thread needs for a tile; used again.
+#[derive(Debug, Default)]
+pub(super) struct Room {
+    sheet: Sheet,
+    tile: Near,
+    block: Near,
+    lists: Lists,
+    plan: Vec<Plan>,
+}
+
+/// A finished pixel.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Pixel {
+    pub(super) paint: Paint,
+    /// 0 to 3 as [`Class`], 4 where it was sampled.
+    pub(super) class: u8,
+    pub(super) edges: u32,
+    pub(super) fragments: u32,
+    /// 0: no; else why it was sampled.
+    pub(super) fallback: u8,
+}
+
+/// The class of pixels that are sampled.
+pub(super) const SAMPLED: u8 = 4;
+
+/// Why a pixel was sampled, as buffers have it.
+fn number_of(why: Fallback) -> u8 {
+    match why {
+        Fallback::Fragments => 1,
+        Fallback::Crowd => 2,
+    }
+}
+
+fn class_of(class: Class) -> u8 {
+    match class {
+        Class::Point => 0,
+        Class::Half => 1,
+        Class::Band => 2,
+        Class::Slabs => 3,
+    }
+}
+
+/// What a sample sees: a triangle, a point of the screen and of the plan; `None`: the sky.
+type Sample<'a> = Option<(std::borrow::Cow<'a, Facet>, DVec2, Plan)>;
+
+impl<'a> Painter<'a> {
+    /// The pixels of a tile, row by row from the top.
+    pub(super) fn tile(&self, place: &TilePlace, room: &mut Room) -> Vec<Pixel> {
+        let [width, height] = place.size;
+        let empty = Pixel { paint: self.backdrop.sky, class: 0, edges: 0, fragments: 0, fallback: 0 };
+        let mut pixels = vec![empty; width * height];
+        let samples = self.see(place, room);
+        let mut last = self.backdrop.no_ground();
+        for block in blocks(place) {
+            self.look_near(place, &block, samples.as_ref(), room);
+            for (x, y) in pixels_of(&block) {
+                pixels[y * width + x] = self.pixel((place, [x, y]), samples.as_ref(), room, &mut last, &mut ());
+            }
+        }
+        pixels
+    }
+
+    /// Decides one pixel of a tile as [`Self::tile`] does.
+    pub(super) fn one<R: Record<Step>>(&self, place: &TilePlace, at: [usize; 2], record: &mut R) -> Paint {
+        let mut room = Room::default();
+        let samples = self.see(place, &mut room);
+        room.lists.wants_sets = true;
+        let block = blocks(place).find(|block| pixels_of(block).any(|(x, y)| [x, y] == at));
+        if let Some(block) = block {
+            self.look_near(place, &block, samples.as_ref(), &mut room);
+        }
+        self.pixel((place, at), samples.as_ref(), &mut room, &mut self.backdrop.no_ground(), record).paint
+    }
+
+    /// Finds what the pixels of a tile see: fragments, and the samples of all if some have too many; then what is near them.
+    fn see(&self, place: &TilePlace, room: &mut Room) -> Option<GBuffer<'a>> {
+        let is_sampled = self.settings.fragments == 0 || self.settings.crowd == 0;
+        let budget = if is_sampled { 0 } else { self.settings.fragments as usize };
+        room.sheet.reset(place.size, budget);
+        if budget > 0 {
+            gather::see(self.view, self.mesh, place, &mut room.sheet);
+        }
+        let whole = TilePlace { corner: [0, 0], size: place.size };
+        let is_crowded = pixels_of(&whole).any(|(x, y)| room.sheet.is_crowded([x, y]));
+        let samples = is_crowded.then(|| {
+            let lattice = Lattice::samples(place.corner, place.size, self.settings.samples as usize);
+            GBuffer::new(self.view, self.mesh, &Device::default(), lattice, lattice.columns.max(lattice.rows))
+        });
+        let plan = self.plan_of(&whole, samples.as_ref(), room);
+        let most = self.widest(place, samples.is_some(), room);
+        room.tile.find(self.features, self.looks, &plan, most);
+        samples
+    }
+
+    /// The box around all that the pixels of a part of a tile see of the plan.
+    fn plan_of(&self, part: &TilePlace, samples: Option<&GBuffer>, room: &Room) -> PlanBox {
+        let (sheet, mut plan) = (&room.sheet, PlanBox::EMPTY);
+        let n = self.settings.samples as usize;
+        for (x, y) in pixels_of(part) {
+            for fragment in sheet.fragments([x, y]) {
+                let facet = &sheet.facets[fragment.facet as usize];
+                let points = sheet.corners(fragment).iter().map(|p| facet.plan_at(*p));
+                points.filter(|p| p.is_finite()).for_each(|p| plan.include(p));
+            }
+            if let Some(seen) = samples.filter(|_| sheet.is_crowded([x, y])) {
+                let points = (0..n * n).map(|k| seen.plan(x * n + k % n, y * n + k / n));
+                points.filter(|p| p.is_finite()).for_each(|p| plan.include(p));
+            }
+        }
+        plan
+    }
+
+    /// Half the width in the plan that a stroke of one pixel has at most where a tile sees the terrain.
+    fn widest(&self, place: &TilePlace, is_sampled: bool, room: &Room) -> f64 {
+        let Lens::Central { pixel } = self.view.lens() else { return 0.5 * self.view.lens().pixel() };
+        let all = || self.mesh.farthest_from(self.view.eye());
+        if is_sampled {
+            return 0.5 * pixel * all();
+        }
+        let sheet = &room.sheet;
+        let fragments = pixels_of(&TilePlace { corner: [0, 0], size: place.size })
+            .flat_map(|(x, y)| sheet.fragments([x, y]))
+            .flat_map(|fragment| {
+                let key = &sheet.facets[fragment.facet as usize].key;
+                sheet.corners(fragment).iter().map(|p| key.at(*p))
+            });
+        let depth = 1.0 / fragments.fold(f64::INFINITY, |least, key| math::min(key, least));
+        // The ray of the picture's corner is the longest.
+        let (w, h) = (0.5 * pixel * self.view.width() as f64, 0.5 * pixel * self.view.height() as f64);
+        let farthest = math::min(depth * (1.0 + w * w + h * h).sqrt(), all());
+        0.5 * pixel * (1.0 + 1e-6) * farthest
+    }
+
+    /// Finds what is near a block of a tile.
+    fn look_near(&self, _: &TilePlace, block: &TilePlace, samples: Option<&GBuffer>, room: &mut Room) {
+        let plan = self.plan_of(block, samples, room);
+        room.tile.narrow(self.looks, &plan, &mut room.block);
+    }
+
+    fn items(&self) -> Items<'_> {
+        Items {
+            view: self.view,
+            mesh: self.mesh,
+            looks: self.looks,
+            compositor: self.backdrop.compositor,
+            crowd: self.settings.crowd as usize,
+        }
+    }
+
+    /// A pixel of a tile whose block has been looked at.
+    fn pixel<R: Record<Step>>(
+        &self,
+        (place, at): (&TilePlace, [usize; 2]),
+        samples: Option<&GBuffer>,
+        room: &mut Room,
+        last: &mut LastGround,
+        record: &mut R,
+    ) -> Pixel {
+        let fragments = room.sheet.fragments(at).len() as u32;
+        let why = if room.sheet.is_crowded(at) {
+            Fallback::Fragments
+        } else {
+            match self.exact(at, room, last, record) {
+                Ok(pixel) => return Pixel { fragments, ..pixel },
+                Err(why) => why,
+            }
+        };
+        let paint = self.sampled((place, at), samples, room, last);
+        let n = self.settings.samples as usize;
+        record.step(|| Step::Sampled { why, samples: n * n });
+        record.step(|| Step::Mean(paint));
+        Pixel { paint, class: SAMPLED, edges: 0, fragments, fallback: number_of(why) }
+    }
+
+    /// A pixel by its fragments.
+    fn exact<R: Record<Step>>(
+        &self,
+        at: [usize; 2],
+        room: &mut Room,
+        last: &mut LastGround,
+        record: &mut R,
+    ) -> Result<Pixel, Fallback> {
+        let Room { sheet, block, lists, plan, .. } = room;
+        let mut pixel = Pixel { paint: Paint::CLEAR, class: 0, edges: 0, fragments: 0, fallback: 0 };
+        let mut covered = 0.0;
+        for fragment in sheet.fragments(at) {
+            let facet = &sheet.facets[fragment.facet as usize];
+            let corners = sheet.corners(fragment);
+            covered += fragment.area;
+            let whole;
+            let parts = match &self.texels {
+                None => None,
+                Some(texels) => {
+                    plan.clear();
+                    plan.extend(corners.iter().map(|p| facet.plan_at(*p)));
+                    let most = self.settings.fragments as usize;
+                    whole = texels.parts(facet, corners, plan, most).ok_or(Fallback::Fragments)?;
+                    Some(&whole)
+                }
+            };
+            let parts = parts.map(|parts| parts.iter().map(Vec::as_slice).collect()).unwrap_or_else(|| vec![corners]);
+            for part in parts {
+                let painted = self.part((facet, part, at), block, (lists, plan), last, record);
+                let (area, painted) = painted.ok_or(Fallback::Crowd)?;
+                pixel.paint = pixel.paint.plus(painted.paint.times(area));
+                pixel.class = pixel.class.max(class_of(painted.class));
+                pixel.edges += painted.edges as u32;
+            }
+        }
+        if covered < WHOLE {
+            record.step(|| Step::Sky { area: 1.0 - covered });
+            pixel.paint = pixel.paint.plus(self.backdrop.sky.times(1.0 - covered));
+        } else {
+            pixel.paint = pixel.paint.divided_by(covered);
+        }
+        record.step(|| Step::Mean(pixel.paint));
+        Ok(pixel)
+    }
+
+    /// A part of a pixel over which the ground has one paint: its area, and what it shows.
+    fn part<R: Record<Step>>(
+        &self,
+        (facet, corners, [x, y]): (&Facet, &[DVec2], [usize; 2]),
+        near: &Near,
+        (lists, plan): (&mut Lists, &mut Vec<Plan>),
+        last: &mut LastGround,
+        record: &mut R,
+    ) -> Option<(f64, Painted)> {
+        plan.clear();
+        // A triangle that stands upright in the plan is asked at its middle alone.
+        let middle = [middle(corners)];
+        let screen = if facet.has_plan() { corners } else { &middle };
+        plan.extend(screen.iter().map(|p| facet.plan_at(*p)));
+        let ground = self.backdrop.paint_at(last, facet.id, || facet.plan_at(middle[0]));
+        let area = area(corners);
+        record.step(|| Step::Fragment {
+            triangle: facet.id,
+            area,
+            corners: corners.iter().map(|p| [p.x - x as f64, p.y - y as f64]).collect(),
+            ground,
+        });
+        let pixel = DVec2::new(x as f64, y as f64);
+        let painted = self.items().paint(&Place { facet, screen, plan, pixel }, near, ground, lists)?;
+        record.step(|| Step::Edges { edges: painted.edges, class: painted.class });
+        for (items, share) in &lists.sets {
+            record.step(|| Step::Covered { items: items.clone(), share: *share });
+        }
+        Some((area, painted))
+    }
+
+    /// A pixel by samples in the middles of equal squares.
+    fn sampled(
+        &self,
+        (place, at): (&TilePlace, [usize; 2]),
+        samples: Option<&GBuffer>,
+        room: &mut Room,
+        last: &mut LastGround,
+    ) -> Paint {
+        let Room { sheet, block, lists, .. } = room;
+        let n = self.settings.samples as usize;
+        crate::canvas::mean(n, |column, row| {
+            let middle = |k: usize, of: usize| of as f64 + (k as f64 + 0.5) / n as f64;
+            let screen = DVec2::new(middle(column, at[0]), middle(row, at[1]));
+            let sample = match samples.filter(|_| sheet.is_crowded(at)) {
+                Some(seen) => self.seen_sample(place, seen, [at[0] * n + column, at[1] * n + row], screen),
+                None => fragment_at(sheet, at, screen),
+            };
+            let Some((facet, screen, plan)) = sample else { return self.backdrop.sky };
+            let ground = self.backdrop.paint_at(last, facet.id, || plan);
+            let place = Place { facet: &facet, screen: &[screen], plan: &[plan], pixel: screen };
+            self.items().paint(&place, block, ground, lists).map_or(ground, |painted| painted.paint)
+        })
+    }
+
+    /// What a sample sees that has been looked for.
+    fn seen_sample<'s>(
+        &self,
+        place: &TilePlace,
+        seen: &GBuffer,
+        [column, row]: [usize; 2],
+        screen: DVec2,
+    ) -> Sample<'s> {
+        let id = seen.triangle(column, row);
+        if id == SKY {
+            return None;
+        }
+        let origin = DVec2::new(place.corner[0] as f64, place.corner[1] as f64);
+        let facet = Facet::new(self.view, origin, id, &self.mesh.surface_triangle(id)?)?;
+        Some((std::borrow::Cow::Owned(facet), screen, seen.plan(column, row)))
+    }
+}
+
+/// What a sample of a pixel sees by the pixel's fragments.
+fn fragment_at<'s>(sheet: &'s Sheet, at: [usize; 2], screen: DVec2) -> Sample<'s> {
+    let held = |fragment: &&Fragment| holds(sheet.corners(fragment), screen);
+    let fragment = sheet.fragments(at).iter().find(held)?;
+    let facet = &sheet.facets[fragment.facet as usize];
+    Some((std::borrow::Cow::Borrowed(facet), screen, facet.plan_at(screen)))
+}
+
+/// The blocks of a tile, counted from its corner.
+fn blocks(place: &TilePlace) -> impl Iterator<Item = TilePlace> {
+    let tiling = crate::tiling::Tiling::new(place.size[0], place.size[1], BLOCK);
+    (0..tiling.count()).map(move |k| tiling.place(k))
+}
+
+/// The columns and rows of a part of a tile.
+fn pixels_of(part: &TilePlace) -> impl Iterator<Item = (usize, usize)> + use<> {
+    let TilePlace { corner: [x, y], size: [width, height] } = *part;
+    (y..y + height).flat_map(move |y| (x..x + width).map(move |x| (x, y)))
+}

@@ -1,0 +1,121 @@
+//! Analytic coverage against the truth: exact outside of pixels that are sampled, over every kind of terrain, ground and style.
+#![cfg(feature = "render")]
+
+mod drawing;
+
+use drapery::buffer::Values;
+use drapery::technique::{Frame, Kind};
+use drapery::truth::Truth;
+use drawing::{scene, stage, truth_of};
+
+const HILLS: &str = "kind = \"fbm\", posts = [33, 33], cell_m = 10.0, height_m = 60.0, seed = 3";
+const CAMERA: &str = "eye = [0, -260, 160], target = [0, 0, 20], fov_y_deg = 45";
+
+fn doubles(frame: &Frame, name: &str) -> Vec<f64> {
+    let plane = frame.planes.iter().find(|plane| plane.name == name).unwrap();
+    let Values::F64(values) = &plane.values else { panic!("{name} has other numbers") };
+    values.clone()
+}
+
+fn bytes(frame: &Frame, name: &str) -> Vec<u8> {
+    let plane = frame.planes.iter().find(|plane| plane.name == name).unwrap();
+    let Values::U8(values) = &plane.values else { panic!("{name} has other numbers") };
+    values.clone()
+}
+
+/// How far the colour of each pixel is outside of the truth's interval, for pixels that are not sampled, and how many are.
+fn beyond(truth: &Truth, frame: &Frame) -> (f64, usize) {
+    let (color, fallback) = (doubles(frame, "color"), bytes(frame, "fallback"));
+    let (lo, hi) = (truth.low.values(), truth.high.values());
+    let mut worst: f64 = 0.0;
+    for (k, own) in color.chunks(4).enumerate().filter(|(k, _)| fallback[*k] == 0) {
+        for c in 0..4 {
+            let off = (lo[k][c] - own[c]).max(own[c] - hi[k][c]);
+            if off > 1e-3 { eprintln!("pixel {} {}: {} of {}..{}", k % truth.low.width(), k / truth.low.width(), own[c], lo[k][c], hi[k][c]); }
+            worst = worst.max(off);
+        }
+    }
+    (worst, fallback.iter().filter(|why| **why != 0).count())
+}
+
+#[track_caller]
+fn is_right(text: &str, changes: &[&str], tolerance: f64, most_sampled: usize) {
+    let stage = stage(text, changes);
+    let frame = drawing::frame_of(Kind::Analytic, &stage, &["color", "fallback"]);
+    let (worst, sampled) = beyond(&truth_of(&stage), &frame);
+    assert!(worst <= tolerance, "{worst} {changes:?}");
+    assert!(sampled <= most_sampled, "{sampled} {changes:?}");
+}
+
+#[test]
+fn bare_ground_and_sky_are_exact() {
+    is_right(&scene(HILLS, CAMERA, ""), &[], 1e-9, 0);
+}
+
+#[test]
+fn fills_are_exact() {
+    let layer = "[[layer]]\nfill = { color = \"#ff0000\" }\nfeatures = [{ polygon = [[-100, -100], [90, -80], [20, 10], [80, 100], [-90, 70]] }]\n";
+    is_right(&scene(HILLS, CAMERA, layer), &[], 1e-9, 0);
+}
+
+const PARCELS: &str = "[[layer]]\nfill = { color = \"#ff0000\", opacity = 0.6 }\nfeatures = [{ polygon = [[-100, -100], [90, -80], [20, 10], [80, 100], [-90, 70]] }, { polygon = [[20, 10], [80, 100], [140, 20]] }]\n\
+    [[layer]]\nopacity = 0.5\nfill = { color = \"#00a000\" }\nfeatures = [{ polygon = [[-60, -140], [0, 0], [-140, 20]] }, { polygon = [[-100, -60], [40, -40], [-20, 60]] }]\n";
+
+#[test]
+fn translucent_fills_and_layers_are_exact_in_both_spaces() {
+    for space in ["space=encoded", "space=linear", "mode=additive"] {
+        is_right(&scene(HILLS, CAMERA, PARCELS), &[&format!("compositing.{space}")], 1e-9, 0);
+    }
+}
+
+#[test]
+fn parallel_rays_see_the_same() {
+    let camera = "eye = [0, -260, 160], target = [0, 0, 20], projection = \"orthographic\", height_m = 260";
+    is_right(&scene(HILLS, camera, PARCELS), &[], 1e-9, 0);
+}
+
+#[test]
+fn an_image_on_the_ground_and_a_hillshade_are_exact() {
+    is_right(&scene(HILLS, CAMERA, PARCELS), &["terrain.shade=hillshade"], 1e-9, 0);
+}
+
+#[test]
+fn near_and_far_planes_cut_exactly() {
+    is_right(&scene(HILLS, CAMERA, PARCELS), &["camera.near_m=200", "camera.far_m=330"], 1e-9, 0);
+    // Among the hills, with triangles behind the eye.
+    let inside = "eye = [10, -20, 45], target = [0, 60, 30], fov_y_deg = 70";
+    is_right(&scene(HILLS, inside, PARCELS), &["camera.near_m=0.5"], 1e-9, 0);
+}
+
+const STROKES: &str = "[[layer]]\nline = { color = \"#ff0000\", width_m = 12, JOIN, opacity = 0.7 }\n\
+    features = [{ line = [[-120, -100], [-20, -60], [-40, 40], [30, 60], [20, 50], [120, -90]] }, { line = [[10, -120], [10, -100]] }]\n\
+    [[layer]]\nfill = { color = \"#00a000\", opacity = 0.4 }\noutline = { color = \"#000000\", width_m = 8, JOIN, mode = \"MODE\" }\n\
+    features = [{ polygon = [[-100, -20], [0, -120], [60, 20], [-30, 90]] }]\n";
+
+#[test]
+fn strokes_with_every_join_cap_and_mode_are_right() {
+    let round = "join = \"round\", cap = \"round\"";
+    let cases = [
+        ("join = \"bevel\", cap = \"butt\"", "normal", 1e-9),
+        ("join = \"miter\", cap = \"square\"", "inset", 1e-9),
+        (round, "offset", 1.0 / 255.0),
+    ];
+    for (join, mode, tolerance) in cases {
+        let text = STROKES.replace("JOIN", join).replace("MODE", mode);
+        is_right(&scene(HILLS, CAMERA, &text), &[], tolerance, 0);
+    }
+}
+
+#[test]
+fn dynamic_widths_are_right() {
+    let text = STROKES.replace("width_m", "width_px").replace("12", "4").replace("8,", "2,").replace(", JOIN", "").replace("MODE", "normal");
+    is_right(&scene(HILLS, CAMERA, &text), &[], 2.0 / 255.0, 0);
+    let camera = "eye = [0, -260, 160], target = [0, 0, 20], projection = \"orthographic\", height_m = 260";
+    is_right(&scene(HILLS, camera, &text), &[], 1.0 / 255.0, 0);
+}
+
+#[test]
+fn inverted_fills_are_exact() {
+    let text = "[[layer]]\nfill = { color = \"#ff0000\", opacity = 0.5, invert = true }\nfeatures = [{ polygon = [[-100, -100], [90, -80], [20, 10], [80, 100], [-90, 70]] }, { polygon = [[-20, -10], [80, 100], [140, 20]] }]\n";
+    is_right(&scene(HILLS, CAMERA, text), &[], 1e-9, 0);
+}
