@@ -89,26 +89,27 @@ fn near_and_far_planes_cut_exactly() {
 
 const STROKES: &str = "[[layer]]\nline = { color = \"#ff0000\", width_m = 12, JOIN, opacity = 0.7 }\n\
     features = [{ line = [[-120, -100], [-20, -60], [-40, 40], [30, 60], [20, 50], [120, -90]] }, { line = [[10, -120], [10, -100]] }]\n\
-    [[layer]]\nfill = { color = \"#00a000\", opacity = 0.4 }\noutline = { color = \"#000000\", width_m = 8, JOIN, mode = \"MODE\" }\n\
+    [[layer]]\nfill = { color = \"#00a000\", opacity = 0.4 }\noutline = { color = \"#000000\", width_m = 8, OJOIN, mode = \"MODE\" }\n\
     features = [{ polygon = [[-100, -20], [0, -120], [60, 20], [-30, 90]] }]\n";
 
 #[test]
 fn strokes_with_every_join_cap_and_mode_are_right() {
-    let round = "join = \"round\", cap = \"round\"";
     let cases = [
-        ("join = \"bevel\", cap = \"butt\"", "normal", 1e-9),
-        ("join = \"miter\", cap = \"square\"", "inset", 1e-9),
-        (round, "offset", 1.0 / 255.0),
+        ("bevel", "butt", "normal", 1e-9),
+        ("miter", "square", "inset", 1e-9),
+        ("round", "round", "offset", 1.0 / 255.0),
     ];
-    for (join, mode, tolerance) in cases {
-        let text = STROKES.replace("JOIN", join).replace("MODE", mode);
+    for (join, cap, mode, tolerance) in cases {
+        let join = format!("join = \"{join}\"");
+        let text = STROKES.replace("OJOIN", &join).replace("JOIN", &format!("{join}, cap = \"{cap}\""));
+        let text = text.replace("MODE", mode);
         is_right(&scene(HILLS, CAMERA, &text), &[], tolerance, 0);
     }
 }
 
 #[test]
 fn dynamic_widths_are_right() {
-    let text = STROKES.replace("width_m", "width_px").replace("12", "4").replace("8,", "2,").replace(", JOIN", "").replace("MODE", "normal");
+    let text = STROKES.replace("width_m", "width_px").replace("12", "4").replace("8,", "2,").replace(", OJOIN", "").replace(", JOIN", "").replace("MODE", "normal");
     is_right(&scene(HILLS, CAMERA, &text), &[], 2.0 / 255.0, 0);
     let camera = "eye = [0, -260, 160], target = [0, 0, 20], projection = \"orthographic\", height_m = 260";
     is_right(&scene(HILLS, camera, &text), &[], 1.0 / 255.0, 0);
@@ -118,4 +119,17 @@ fn dynamic_widths_are_right() {
 fn inverted_fills_are_exact() {
     let text = "[[layer]]\nfill = { color = \"#ff0000\", opacity = 0.5, invert = true }\nfeatures = [{ polygon = [[-100, -100], [90, -80], [20, 10], [80, 100], [-90, 70]] }, { polygon = [[-20, -10], [80, 100], [140, 20]] }]\n";
     is_right(&scene(HILLS, CAMERA, text), &[], 1e-9, 0);
+}
+
+#[test]
+fn debug() {
+    use drapery::technique;
+    let camera = "eye = [0, -260, 160], target = [0, 0, 20], projection = \"orthographic\", height_m = 260";
+    let stage = stage(&scene(HILLS, camera, PARCELS), &[]);
+    let p = technique::prepare(Kind::Analytic, &stage).unwrap();
+    for s in technique::explain(p.as_ref(), &stage.view().unwrap(), [67, 16]).unwrap().steps { eprintln!("{s}"); }
+    let stage = drawing::stage(&scene(HILLS, CAMERA, PARCELS), &["camera.near_m=200", "camera.far_m=330"]);
+    let p = technique::prepare(Kind::Analytic, &stage).unwrap();
+    for s in technique::explain(p.as_ref(), &stage.view().unwrap(), [2, 47]).unwrap().steps { eprintln!("{s}"); }
+    panic!();
 }

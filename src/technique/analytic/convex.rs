@@ -10,6 +10,9 @@ pub(super) const NOTHING: f64 = 1e-13;
 /// Polygons that reach into one another by no more than this, pixels, do not overlap.
 const TOUCH: f64 = 1e-11;
 
+/// Sides shorter than this, pixels, have no direction that could be trusted.
+const SHORT: f64 = 1e-9;
+
 /// A line of the screen: the points where `normal . p + offset` is 0; inside is where that is positive.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Side {
@@ -65,10 +68,10 @@ pub(super) fn cut(polygon: &[DVec2], side: &Side, out: &mut Vec<DVec2>) {
     }
 }
 
-/// The sides of a polygon that have a length.
+/// The sides of a polygon that have a direction.
 fn sides(polygon: &[DVec2]) -> impl Iterator<Item = Side> + '_ {
     let ends = polygon.iter().zip(polygon.iter().cycle().skip(1));
-    ends.filter(|(a, b)| a != b).map(|(a, b)| Side::between(*a, *b))
+    ends.filter(|(a, b)| a.distance_squared(**b) > SHORT * SHORT).map(|(a, b)| Side::between(*a, *b))
 }
 
 /// Whether a side of one has all of another outside of it.

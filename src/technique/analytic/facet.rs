@@ -19,13 +19,13 @@ pub(super) struct Facet {
     /// Its number.
     pub(super) id: u32,
     /// Its sides, lines of the screen.
-    pub(super) sides: [Side; 3],
+    sides: [Side; 3],
     /// How near it is: the larger, the nearer. Of a central lens 1 / depth, of a parallel one -depth; linear in the screen.
     pub(super) key: Side,
     /// The columns and rows that it may reach: x from, y from, x to, y to.
     pub(super) reach: [f64; 4],
     /// What keeps it beyond the near plane and before the far one, where it reaches over them.
-    pub(super) planes: [Option<Side>; 2],
+    planes: [Option<Side>; 2],
     /// Weights of the corners from (x, y, 1), up to a factor.
     weights: [DVec3; 3],
     /// Homogeneous coordinates of the first corner, and how they grow east and north.
@@ -73,6 +73,17 @@ impl Facet {
     #[inline]
     pub(super) fn nearest_in(&self, middle: DVec2, half: f64) -> f64 {
         self.key.at(middle) + half * self.key.normal.abs().element_sum()
+    }
+
+    /// The least key there.
+    #[inline]
+    pub(super) fn farthest_in(&self, middle: DVec2, half: f64) -> f64 {
+        self.key.at(middle) - half * self.key.normal.abs().element_sum()
+    }
+
+    /// The lines of the screen that bound it.
+    pub(super) fn bounds(&self) -> impl Iterator<Item = &Side> + Clone {
+        self.sides.iter().chain(self.planes.iter().flatten())
     }
 
     /// The plan point of a point of the screen.

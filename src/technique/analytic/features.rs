@@ -93,11 +93,6 @@ impl<'s> Features<'s> {
         }
     }
 
-    /// The items.
-    pub(super) fn list(&self) -> &'s DrawList {
-        self.list
-    }
-
     /// Bytes held.
     pub(super) fn bytes(&self) -> usize {
         let of = |runs: &Runs| size_of_val(&runs.runs[..]) + runs.tree.bytes();

@@ -4,7 +4,7 @@ use super::coverage::{Class, Coverage, Inside, Membership};
 use super::facet::Facet;
 use super::features::{Edge, Stroked};
 use super::look::{Look, Looks};
-use super::near::{Local, Near, meets};
+use super::near::{Local, Near, meets, with_hem};
 use super::pieces::{self, HalfWidth, Pieces, stroke_pieces};
 use crate::math;
 use crate::predicate::orient2d;
@@ -131,6 +131,7 @@ impl Items<'_> {
         lists.rings.clear();
         lists.corners.clear();
         let bounds = PlanBox::around(place.plan.iter().copied());
+        let touching = with_hem(&bounds);
         let inside = place.facet.plan_at(place.inside());
         let inside = if place.plan.len() == 1 { place.plan[0] } else { inside };
         let mut finest = None;
@@ -138,9 +139,10 @@ impl Items<'_> {
             let look = self.looks.of(of.item);
             let edges = lists.edges.len();
             if let Some(area) = look.area {
-                let cutting = near.edges(of).iter().filter(|edge| cuts(edge, place.plan, &bounds));
-                lists.edges.extend(cutting.copied());
-                if lists.edges.len() == edges && !area.holds(near.turns_at(of, inside)) {
+                if near.edges(of).iter().any(|edge| cuts(edge, place.plan, &bounds)) {
+                    // What comes from a corner of the fragment has another edge that ends there.
+                    lists.edges.extend(near.edges(of).iter().filter(|edge| meets(edge, &touching)));
+                } else if !area.holds(near.turns_at(of, inside)) {
                     continue;
                 }
             }

@@ -117,6 +117,12 @@ impl Near {
     }
 }
 
+/// A box with what roundings may have left out.
+pub(super) fn with_hem(plan: &PlanBox) -> PlanBox {
+    let size = plan.max - plan.min;
+    plan.grown(1e-6 * (size.x + size.y))
+}
+
 /// Whether an edge's box meets another.
 pub(super) fn meets(edge: &Edge, plan: &PlanBox) -> bool {
     PlanBox::around([edge.from, edge.to]).meets(plan)

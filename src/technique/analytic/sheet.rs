@@ -3,7 +3,7 @@
 //! Triangles come in any order, best the nearest first; where two fragments of a pixel overlap, the farther one loses what the nearer one
 //! covers. A pixel that is covered wholly hides what is farther than all of its fragments.
 
-use super::convex::{NOTHING, area, are_apart, common, cut, without};
+use super::convex::{NOTHING, Side, area, are_apart, common, cut, without};
 use super::facet::Facet;
 use crate::math;
 use glam::DVec2;
@@ -19,7 +19,7 @@ pub(super) const BLOCK: usize = 8;
 const BLOCKS: usize = TILE / BLOCK;
 
 /// A pixel is covered wholly where no more of it than this is left.
-const FULL: f64 = 1.0 - 1e-10;
+pub(super) const FULL: f64 = 1.0 - 1e-8;
 
 /// Keys that differ by less than this share are equal.
 const SAME_KEY: f64 = 1e-12;
@@ -29,10 +29,17 @@ const SAME_KEY: f64 = 1e-12;
 pub(super) struct Fragment {
     /// The triangle, among [`Sheet::facets`].
     pub(super) facet: u32,
-    /// Its corners.
+    /// Its corners; none of one that is the whole pixel.
     corners: Range<u32>,
     /// Its share of the pixel.
     pub(super) area: f64,
+}
+
+impl Fragment {
+    /// All of a pixel.
+    pub(super) fn whole(facet: u32) -> Self {
+        Self { facet, corners: 0..0, area: 1.0 }
+    }
 }
 
 /// What a pixel sees so far.
@@ -54,10 +61,14 @@ pub(super) struct Sheet {
     pub(super) facets: Vec<Facet>,
     size: [usize; 2],
     pixels: Vec<Seen>,
+    /// The triangle that covers each block wholly and alone, whose pixels then have no fragments of their own.
+    whole: Vec<Option<u32>>,
     corners: Vec<DVec2>,
     /// The least key of what each block sees; -inf where something of it is not covered.
     farthest: Vec<f64>,
     is_dirty: Vec<bool>,
+    /// Whether nothing is seen in a block so far.
+    is_empty: Vec<bool>,
     /// The most fragments that a pixel may have.
     budget: usize,
     room: [Vec<DVec2>; 2],
@@ -74,8 +85,12 @@ impl Sheet {
             seen.fragments.clear();
             (seen.covered, seen.farthest, seen.is_crowded) = (0.0, f64::NEG_INFINITY, budget == 0);
         }
+        self.whole.clear();
+        self.whole.resize(BLOCKS * BLOCKS, None);
         self.farthest.clear();
         self.farthest.resize(BLOCKS * BLOCKS, f64::NEG_INFINITY);
+        self.is_empty.clear();
+        self.is_empty.resize(BLOCKS * BLOCKS, budget > 0);
         self.is_dirty.clear();
         self.is_dirty.resize(BLOCKS * BLOCKS, budget == 0);
     }
@@ -85,8 +100,17 @@ impl Sheet {
         &self.pixels[y * TILE + x].fragments
     }
 
-    /// The corners of a fragment.
-    pub(super) fn corners(&self, fragment: &Fragment) -> &[DVec2] {
+    /// The triangle that a block sees alone, if there is one: its pixels have no fragments.
+    pub(super) fn whole(&self, [x, y]: [usize; 2]) -> Option<u32> {
+        self.whole[y / BLOCK * BLOCKS + x / BLOCK]
+    }
+
+    /// The corners of a fragment of a pixel; `room` is for those of a whole one.
+    pub(super) fn corners<'r>(&'r self, fragment: &Fragment, at: [usize; 2], room: &'r mut [DVec2; 4]) -> &'r [DVec2] {
+        if fragment.corners.is_empty() {
+            *room = square(at, 1);
+            return room;
+        }
         &self.corners[fragment.corners.start as usize..fragment.corners.end as usize]
     }
 
@@ -129,7 +153,7 @@ impl Sheet {
         const HAIR: f64 = 1e-6;
         // Casts saturate.
         let span = |low: f64, high: f64, count: usize| {
-            let range = (low - HAIR) as usize..count.min((high + HAIR) as usize + 1);
+            let range = (low - HAIR) as usize..math::min(high + HAIR, count as f64 - 1.0) as usize + 1;
             (high + HAIR >= 0.0 && !range.is_empty()).then_some(range)
         };
         Some([span(x0, x1, self.size[0])?, span(y0, y1, self.size[1])?])
@@ -139,13 +163,57 @@ impl Sheet {
     pub(super) fn add(&mut self, facet: Facet) {
         let Some([columns, rows]) = self.within(facet.reach) else { return };
         let (number, mut is_seen) = (self.facets.len() as u32, false);
-        for y in rows {
-            for x in columns.clone() {
-                is_seen |= self.add_to_pixel(&facet, number, [x, y]);
+        for y in rows.start / BLOCK..rows.end.div_ceil(BLOCK) {
+            for x in columns.start / BLOCK..columns.end.div_ceil(BLOCK) {
+                is_seen |= self.add_to_block(&facet, number, [x, y], [&columns, &rows]);
             }
         }
         if is_seen {
             self.facets.push(facet);
+        }
+    }
+
+    /// Adds a triangle to the pixels of a block that lie in some columns and rows; returns whether a part of it is seen there (so far).
+    fn add_to_block(&mut self, facet: &Facet, number: u32, at: [usize; 2], [columns, rows]: [&Range<usize>; 2]) -> bool {
+        const HALF: f64 = BLOCK as f64 / 2.0;
+        let middle = DVec2::new(at[0] as f64, at[1] as f64) * BLOCK as f64 + HALF;
+        let is_apart = |side: &Side| side.at(middle) <= -HALF * side.normal.abs().element_sum();
+        if facet.nearest_in(middle, HALF) <= self.farthest_of(at) || facet.bounds().any(is_apart) {
+            return false;
+        }
+        let block = at[1] * BLOCKS + at[0];
+        let holds = |side: &Side| side.at(middle) >= HALF * side.normal.abs().element_sum();
+        let is_empty = self.whole[block].is_none() && self.is_empty[block];
+        if is_empty && facet.bounds().all(holds) {
+            self.whole[block] = Some(number);
+            self.is_empty[block] = false;
+            self.farthest[block] = facet.farthest_in(middle, HALF);
+            return true;
+        }
+        self.divide(block);
+        let of = |k: usize, range: &Range<usize>| range.start.max(at[k] * BLOCK)..range.end.min((at[k] + 1) * BLOCK);
+        let (columns, rows) = (of(0, columns), of(1, rows));
+        let mut is_seen = false;
+        for y in rows {
+            for x in columns.clone() {
+                is_seen |= self.add_to_pixel(facet, number, [x, y]);
+            }
+        }
+        self.is_empty[block] &= !is_seen;
+        is_seen
+    }
+
+    /// Gives the pixels of a block that sees one triangle alone fragments of it.
+    fn divide(&mut self, block: usize) {
+        let Some(facet) = self.whole[block].take() else { return };
+        let [x, y] = [block % BLOCKS * BLOCK, block / BLOCKS * BLOCK];
+        for y in y..self.size[1].min(y + BLOCK) {
+            for x in x..self.size[0].min(x + BLOCK) {
+                let farthest = self.facets[facet as usize].farthest_in(DVec2::new(x as f64 + 0.5, y as f64 + 0.5), 0.5);
+                let seen = &mut self.pixels[y * TILE + x];
+                seen.fragments.push(Fragment::whole(facet));
+                (seen.covered, seen.farthest) = (1.0, farthest);
+            }
         }
     }
 
@@ -157,8 +225,7 @@ impl Sheet {
         if seen.is_crowded || facet.nearest_in(middle, 0.5) <= seen.farthest {
             return false;
         }
-        let planes = facet.planes.iter().flatten();
-        let mut sides = facet.sides.iter().chain(planes).map(|side| {
+        let mut sides = facet.bounds().map(|side| {
             let reach = 0.5 * side.normal.abs().element_sum();
             (side, side.at(middle), reach)
         });
@@ -167,11 +234,21 @@ impl Sheet {
         }
         let [polygon, next] = &mut self.room;
         polygon.clear();
-        polygon.extend([(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)].map(|of| middle + DVec2::from(of)));
+        polygon.extend(square(at, 1));
+        let mut is_whole = true;
         for (side, ..) in sides.by_ref().filter(|(_, value, reach)| value < reach) {
+            is_whole = false;
             next.clear();
             cut(polygon, side, next);
             std::mem::swap(polygon, next);
+        }
+        if is_whole && self.pixels[pixel].fragments.is_empty() {
+            let farthest = facet.farthest_in(middle, 0.5);
+            let seen = &mut self.pixels[pixel];
+            seen.fragments.push(Fragment::whole(number));
+            (seen.covered, seen.farthest) = (1.0, farthest);
+            self.is_dirty[block_of(pixel)] = true;
+            return true;
         }
         self.insert(facet, number, pixel)
     }
@@ -195,7 +272,8 @@ impl Sheet {
         let mut kept = 0;
         for k in 0..count {
             let old = self.pixels[pixel].fragments[k].clone();
-            let corners = self.corners(&old);
+            let mut room = [DVec2::ZERO; 4];
+            let corners = self.corners(&old, [pixel % TILE, pixel / TILE], &mut room);
             let both = if are_apart(corners, polygon) { Vec::new() } else { common(corners, polygon) };
             let mut stays = true;
             if area(&both) > NOTHING {
@@ -224,6 +302,10 @@ impl Sheet {
 
     /// Adds what of a polygon lies in none of some others.
     fn push_rest(&mut self, facet: u32, pixel: usize, polygon: &[DVec2], holes: &[Vec<DVec2>]) {
+        if holes.is_empty() {
+            self.push(facet, pixel, polygon);
+            return;
+        }
         let mut pieces = vec![polygon.to_vec()];
         for hole in holes {
             let mut next = Vec::new();
@@ -248,7 +330,7 @@ impl Sheet {
 
     /// Finds anew what a pixel hides.
     fn finish(&mut self, facet: &Facet, pixel: usize) {
-        let block = pixel / TILE / BLOCK * BLOCKS + pixel % TILE / BLOCK;
+        let block = block_of(pixel);
         let seen = &mut self.pixels[pixel];
         if seen.fragments.len() > self.budget {
             seen.fragments.clear();
@@ -266,12 +348,27 @@ impl Sheet {
         for fragment in &seen.fragments {
             // The triangle that is being added is not among them yet.
             let of = self.facets.get(fragment.facet as usize).unwrap_or(facet);
+            if fragment.corners.is_empty() {
+                let middle = DVec2::new((pixel % TILE) as f64 + 0.5, (pixel / TILE) as f64 + 0.5);
+                least = math::min(of.farthest_in(middle, 0.5), least);
+            }
             let own = &corners[fragment.corners.start as usize..fragment.corners.end as usize];
             least = own.iter().map(|p| of.key.at(*p)).fold(least, |least, key| math::min(key, least));
         }
         seen.farthest = least;
         self.is_dirty[block] = true;
     }
+}
+
+/// The block of a pixel.
+fn block_of(pixel: usize) -> usize {
+    pixel / TILE / BLOCK * BLOCKS + pixel % TILE / BLOCK
+}
+
+/// The corners of so many pixels a side, from one on.
+pub(super) fn square([x, y]: [usize; 2], side: usize) -> [DVec2; 4] {
+    let (from, to) = (DVec2::new(x as f64, y as f64), DVec2::new((x + side) as f64, (y + side) as f64));
+    [from, DVec2::new(to.x, from.y), to, DVec2::new(from.x, to.y)]
 }
 
 /// What of a polygon that two triangles cover the first is nearer in, and what of it the second.
@@ -293,7 +390,7 @@ fn split_by_key(new: &Facet, old: &Facet, polygon: &[DVec2]) -> [Vec<DVec2>; 2] 
         return [Vec::new(), polygon.to_vec()];
     }
     // They pass through one another.
-    let difference = super::convex::Side {
+    let difference = Side {
         normal: new.key.normal - old.key.normal,
         offset: new.key.offset - old.key.offset,
     };

@@ -45,8 +45,9 @@ impl Texels {
     }
 
     /// The parts of a polygon that lie in one texel each; `None`: there are more than `most`.
-    pub(super) fn parts(&self, facet: &Facet, polygon: &[DVec2], plan: &[Plan], most: usize) -> Option<Vec<Vec<DVec2>>> {
-        let ranges = [0, 1].map(|axis| self.range(axis, plan));
+    pub(super) fn parts(&self, facet: &Facet, polygon: &[DVec2], most: usize) -> Option<Vec<Vec<DVec2>>> {
+        let plan: Vec<Plan> = polygon.iter().map(|p| facet.plan_at(*p)).collect();
+        let ranges = [0, 1].map(|axis| self.range(axis, &plan));
         let [across, down] = ranges.map(|[low, high]| high - low + 1);
         if across.checked_mul(down).is_none_or(|texels| texels > most.max(1)) {
             return None;

@@ -6,8 +6,8 @@ use super::facet::Facet;
 use super::features::Features;
 use super::items::{Items, Lists, Painted, Place};
 use super::look::Looks;
-use super::near::Near;
-use super::sheet::{BLOCK, Fragment, Sheet};
+use super::near::{Near, with_hem};
+use super::sheet::{BLOCK, FULL, Fragment, Sheet, square};
 use super::step::{Fallback, Step};
 use super::texels::Texels;
 use super::{Settings, gather};
@@ -20,9 +20,6 @@ use crate::space::{Lens, Plan, PlanBox, ViewFrame};
 use crate::terrain::{Mesh, SKY};
 use crate::tiling::TilePlace;
 use glam::DVec2;
-
-/// A pixel that is covered by more than this is covered wholly.
-const WHOLE: f64 = 1.0 - 1e-9;
 
 /// What stays the same for all tiles of a frame.
 #[derive(Debug)]
@@ -44,6 +41,8 @@ pub(super) struct Room {
     block: Near,
     lists: Lists,
     plan: Vec<Plan>,
+    /// What each block sees of the plan.
+    boxes: Vec<PlanBox>,
 }
 
 /// A finished pixel.
@@ -89,8 +88,8 @@ impl<'a> Painter<'a> {
         let mut pixels = vec![empty; width * height];
         let samples = self.see(place, room);
         let mut last = self.backdrop.no_ground();
-        for block in blocks(place) {
-            self.look_near(place, &block, samples.as_ref(), room);
+        for (k, block) in blocks(place).enumerate() {
+            room.tile.narrow(self.looks, &room.boxes[k], &mut room.block);
             for (x, y) in pixels_of(&block) {
                 pixels[y * width + x] = self.pixel((place, [x, y]), samples.as_ref(), room, &mut last, &mut ());
             }
@@ -103,10 +102,8 @@ impl<'a> Painter<'a> {
         let mut room = Room::default();
         let samples = self.see(place, &mut room);
         room.lists.wants_sets = true;
-        let block = blocks(place).find(|block| pixels_of(block).any(|(x, y)| [x, y] == at));
-        if let Some(block) = block {
-            self.look_near(place, &block, samples.as_ref(), &mut room);
-        }
+        let block = blocks(place).position(|block| pixels_of(&block).any(|(x, y)| [x, y] == at));
+        room.tile.narrow(self.looks, &room.boxes[block.unwrap_or(0)], &mut room.block);
         self.pixel((place, at), samples.as_ref(), &mut room, &mut self.backdrop.no_ground(), record).paint
     }
 
@@ -124,20 +121,31 @@ impl<'a> Painter<'a> {
             let lattice = Lattice::samples(place.corner, place.size, self.settings.samples as usize);
             GBuffer::new(self.view, self.mesh, &Device::default(), lattice, lattice.columns.max(lattice.rows))
         });
-        let plan = self.plan_of(&whole, samples.as_ref(), room);
+        room.boxes.clear();
+        let mut plan = PlanBox::EMPTY;
+        for block in blocks(place) {
+            let of_block = self.plan_of(&block, samples.as_ref(), &room.sheet);
+            plan.include_box(&of_block);
+            room.boxes.push(of_block);
+        }
         let most = self.widest(place, samples.is_some(), room);
         room.tile.find(self.features, self.looks, &plan, most);
         samples
     }
 
-    /// The box around all that the pixels of a part of a tile see of the plan.
-    fn plan_of(&self, part: &TilePlace, samples: Option<&GBuffer>, room: &Room) -> PlanBox {
-        let (sheet, mut plan) = (&room.sheet, PlanBox::EMPTY);
+    /// The box around all that the pixels of a block see of the plan.
+    fn plan_of(&self, block: &TilePlace, samples: Option<&GBuffer>, sheet: &Sheet) -> PlanBox {
+        let (mut plan, mut corners) = (PlanBox::EMPTY, [DVec2::ZERO; 4]);
         let n = self.settings.samples as usize;
-        for (x, y) in pixels_of(part) {
+        if let Some(facet) = sheet.whole(block.corner) {
+            let facet = &sheet.facets[facet as usize];
+            plan = PlanBox::around(square(block.corner, BLOCK).map(|p| facet.plan_at(p)));
+            return with_hem(&plan);
+        }
+        for (x, y) in pixels_of(block) {
             for fragment in sheet.fragments([x, y]) {
                 let facet = &sheet.facets[fragment.facet as usize];
-                let points = sheet.corners(fragment).iter().map(|p| facet.plan_at(*p));
+                let points = sheet.corners(fragment, [x, y], &mut corners).iter().map(|p| facet.plan_at(*p));
                 points.filter(|p| p.is_finite()).for_each(|p| plan.include(p));
             }
             if let Some(seen) = samples.filter(|_| sheet.is_crowded([x, y])) {
@@ -145,7 +153,7 @@ impl<'a> Painter<'a> {
                 points.filter(|p| p.is_finite()).for_each(|p| plan.include(p));
             }
         }
-        plan
+        with_hem(&plan)
     }
 
     /// Half the width in the plan that a stroke of one pixel has at most where a tile sees the terrain.
@@ -156,23 +164,26 @@ impl<'a> Painter<'a> {
             return 0.5 * pixel * all();
         }
         let sheet = &room.sheet;
-        let fragments = pixels_of(&TilePlace { corner: [0, 0], size: place.size })
-            .flat_map(|(x, y)| sheet.fragments([x, y]))
-            .flat_map(|fragment| {
-                let key = &sheet.facets[fragment.facet as usize].key;
-                sheet.corners(fragment).iter().map(|p| key.at(*p))
-            });
-        let depth = 1.0 / fragments.fold(f64::INFINITY, |least, key| math::min(key, least));
+        let mut least = f64::INFINITY;
+        for block in blocks(place) {
+            let mut look = |facet: u32, corners: &[DVec2]| {
+                let key = &sheet.facets[facet as usize].key;
+                least = corners.iter().map(|p| key.at(*p)).fold(least, |least, key| math::min(key, least));
+            };
+            if let Some(facet) = sheet.whole(block.corner) {
+                look(facet, &square(block.corner, BLOCK));
+            }
+            for (x, y) in pixels_of(&block) {
+                for fragment in sheet.fragments([x, y]) {
+                    look(fragment.facet, sheet.corners(fragment, [x, y], &mut [DVec2::ZERO; 4]));
+                }
+            }
+        }
+        let depth = 1.0 / least;
         // The ray of the picture's corner is the longest.
         let (w, h) = (0.5 * pixel * self.view.width() as f64, 0.5 * pixel * self.view.height() as f64);
         let farthest = math::min(depth * (1.0 + w * w + h * h).sqrt(), all());
         0.5 * pixel * (1.0 + 1e-6) * farthest
-    }
-
-    /// Finds what is near a block of a tile.
-    fn look_near(&self, _: &TilePlace, block: &TilePlace, samples: Option<&GBuffer>, room: &mut Room) {
-        let plan = self.plan_of(block, samples, room);
-        room.tile.narrow(self.looks, &plan, &mut room.block);
     }
 
     fn items(&self) -> Items<'_> {
@@ -194,12 +205,11 @@ impl<'a> Painter<'a> {
         last: &mut LastGround,
         record: &mut R,
     ) -> Pixel {
-        let fragments = room.sheet.fragments(at).len() as u32;
         let why = if room.sheet.is_crowded(at) {
             Fallback::Fragments
         } else {
             match self.exact(at, room, last, record) {
-                Ok(pixel) => return Pixel { fragments, ..pixel },
+                Ok(pixel) => return pixel,
                 Err(why) => why,
             }
         };
@@ -207,6 +217,7 @@ impl<'a> Painter<'a> {
         let n = self.settings.samples as usize;
         record.step(|| Step::Sampled { why, samples: n * n });
         record.step(|| Step::Mean(paint));
+        let fragments = room.sheet.fragments(at).len() as u32;
         Pixel { paint, class: SAMPLED, edges: 0, fragments, fallback: number_of(why) }
     }
 
@@ -220,32 +231,31 @@ impl<'a> Painter<'a> {
     ) -> Result<Pixel, Fallback> {
         let Room { sheet, block, lists, plan, .. } = room;
         let mut pixel = Pixel { paint: Paint::CLEAR, class: 0, edges: 0, fragments: 0, fallback: 0 };
+        let whole = sheet.whole(at).map(Fragment::whole);
         let mut covered = 0.0;
-        for fragment in sheet.fragments(at) {
-            let facet = &sheet.facets[fragment.facet as usize];
-            let corners = sheet.corners(fragment);
+        for fragment in sheet.fragments(at).iter().chain(&whole) {
+            let mut room = [DVec2::ZERO; 4];
+            let (facet, corners) =
+                (&sheet.facets[fragment.facet as usize], sheet.corners(fragment, at, &mut room));
             covered += fragment.area;
-            let whole;
-            let parts = match &self.texels {
-                None => None,
-                Some(texels) => {
-                    plan.clear();
-                    plan.extend(corners.iter().map(|p| facet.plan_at(*p)));
-                    let most = self.settings.fragments as usize;
-                    whole = texels.parts(facet, corners, plan, most).ok_or(Fallback::Fragments)?;
-                    Some(&whole)
-                }
-            };
-            let parts = parts.map(|parts| parts.iter().map(Vec::as_slice).collect()).unwrap_or_else(|| vec![corners]);
-            for part in parts {
-                let painted = self.part((facet, part, at), block, (lists, plan), last, record);
-                let (area, painted) = painted.ok_or(Fallback::Crowd)?;
+            pixel.fragments += 1;
+            let mut add = |part: &[DVec2], record: &mut R| {
+                let (area, painted) = self.part((facet, part, at), block, (lists, plan), last, record)?;
                 pixel.paint = pixel.paint.plus(painted.paint.times(area));
                 pixel.class = pixel.class.max(class_of(painted.class));
                 pixel.edges += painted.edges as u32;
+                Some(())
+            };
+            match &self.texels {
+                None => add(corners, record).ok_or(Fallback::Crowd)?,
+                Some(texels) => {
+                    let most = self.settings.fragments as usize;
+                    let parts = texels.parts(facet, corners, most).ok_or(Fallback::Fragments)?;
+                    parts.iter().try_for_each(|part| add(part, record)).ok_or(Fallback::Crowd)?;
+                }
             }
         }
-        if covered < WHOLE {
+        if covered < FULL {
             record.step(|| Step::Sky { area: 1.0 - covered });
             pixel.paint = pixel.paint.plus(self.backdrop.sky.times(1.0 - covered));
         } else {
@@ -330,9 +340,9 @@ impl<'a> Painter<'a> {
 
 /// What a sample of a pixel sees by the pixel's fragments.
 fn fragment_at<'s>(sheet: &'s Sheet, at: [usize; 2], screen: DVec2) -> Sample<'s> {
-    let held = |fragment: &&Fragment| holds(sheet.corners(fragment), screen);
-    let fragment = sheet.fragments(at).iter().find(held)?;
-    let facet = &sheet.facets[fragment.facet as usize];
+    let held = |fragment: &&Fragment| holds(sheet.corners(fragment, at, &mut [DVec2::ZERO; 4]), screen);
+    let held = sheet.fragments(at).iter().find(held).map(|fragment| fragment.facet);
+    let facet = &sheet.facets[held.or_else(|| sheet.whole(at))? as usize];
     Some((std::borrow::Cow::Borrowed(facet), screen, facet.plan_at(screen)))
 }
 
