@@ -50,7 +50,7 @@ impl Convex {
         high.x < from.x || to.x < low.x || high.y < from.y || to.y < low.y
     }
 
-    /// What of an edge lies in it, in the edge's direction (Cyrus & Beck's way of clipping).
+    /// What of an edge lies in it, in the edge's direction (Cyrus & Beck's way of clipping); a point where it only touches the border.
     pub(super) fn cut(&self, from: DVec2, to: DVec2) -> Option<Part> {
         let (mut start, mut end) = ((0.0, None), (1.0, None));
         for k in 0..self.corners.len() {
@@ -78,7 +78,7 @@ impl Convex {
             Some(_) => from + (to - from) * at,
             None => own,
         };
-        (start.0 < end.0).then(|| Part {
+        (start.0 <= end.0).then(|| Part {
             from: point(start, from),
             to: point(end, to),
             enters: start.1,

@@ -52,6 +52,8 @@ struct Part {
 pub struct Coverage {
     fragment: Convex,
     parts: Vec<Part>,
+    /// Parts that are points of the border: nothing but a way in or out.
+    touches: Vec<Part>,
     /// Closed pieces of strokes: their corners, one after the other.
     corners: Vec<DVec2>,
     /// Where each piece's corners end, and whose it is.
@@ -67,6 +69,7 @@ impl Coverage {
     pub fn begin(&mut self, corners: &[DVec2]) {
         self.fragment.set(corners);
         self.parts.clear();
+        self.touches.clear();
         self.corners.clear();
         self.pieces.clear();
         self.windings.clear();
@@ -105,7 +108,8 @@ impl Coverage {
 
     fn cut(&mut self, counter: u8, from: DVec2, to: DVec2) {
         if let Some(part) = self.fragment.cut(from, to) {
-            self.parts.push(Part { counter, ..part });
+            let part = Part { counter, ..part };
+            if part.from == part.to { &mut self.touches } else { &mut self.parts }.push(part);
         }
     }
 
@@ -145,7 +149,7 @@ impl Coverage {
             [one] if chords::of_one(fragment, one, place, windings, &mut tell) => Class::Half,
             [one, two] if chords::of_two(fragment, [one, two], place, windings, &mut tell) => Class::Band,
             parts => {
-                self.slabs.measure(fragment, parts, place, windings, &mut tell);
+                self.slabs.measure(fragment, (parts, &self.touches), place, windings, &mut tell);
                 Class::Slabs
             }
         })

@@ -66,12 +66,12 @@ impl Slabs {
     pub(super) fn measure(
         &mut self,
         fragment: &Convex,
-        parts: &[Part],
+        (parts, touches): (&[Part], &[Part]),
         place: DVec2,
         windings: &Windings,
         tell: &mut impl FnMut(u64, f64),
     ) {
-        self.take(fragment, parts);
+        self.take(fragment, parts, touches);
         self.find_west(place, windings.counts());
         self.find_heights(fragment, parts);
         let (mut next, mut border) = (0, Border::new(fragment));
@@ -124,7 +124,7 @@ impl Slabs {
     }
 
     /// Takes the edges, and what they change along the western border.
-    fn take(&mut self, fragment: &Convex, parts: &[Part]) {
+    fn take(&mut self, fragment: &Convex, parts: &[Part], touches: &[Part]) {
         self.rising.clear();
         self.steps.clear();
         let is_western = |side: Option<u8>| {
@@ -133,7 +133,7 @@ impl Slabs {
                 b.y < a.y
             })
         };
-        for part in parts {
+        for part in parts.iter().chain(touches) {
             // Up along the border, an edge that comes in has its left above it.
             for (side, y, change) in [(part.enters, part.from.y, 1), (part.leaves, part.to.y, -1)] {
                 if is_western(side) {
