@@ -31,7 +31,16 @@ fn beyond(truth: &Truth, frame: &Frame) -> (f64, usize) {
     for (k, own) in color.chunks(4).enumerate().filter(|(k, _)| fallback[*k] == 0) {
         for c in 0..4 {
             let off = (lo[k][c] - own[c]).max(own[c] - hi[k][c]);
-            if off > 1e-3 { eprintln!("pixel {} {}: {} of {}..{}", k % truth.low.width(), k / truth.low.width(), own[c], lo[k][c], hi[k][c]); }
+            if off > 1e-3 {
+                eprintln!(
+                    "pixel {} {}: {} of {}..{}",
+                    k % truth.low.width(),
+                    k / truth.low.width(),
+                    own[c],
+                    lo[k][c],
+                    hi[k][c]
+                );
+            }
             worst = worst.max(off);
         }
     }
@@ -109,7 +118,13 @@ fn strokes_with_every_join_cap_and_mode_are_right() {
 
 #[test]
 fn dynamic_widths_are_right() {
-    let text = STROKES.replace("width_m", "width_px").replace("12", "4").replace("8,", "2,").replace(", OJOIN", "").replace(", JOIN", "").replace("MODE", "normal");
+    let text = STROKES
+        .replace("width_m", "width_px")
+        .replace("12", "4")
+        .replace("8,", "2,")
+        .replace(", OJOIN", "")
+        .replace(", JOIN", "")
+        .replace("MODE", "normal");
     is_right(&scene(HILLS, CAMERA, &text), &[], 2.0 / 255.0, 0);
     let camera = "eye = [0, -260, 160], target = [0, 0, 20], projection = \"orthographic\", height_m = 260";
     is_right(&scene(HILLS, camera, &text), &[], 1.0 / 255.0, 0);
@@ -127,9 +142,13 @@ fn debug() {
     let camera = "eye = [0, -260, 160], target = [0, 0, 20], projection = \"orthographic\", height_m = 260";
     let stage = stage(&scene(HILLS, camera, PARCELS), &[]);
     let p = technique::prepare(Kind::Analytic, &stage).unwrap();
-    for s in technique::explain(p.as_ref(), &stage.view().unwrap(), [67, 16]).unwrap().steps { eprintln!("{s}"); }
+    for s in technique::explain(p.as_ref(), &stage.view().unwrap(), [67, 16]).unwrap().steps {
+        eprintln!("{s}");
+    }
     let stage = drawing::stage(&scene(HILLS, CAMERA, PARCELS), &["camera.near_m=200", "camera.far_m=330"]);
     let p = technique::prepare(Kind::Analytic, &stage).unwrap();
-    for s in technique::explain(p.as_ref(), &stage.view().unwrap(), [2, 47]).unwrap().steps { eprintln!("{s}"); }
+    for s in technique::explain(p.as_ref(), &stage.view().unwrap(), [2, 47]).unwrap().steps {
+        eprintln!("{s}");
+    }
     panic!();
 }

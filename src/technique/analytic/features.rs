@@ -1,5 +1,6 @@
 //! All edges of items' areas and all segments of their strokes, and which of them may lie near a place of the plan.
 
+use super::boxes::comes_near;
 use super::pieces::{Segment, segment_box};
 use crate::draw_list::{Chain, DrawList};
 use crate::index::BoxTree;
@@ -48,6 +49,13 @@ pub(super) struct Edge {
     pub(super) to: Plan,
 }
 
+impl Edge {
+    /// Whether it may meet a box.
+    pub(super) fn meets(&self, plan: &PlanBox) -> bool {
+        PlanBox::around([self.from, self.to]).meets(plan) && comes_near([self.from, self.to], 0.0, plan)
+    }
+}
+
 /// A segment of an item's stroke.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Stroked {
@@ -55,6 +63,15 @@ pub(super) struct Stroked {
     pub(super) segment: Segment,
     /// What it may reach; of a width in pixels its centre line alone.
     pub(super) bounds: PlanBox,
+}
+
+impl Stroked {
+    /// Whether it may reach into a box.
+    pub(super) fn meets(&self, plan: &PlanBox) -> bool {
+        let Segment { from, to, .. } = self.segment;
+        let reach = crate::math::min(from.x, to.x) - self.bounds.min.x;
+        self.bounds.meets(plan) && comes_near([from, to], reach, plan)
+    }
 }
 
 /// What items are made of.
@@ -87,7 +104,9 @@ impl<'s> Features<'s> {
         };
         Self {
             list,
-            areas: Runs::new(areas, |run| PlanBox::around(edges(list, run).flat_map(|edge| [edge.from, edge.to]))),
+            areas: Runs::new(areas, |run| {
+                PlanBox::around(edges(list, run).flat_map(|edge| [edge.from, edge.to]))
+            }),
             strokes: Runs::new(strokes, stroke_box),
             dynamic: Runs::new(dynamic, stroke_box),
         }
@@ -120,7 +139,8 @@ impl<'s> Features<'s> {
         let widest = widest.fold(0.0, |most, width| crate::math::max(width, most));
         let grown = plan.grown(most * widest);
         let near = self.dynamic.near(&grown).flat_map(|run| segments(self.list, run));
-        near.filter(|stroked| stroked.bounds.meets(&grown)).for_each(&mut visit);
+        let grown = near.map(|stroked| Stroked { bounds: stroked.bounds.grown(most * widest), ..stroked });
+        grown.filter(|stroked| stroked.bounds.meets(plan)).for_each(&mut visit);
     }
 
     /// Calls `visit` with each edge that crosses the ray from a point to the east, and what it adds to the winding number there.

@@ -28,7 +28,9 @@ struct Walk<'a> {
 impl Walk<'_> {
     /// Adds what a node holds, the nearest child first.
     fn node(&mut self, node: Node) {
-        let Some(reach) = self.mesh.bounds(node).and_then(|bounds| self.tile.reach_of(&bounds)) else { return };
+        let Some(reach) = self.mesh.bounds(node).and_then(|bounds| self.tile.reach_of(&bounds)) else {
+            return;
+        };
         // A box that touches the eye's plane has no picture of bounded size: it cannot be hidden.
         if self.tile.is_parallel() || reach.depth.0 > self.view.near() / 2.0 {
             let nearest = if self.tile.is_parallel() { -reach.depth.0 } else { 1.0 / reach.depth.0 };

@@ -1,10 +1,11 @@
 //! What items do to one fragment: N, P or F of each, and of those that are P what their edges cut.
 
+use super::boxes::with_hem;
 use super::coverage::{Class, Coverage, Inside, Membership};
 use super::facet::Facet;
 use super::features::{Edge, Stroked};
 use super::look::{Look, Looks};
-use super::near::{Local, Near, meets, with_hem};
+use super::near::{Local, Near};
 use super::pieces::{self, HalfWidth, Pieces, stroke_pieces};
 use crate::math;
 use crate::predicate::orient2d;
@@ -47,7 +48,8 @@ impl Place<'_> {
         const STEP: f64 = 0.25;
         let middle = self.inside();
         let at = self.facet.plan_at(middle);
-        let [dx, dy] = [DVec2::X, DVec2::Y].map(|axis| (self.facet.plan_at(middle + axis * STEP) - at) / STEP);
+        let [dx, dy] =
+            [DVec2::X, DVec2::Y].map(|axis| (self.facet.plan_at(middle + axis * STEP) - at) / STEP);
         // The smaller singular value of the map: its determinant over the larger one.
         let (sum, det) = (dx.length_squared() + dy.length_squared(), dx.perp_dot(dy).abs());
         let root = math::max(sum * sum - 4.0 * det * det, 0.0).sqrt();
@@ -92,6 +94,8 @@ pub(super) struct Lists {
     pieces: Pieces,
     cover: Coverage,
     projected: Vec<DVec2>,
+    /// The ground and the paint of the plain fragment before, of the same block.
+    pub(super) plain: Option<(Paint, Paint)>,
     /// Whether the items of each set are to be told.
     pub(super) wants_sets: bool,
     /// The items of each set that was found, with its share, if they are to be told.
@@ -111,9 +115,15 @@ pub(super) struct Items<'a> {
 
 impl Items<'_> {
     /// The mean paint of a fragment over a ground of one paint; `None`: its edges are too many.
-    pub(super) fn paint(&self, place: &Place, near: &Near, ground: Paint, lists: &mut Lists) -> Option<Painted> {
-        self.classify(place, near, lists);
+    pub(super) fn paint(
+        &self,
+        place: &Place,
+        near: &Near,
+        ground: Paint,
+        lists: &mut Lists,
+    ) -> Option<Painted> {
         lists.sets.clear();
+        self.classify(place, near, lists);
         if lists.entries.iter().any(Entry::is_partial) {
             return self.measure(place, near, ground, lists);
         }
@@ -122,6 +132,27 @@ impl Items<'_> {
             lists.sets.push((items_of(near, &lists.entries, 0), 1.0));
         }
         Some(Painted { paint, class: Class::Point, edges: 0 })
+    }
+
+    /// The paint of a fragment of a block all of whose items cover all of it.
+    pub(super) fn paint_plain(&self, near: &Near, ground: Paint, lists: &mut Lists) -> Painted {
+        let paint = match lists.plain {
+            Some((below, paint)) if below == ground => paint,
+            _ => {
+                let mut stack = Stack::on(ground);
+                for local in &near.items {
+                    let look = self.looks.of(local.item);
+                    stack.draw(look.group, |below| self.compositor.over(below, look.paint));
+                }
+                stack.finished()
+            }
+        };
+        lists.plain = Some((ground, paint));
+        lists.sets.clear();
+        if lists.wants_sets {
+            lists.sets.push((near.items.iter().map(|local| local.item).collect(), 1.0));
+        }
+        Painted { paint, class: Class::Point, edges: 0 }
     }
 
     /// Finds the items that cover some of a fragment, from the top down to one that hides the others.
@@ -141,7 +172,7 @@ impl Items<'_> {
             if let Some(area) = look.area {
                 if near.edges(of).iter().any(|edge| cuts(edge, place.plan, &bounds)) {
                     // What comes from a corner of the fragment has another edge that ends there.
-                    lists.edges.extend(near.edges(of).iter().filter(|edge| meets(edge, &touching)));
+                    lists.edges.extend(near.edges(of).iter().filter(|edge| edge.meets(&touching)));
                 } else if !area.holds(near.turns_at(of, inside)) {
                     continue;
                 }
@@ -176,7 +207,7 @@ impl Items<'_> {
         let (first, first_corner) = (lists.rings.len(), lists.corners.len());
         let half = self.half_width(&line.width, place);
         let around = pieces::Near { plan: *bounds, sagitta: SAGITTA * finest };
-        let meets = |stroked: &&Stroked| stroked.bounds.meets(bounds);
+        let meets = |stroked: &&Stroked| stroked.meets(bounds);
         for stroked in near.strokes(of).iter().filter(meets) {
             lists.pieces.clear();
             stroke_pieces(&stroked.segment, line, half, &around, &mut lists.pieces);
@@ -212,7 +243,8 @@ impl Items<'_> {
             return HalfWidth { at, half, gradient: DVec2::ZERO };
         };
         let triangle = self.mesh.surface_triangle(place.facet.id);
-        let Some((triangle, [east, north])) = triangle.and_then(|of| Some((of, of.world_from_plan()?))) else {
+        let Some((triangle, [east, north])) = triangle.and_then(|of| Some((of, of.world_from_plan()?)))
+        else {
             return HalfWidth { at, half: 0.0, gradient: DVec2::ZERO };
         };
         let from = at - triangle.plan()[0];
@@ -311,7 +343,7 @@ fn items_of(near: &Near, entries: &[Entry], set: u64) -> Vec<u32> {
 
 /// Whether an edge cuts a fragment: has some of its corners on either side.
 fn cuts(edge: &Edge, plan: &[Plan], bounds: &PlanBox) -> bool {
-    if !meets(edge, bounds) {
+    if !edge.meets(bounds) {
         return false;
     }
     let mut sides = plan.iter().map(|p| orient2d(edge.from, edge.to, *p));

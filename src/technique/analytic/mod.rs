@@ -10,6 +10,7 @@
 //!
 //! Pixels with more fragments or edges than the settings allow are sampled, and counted. Refuses: nothing that can be drawn.
 
+mod boxes;
 mod convex;
 mod coverage;
 mod facet;

@@ -3,6 +3,7 @@
 //! An item that covers nothing of the box (N) is left out. One with edges or segments near is P, with the winding number of its area's border
 //! at one place; one that covers all of it (F) hides what lies below, if it is opaque.
 
+use super::boxes::odd_place;
 use super::features::{Edge, Features, Stroked, crossing};
 use super::look::Looks;
 use crate::space::{Plan, PlanBox};
@@ -19,25 +20,14 @@ pub(super) struct Local {
 }
 
 /// The items that may cover some of a box of the plan, in draw order.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Near {
     /// Where winding numbers are known: a place in the box.
     at: Plan,
     pub(super) items: Vec<Local>,
     edges: Vec<Edge>,
     strokes: Vec<Stroked>,
-}
-
-impl Default for Near {
-    fn default() -> Self {
-        Self { at: Plan::default(), items: Vec::new(), edges: Vec::new(), strokes: Vec::new() }
-    }
-}
-
-/// A place in a box on which data hardly have an edge.
-fn odd_place(plan: &PlanBox) -> Plan {
-    let size = plan.max - plan.min;
-    plan.min + glam::DVec2::new(0.381_966_011_250_105 * size.x, 0.723_606_797_749_979 * size.y)
+    is_plain: bool,
 }
 
 impl Near {
@@ -53,7 +43,8 @@ impl Near {
         turns.sort_by_key(|(item, _)| *item);
         let of_edges = self.edges.iter().map(|edge| edge.item);
         let of_strokes = self.strokes.iter().map(|stroked| stroked.item);
-        let mut items: Vec<u32> = of_edges.chain(of_strokes).chain(turns.iter().map(|(item, _)| *item)).collect();
+        let mut items: Vec<u32> =
+            of_edges.chain(of_strokes).chain(turns.iter().map(|(item, _)| *item)).collect();
         items.sort_unstable();
         items.dedup();
         for item in items {
@@ -71,13 +62,14 @@ impl Near {
         for local in &self.items {
             let (edges, strokes) = (out.edges.len() as u32, out.strokes.len() as u32);
             let turns = self.turns_at(local, out.at);
-            let near = self.edges(local).iter().filter(|edge| meets(edge, plan));
+            let near = self.edges(local).iter().filter(|edge| edge.meets(plan));
             out.edges.extend(near);
-            let near = self.strokes(local).iter().filter(|stroked| stroked.bounds.meets(plan));
+            let near = self.strokes(local).iter().filter(|stroked| stroked.meets(plan));
             out.strokes.extend(near);
             let (edges, strokes) = (edges..out.edges.len() as u32, strokes..out.strokes.len() as u32);
             out.keep(looks, Local { item: local.item, turns, edges, strokes });
         }
+        out.is_plain = out.items.iter().all(|local| local.edges.is_empty() && local.strokes.is_empty());
     }
 
     fn clear(&mut self, plan: &PlanBox) {
@@ -101,6 +93,11 @@ impl Near {
         self.items.push(local);
     }
 
+    /// Whether each item covers all of the box.
+    pub(super) fn is_plain(&self) -> bool {
+        self.is_plain
+    }
+
     /// The edges of an item's area.
     pub(super) fn edges(&self, of: &Local) -> &[Edge] {
         &self.edges[of.edges.start as usize..of.edges.end as usize]
@@ -115,17 +112,6 @@ impl Near {
     pub(super) fn turns_at(&self, of: &Local, at: Plan) -> i32 {
         of.turns + self.edges(of).iter().map(|edge| crossing(edge, self.at, at)).sum::<i32>()
     }
-}
-
-/// A box with what roundings may have left out.
-pub(super) fn with_hem(plan: &PlanBox) -> PlanBox {
-    let size = plan.max - plan.min;
-    plan.grown(1e-6 * (size.x + size.y))
-}
-
-/// Whether an edge's box meets another.
-pub(super) fn meets(edge: &Edge, plan: &PlanBox) -> bool {
-    PlanBox::around([edge.from, edge.to]).meets(plan)
 }
 
 /// Where an item's entries lie in a list sorted by items.

@@ -3,7 +3,7 @@
 //! Triangles come in any order, best the nearest first; where two fragments of a pixel overlap, the farther one loses what the nearer one
 //! covers. A pixel that is covered wholly hides what is farther than all of its fragments.
 
-use super::convex::{NOTHING, Side, area, are_apart, common, cut, without};
+use super::convex::{NOTHING, Side, are_apart, area, common, cut, without};
 use super::facet::Facet;
 use crate::math;
 use glam::DVec2;
@@ -106,7 +106,12 @@ impl Sheet {
     }
 
     /// The corners of a fragment of a pixel; `room` is for those of a whole one.
-    pub(super) fn corners<'r>(&'r self, fragment: &Fragment, at: [usize; 2], room: &'r mut [DVec2; 4]) -> &'r [DVec2] {
+    pub(super) fn corners<'r>(
+        &'r self,
+        fragment: &Fragment,
+        at: [usize; 2],
+        room: &'r mut [DVec2; 4],
+    ) -> &'r [DVec2] {
         if fragment.corners.is_empty() {
             *room = square(at, 1);
             return room;
@@ -174,7 +179,13 @@ impl Sheet {
     }
 
     /// Adds a triangle to the pixels of a block that lie in some columns and rows; returns whether a part of it is seen there (so far).
-    fn add_to_block(&mut self, facet: &Facet, number: u32, at: [usize; 2], [columns, rows]: [&Range<usize>; 2]) -> bool {
+    fn add_to_block(
+        &mut self,
+        facet: &Facet,
+        number: u32,
+        at: [usize; 2],
+        [columns, rows]: [&Range<usize>; 2],
+    ) -> bool {
         const HALF: f64 = BLOCK as f64 / 2.0;
         let middle = DVec2::new(at[0] as f64, at[1] as f64) * BLOCK as f64 + HALF;
         let is_apart = |side: &Side| side.at(middle) <= -HALF * side.normal.abs().element_sum();
@@ -191,7 +202,9 @@ impl Sheet {
             return true;
         }
         self.divide(block);
-        let of = |k: usize, range: &Range<usize>| range.start.max(at[k] * BLOCK)..range.end.min((at[k] + 1) * BLOCK);
+        let of = |k: usize, range: &Range<usize>| {
+            range.start.max(at[k] * BLOCK)..range.end.min((at[k] + 1) * BLOCK)
+        };
         let (columns, rows) = (of(0, columns), of(1, rows));
         let mut is_seen = false;
         for y in rows {
@@ -209,7 +222,8 @@ impl Sheet {
         let [x, y] = [block % BLOCKS * BLOCK, block / BLOCKS * BLOCK];
         for y in y..self.size[1].min(y + BLOCK) {
             for x in x..self.size[0].min(x + BLOCK) {
-                let farthest = self.facets[facet as usize].farthest_in(DVec2::new(x as f64 + 0.5, y as f64 + 0.5), 0.5);
+                let farthest =
+                    self.facets[facet as usize].farthest_in(DVec2::new(x as f64 + 0.5, y as f64 + 0.5), 0.5);
                 let seen = &mut self.pixels[y * TILE + x];
                 seen.fragments.push(Fragment::whole(facet));
                 (seen.covered, seen.farthest) = (1.0, farthest);
@@ -390,10 +404,8 @@ fn split_by_key(new: &Facet, old: &Facet, polygon: &[DVec2]) -> [Vec<DVec2>; 2] 
         return [Vec::new(), polygon.to_vec()];
     }
     // They pass through one another.
-    let difference = Side {
-        normal: new.key.normal - old.key.normal,
-        offset: new.key.offset - old.key.offset,
-    };
+    let difference =
+        Side { normal: new.key.normal - old.key.normal, offset: new.key.offset - old.key.offset };
     let (mut nearer, mut farther) = (Vec::new(), Vec::new());
     cut(polygon, &difference, &mut nearer);
     cut(polygon, &difference.turned(), &mut farther);

@@ -61,7 +61,11 @@ impl fmt::Display for Step {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
             Self::Fragment { triangle, area, corners, ground } => {
-                write!(f, "{:.2} % of the pixel see triangle {triangle}, ground {ground}, between", 100.0 * area)?;
+                write!(
+                    f,
+                    "{:.2} % of the pixel see triangle {triangle}, ground {ground}, between",
+                    100.0 * area
+                )?;
                 corners.iter().try_for_each(|[x, y]| write!(f, " ({x:.4}, {y:.4})"))
             }
             Self::Edges { edges, class } => {
@@ -75,7 +79,11 @@ impl fmt::Display for Step {
             }
             Self::Covered { items, share } => {
                 let items: Vec<String> = items.iter().map(u32::to_string).collect();
-                let items = if items.is_empty() { "the ground alone".into() } else { format!("items {}", items.join(", ")) };
+                let items = if items.is_empty() {
+                    "the ground alone".into()
+                } else {
+                    format!("items {}", items.join(", "))
+                };
                 write!(f, "{:.2} % of it: {items}", 100.0 * share)
             }
             Self::Sampled { why, samples } => {

@@ -1,16 +1,18 @@
 //! A tile of the picture: what its pixels see, which items are near its blocks, each pixel's paint.
 
+use super::boxes::with_hem;
 use super::convex::{area, holds, middle};
 use super::coverage::Class;
 use super::facet::Facet;
 use super::features::Features;
+use super::gather;
 use super::items::{Items, Lists, Painted, Place};
 use super::look::Looks;
-use super::near::{Near, with_hem};
+use super::near::Near;
+use super::settings::Settings;
 use super::sheet::{BLOCK, FULL, Fragment, Sheet, square};
 use super::step::{Fallback, Step};
 use super::texels::Texels;
-use super::{Settings, gather};
 use crate::canvas::{Backdrop, GBuffer, LastGround, Record};
 use crate::math;
 use crate::raster::Lattice;
@@ -90,8 +92,10 @@ impl<'a> Painter<'a> {
         let mut last = self.backdrop.no_ground();
         for (k, block) in blocks(place).enumerate() {
             room.tile.narrow(self.looks, &room.boxes[k], &mut room.block);
+            room.lists.plain = None;
             for (x, y) in pixels_of(&block) {
-                pixels[y * width + x] = self.pixel((place, [x, y]), samples.as_ref(), room, &mut last, &mut ());
+                pixels[y * width + x] =
+                    self.pixel((place, [x, y]), samples.as_ref(), room, &mut last, &mut ());
             }
         }
         pixels
@@ -274,21 +278,24 @@ impl<'a> Painter<'a> {
         last: &mut LastGround,
         record: &mut R,
     ) -> Option<(f64, Painted)> {
-        plan.clear();
         // A triangle that stands upright in the plan is asked at its middle alone.
-        let middle = [middle(corners)];
+        let (area, middle) = (area(corners), [middle(corners)]);
         let screen = if facet.has_plan() { corners } else { &middle };
-        plan.extend(screen.iter().map(|p| facet.plan_at(*p)));
         let ground = self.backdrop.paint_at(last, facet.id, || facet.plan_at(middle[0]));
-        let area = area(corners);
         record.step(|| Step::Fragment {
             triangle: facet.id,
             area,
             corners: corners.iter().map(|p| [p.x - x as f64, p.y - y as f64]).collect(),
             ground,
         });
-        let pixel = DVec2::new(x as f64, y as f64);
-        let painted = self.items().paint(&Place { facet, screen, plan, pixel }, near, ground, lists)?;
+        let painted = if near.is_plain() {
+            self.items().paint_plain(near, ground, lists)
+        } else {
+            plan.clear();
+            plan.extend(screen.iter().map(|p| facet.plan_at(*p)));
+            let pixel = DVec2::new(x as f64, y as f64);
+            self.items().paint(&Place { facet, screen, plan, pixel }, near, ground, lists)?
+        };
         record.step(|| Step::Edges { edges: painted.edges, class: painted.class });
         for (items, share) in &lists.sets {
             record.step(|| Step::Covered { items: items.clone(), share: *share });
