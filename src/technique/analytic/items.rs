@@ -3,7 +3,7 @@
 use super::boxes::with_hem;
 use super::coverage::{Class, Coverage, Inside, Membership};
 use super::facet::Facet;
-use super::features::{Edge, Stroked};
+use super::features::Edge;
 use super::look::{Look, Looks};
 use super::near::{Local, Near};
 use super::pieces::{self, HalfWidth, Pieces, stroke_pieces};
@@ -18,6 +18,9 @@ use std::ops::Range;
 
 /// How far a chord of a round part may be off, in pixels.
 const SAGITTA: f64 = 1.0 / 512.0;
+
+/// How far a width in pixels may be off in a fragment in which it is taken as linear, in pixels.
+const BEND: f64 = 1.0 / 256.0;
 
 /// A fragment of a pixel, or a sample.
 #[derive(Debug)]
@@ -123,7 +126,7 @@ impl Items<'_> {
         lists: &mut Lists,
     ) -> Option<Painted> {
         lists.sets.clear();
-        self.classify(place, near, lists);
+        self.classify(place, near, lists)?;
         if lists.entries.iter().any(Entry::is_partial) {
             return self.measure(place, near, ground, lists);
         }
@@ -156,7 +159,7 @@ impl Items<'_> {
     }
 
     /// Finds the items that cover some of a fragment, from the top down to one that hides the others.
-    fn classify(&self, place: &Place, near: &Near, lists: &mut Lists) {
+    fn classify(&self, place: &Place, near: &Near, lists: &mut Lists) -> Option<()> {
         lists.entries.clear();
         lists.edges.clear();
         lists.rings.clear();
@@ -180,7 +183,7 @@ impl Items<'_> {
             let rings = lists.rings.len();
             if look.line.is_some() {
                 let finest = *finest.get_or_insert_with(|| place.finest());
-                if !self.add_pieces((near, of, look), place, (&bounds, finest), lists) {
+                if !self.add_pieces((near, of, look), place, (&bounds, finest), lists)? {
                     lists.edges.truncate(edges);
                     continue;
                 }
@@ -193,30 +196,37 @@ impl Items<'_> {
             }
         }
         lists.entries.reverse();
+        Some(())
     }
 
-    /// Adds the pieces of an item's stroke that cut a fragment; none where one holds it. Returns whether the stroke may cover any of it.
+    /// Adds the pieces of an item's stroke that cut a fragment; none where one holds it. Returns whether the stroke may cover any of it; `None`:
+    /// its width is not nearly linear there.
     fn add_pieces(
         &self,
         (near, of, look): (&Near, &Local, &Look),
         place: &Place,
         (bounds, finest): (&PlanBox, f64),
         lists: &mut Lists,
-    ) -> bool {
-        let Some(line) = &look.line else { return false };
+    ) -> Option<bool> {
+        let Some(line) = &look.line else { return Some(false) };
         let (first, first_corner) = (lists.rings.len(), lists.corners.len());
-        let half = self.half_width(&line.width, place);
+        let mut strokes = near.strokes(of).iter().filter(|stroked| stroked.meets(bounds)).peekable();
+        if strokes.peek().is_none() {
+            return Some(false);
+        }
+        let (half, bend) = self.half_width(&line.width, place);
         let around = pieces::Near { plan: *bounds, sagitta: SAGITTA * finest };
-        let meets = |stroked: &&Stroked| stroked.meets(bounds);
-        for stroked in near.strokes(of).iter().filter(meets) {
+        for stroked in strokes {
             lists.pieces.clear();
-            stroke_pieces(&stroked.segment, line, half, &around, &mut lists.pieces);
+            if !stroke_pieces(&stroked.segment, line, &half, &around, &mut lists.pieces) {
+                return None;
+            }
             for ring in lists.pieces.rings() {
                 match held(ring, place.plan) {
                     Held::All => {
                         lists.rings.truncate(first);
                         lists.corners.truncate(first_corner);
-                        return true;
+                        return Some(true);
                     }
                     Held::Some => {
                         lists.corners.extend_from_slice(ring);
@@ -226,32 +236,38 @@ impl Items<'_> {
                 }
             }
         }
-        lists.rings.len() > first
+        let is_cut = lists.rings.len() > first;
+        (!is_cut || bend <= BEND * finest).then_some(is_cut)
     }
 
-    /// Half a stroke's width near a place: of one in pixels the tangent of how it grows with the distance from the eye (Zechmeister 2020, eq. 4.1).
-    fn half_width(&self, width: &Width, place: &Place) -> HalfWidth {
-        let width = match width {
-            Width::Metres(width) => {
-                return HalfWidth { at: place.plan[0], half: width / 2.0, gradient: DVec2::ZERO };
-            }
-            Width::Pixels(width) => width,
-        };
-        let at = if place.plan.len() == 1 { place.plan[0] } else { place.facet.plan_at(place.inside()) };
-        let Lens::Central { pixel } = self.view.lens() else {
-            let half = 0.5 * width * self.view.lens().pixel();
-            return HalfWidth { at, half, gradient: DVec2::ZERO };
+    /// Half a stroke's width near a place, and how far it is off: of one in pixels the tangent of how it grows with the distance from the eye
+    /// (Zechmeister 2020, eq. 4.1).
+    fn half_width(&self, width: &Width, place: &Place) -> (HalfWidth, f64) {
+        let at = if let [at] = place.plan { *at } else { place.facet.plan_at(place.inside()) };
+        let even = |half: f64| (HalfWidth { at, half, gradient: DVec2::ZERO }, 0.0);
+        let (width, pixel) = match (width, self.view.lens()) {
+            (Width::Metres(width), _) => return even(width / 2.0),
+            (Width::Pixels(width), Lens::Parallel { pixel }) => return even(0.5 * width * pixel),
+            (Width::Pixels(width), Lens::Central { pixel }) => (width, pixel),
         };
         let triangle = self.mesh.surface_triangle(place.facet.id);
         let Some((triangle, [east, north])) = triangle.and_then(|of| Some((of, of.world_from_plan()?)))
         else {
-            return HalfWidth { at, half: 0.0, gradient: DVec2::ZERO };
+            return even(0.0);
         };
-        let from = at - triangle.plan()[0];
-        let away = triangle.world[0] + (east * from.x + north * from.y) - self.view.eye();
-        let (growth, distance) = (0.5 * width * pixel, away.length());
-        let gradient = DVec2::new(away.dot(east), away.dot(north)) * (growth / distance);
-        HalfWidth { at, half: growth * distance, gradient }
+        let away = |p: Plan| {
+            let from = p - triangle.plan()[0];
+            triangle.world[0] + (east * from.x + north * from.y) - self.view.eye()
+        };
+        let growth = 0.5 * width * pixel;
+        let (middle, distance) = (away(at), away(at).length());
+        if place.plan.len() == 1 {
+            return even(growth * distance);
+        }
+        let gradient = DVec2::new(middle.dot(east), middle.dot(north)) * (growth / distance);
+        let half = HalfWidth { at, half: growth * distance, gradient };
+        let off = place.plan.iter().map(|p| growth * away(*p).length() - half.of(*p));
+        (half, off.fold(0.0, |most, off| math::max(off, most)))
     }
 
     /// The mean paint of a fragment that edges cut.
