@@ -22,7 +22,7 @@ pub use declaration::{Contradiction, Declaration, Parameters};
 pub use crate::canvas::{Frame, FrameOptions};
 
 use crate::error::{Error, Result};
-use crate::space::ViewFrame;
+use crate::space::{Plan, ViewFrame};
 use crate::stage::Stage;
 use std::fmt;
 
@@ -68,9 +68,20 @@ pub trait Prepared: Sync {
 }
 
 /// A step of a technique on the way to a pixel's colour: data of its own that has a short text.
-pub trait Step: fmt::Debug + fmt::Display + Send {}
+pub trait Step: fmt::Debug + fmt::Display + Send {
+    /// Where the technique's paper says so: section, figure, equation or algorithm.
+    fn section(&self) -> &'static str;
 
-impl<S: fmt::Debug + fmt::Display + Send> Step for S {}
+    /// The plan point that is decided about, scene-local, where it is about one.
+    fn place(&self) -> Option<Plan> {
+        None
+    }
+
+    /// The items of the draw list that it is about.
+    fn items(&self) -> Vec<u32> {
+        Vec::new()
+    }
+}
 
 /// Why a pixel has its colour.
 #[derive(Debug)]

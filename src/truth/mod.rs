@@ -9,6 +9,7 @@
 //!   tile.rs     a tile's triangles, by the terrain's hierarchy; squares down to pixels
 //!   tile_rays.rs the tile's rays, with bounds of their errors
 //!   facet.rs    a triangle on the tile: sides, nearness, its map to the plan (draped.rs), with bounds of their errors (form.rs)
+//!   look.rs     single pixels, with what each sees
 //!   probe.rs    the same of small squares around samples: what each may see (outcome.rs)
 //!   touched.rs  which items touch each pixel (holding.rs: which hold its centre)
 //!   visible.rs  the pixel cut into convex fragments that see one triangle (polygon.rs), and sky
@@ -27,6 +28,7 @@ mod facet;
 mod form;
 mod knowledge;
 mod near;
+mod look;
 mod outcome;
 mod polygon;
 mod probe;
@@ -40,6 +42,7 @@ mod tile_rays;
 mod touched;
 mod visible;
 
+pub use look::{PixelLook, SeenPiece, footprints_seen, look};
 pub use outcome::{Outcome, Sample};
 pub use probe::{Probe, probe, probe_around};
 pub use touched::Touched;

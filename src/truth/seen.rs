@@ -2,7 +2,7 @@
 
 use super::tile::Frustum;
 use crate::index::BoxTree;
-use crate::space::{PlanBox, ViewFrame};
+use crate::space::{PlanBox, Screen, ViewFrame};
 use crate::terrain::Mesh;
 
 /// What a view may see of the plan.
@@ -16,7 +16,13 @@ pub(super) enum SeenPlan {
 impl SeenPlan {
     /// What a view of a terrain may see.
     pub(super) fn new(mesh: &Mesh, view: &ViewFrame) -> Self {
-        let frustum = Frustum::new(view, [0.0, 0.0], [view.width() as f64, view.height() as f64]);
+        let end = Screen::new(view.width() as f64, view.height() as f64);
+        Self::of_window(mesh, view, [Screen::default(), end])
+    }
+
+    /// What a window of a view, from its upper left to its lower right corner, may see of a terrain.
+    pub(super) fn of_window(mesh: &Mesh, view: &ViewFrame, [from, to]: [Screen; 2]) -> Self {
+        let frustum = Frustum::new(view, [from.x, from.y], [to.x, to.y]);
         if let Some(heights) = mesh.heights() {
             return Self::Below { frustum: Box::new(frustum), bounds: mesh.plan_bounds(), heights };
         }

@@ -7,11 +7,12 @@ use super::polygon::{self, Pieces};
 use super::refine::Refinery;
 use super::setting::Setting;
 use super::tile_rays::TileRays;
+use super::look::{PixelLook, SeenPiece};
 use super::visible::Sight;
 use super::{Centre, PixelCoverage, Tally};
 use crate::math;
-use crate::space::{Lens, PlanBox, ViewFrame, World};
-use crate::terrain::{self, Bounds, Mesh, Node};
+use crate::space::{Lens, PlanBox, Screen, ViewFrame, World};
+use crate::terrain::{self, Bounds, Mesh, Node, SKY};
 use crate::tiling::TilePlace;
 use glam::DVec3;
 use std::ops::Range;
@@ -182,6 +183,27 @@ pub(super) fn certify_tile(
     work.out.tally.pieces = work.refinery.pieces;
     work.out.tally.triangles += work.facets.len() as u64;
     work.out
+}
+
+/// The truth of one pixel, and what it sees.
+pub(super) fn seen_in_pixel(
+    setting: &Setting,
+    (mesh, frame): (&Mesh, &ViewFrame),
+    corner: [usize; 2],
+) -> PixelLook {
+    let mut work = Work::new(setting, mesh, frame, &TilePlace { corner, size: [1, 1] }, None);
+    work.block([0, 0]);
+    let at = |[x, y]: [f64; 2]| Screen::new(corner[0] as f64 + x, corner[1] as f64 + y);
+    let piece = |triangle, shape| SeenPiece {
+        triangle,
+        corners: work.pieces.of(shape).iter().map(|corner| at(*corner)).collect(),
+    };
+    let fragments = work.sight.fragments.iter();
+    let terrain = fragments.map(|f| piece(work.facets[f.facet as usize].id, f.shape));
+    let pieces = terrain.chain(work.sight.sky.iter().map(|shape| piece(SKY, *shape))).collect();
+    let [low, high, estimate] = work.out.colors[0];
+    let coverage = work.out.coverage.pop().unwrap_or_default();
+    PixelLook { low, high, estimate, coverage, centre: work.out.centres[0], pieces }
 }
 
 impl Leaf {

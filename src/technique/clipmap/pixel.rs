@@ -130,7 +130,7 @@ impl<'a> PixelPainter<'a> {
             for k in 0..4 {
                 sum[k] += weight * f64::from(value[k]);
             }
-            record.step(|| Step::Texel { tile, at, weight, value });
+            record.step(|| Step::Texel { tile, at, plan: self.texture.centre_of(tile, at), weight, value });
         };
         self.sampler.quads(probes, &mut |Quad { level, at: (column, row), shares, weight, .. }| {
             let (key, (c, r)) = self.sampler.tile_of(level, column, row);

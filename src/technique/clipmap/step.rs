@@ -42,6 +42,8 @@ pub enum Step {
         tile: TileKey,
         /// Its column and row in the tile.
         at: (usize, usize),
+        /// The plan point of its centre.
+        plan: Plan,
         /// Its weight among all that the pixel reads.
         weight: f64,
         /// What it holds: premultiplied paint.
@@ -53,6 +55,22 @@ pub enum Step {
     Ground(Paint),
     /// The pixel's paint.
     Composed(Paint),
+}
+
+impl crate::technique::Step for Step {
+    fn section(&self) -> &'static str {
+        match self {
+            Self::Texel { .. } => "3, 4",
+            _ => "2",
+        }
+    }
+
+    fn place(&self) -> Option<Plan> {
+        match self {
+            Self::Seen { plan, .. } | Self::Texel { plan, .. } => Some(*plan),
+            _ => None,
+        }
+    }
 }
 
 impl fmt::Display for Step {
@@ -69,7 +87,7 @@ impl fmt::Display for Step {
             }
             Self::Level { level, is_fallback: false } => write!(f, "level {level}"),
             Self::Level { level, is_fallback: true } => write!(f, "level {level}: no finer one is at hand"),
-            Self::Texel { tile, at: (x, y), weight, value } => {
+            Self::Texel { tile, at: (x, y), weight, value, .. } => {
                 let TileKey { level, row, column } = tile;
                 write!(f, "texel {x},{y} of tile {column},{row} of level {level}: {weight:.4} times ")?;
                 write!(f, "{}", Paint(value.map(f64::from)))

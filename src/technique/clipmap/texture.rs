@@ -77,6 +77,13 @@ impl VirtualTexture {
         Plan::new(self.corner.x + at.x * texel, self.corner.y - at.y * texel)
     }
 
+    /// The plan point of the centre of a tile's texel (column, row).
+    pub fn centre_of(&self, tile: TileKey, (column, row): (usize, usize)) -> Plan {
+        let side = self.tile_size(tile.level) as f64;
+        let along = |tile: u32, texel: usize| f64::from(tile) * side + texel as f64 + 0.5;
+        self.plan(tile.level, Texel::new(along(tile.column, column), along(tile.row, row)))
+    }
+
     /// The square that it covers.
     pub fn bounds(&self) -> PlanBox {
         PlanBox {

@@ -54,6 +54,31 @@ pub enum Verdict {
     Thin,
 }
 
+impl crate::technique::Step for Step {
+    fn section(&self) -> &'static str {
+        match self {
+            Self::Sky | Self::Paint(_) => "4.4.2",
+            Self::Ground { .. } => "4.3.2, Eqs. 4.1, 4.2",
+            Self::Tested { verdict: Verdict::Thin, .. } => "4.5",
+            Self::Tested { .. } => "4.3.2",
+            Self::Composed(_) => "4.3.3, 4.4.2",
+            Self::Smoothed(_) => "3.5, 4.5",
+        }
+    }
+
+    fn place(&self) -> Option<Plan> {
+        if let Self::Ground { plan, .. } = self { Some(*plan) } else { None }
+    }
+
+    fn items(&self) -> Vec<u32> {
+        match self {
+            Self::Tested { item, .. } => vec![*item],
+            Self::Composed(items) => items.iter().map(|(item, _)| *item).collect(),
+            _ => Vec::new(),
+        }
+    }
+}
+
 impl fmt::Display for Step {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {

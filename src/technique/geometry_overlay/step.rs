@@ -40,6 +40,23 @@ pub enum Step {
     Color(Paint),
 }
 
+impl crate::technique::Step for Step {
+    fn section(&self) -> &'static str {
+        match self {
+            Self::Fragment { .. } => "3.2.1, Algorithm 1",
+            _ => "3.2.1",
+        }
+    }
+
+    fn place(&self) -> Option<Plan> {
+        if let Self::Surface { plan, .. } = self { Some(*plan) } else { None }
+    }
+
+    fn items(&self) -> Vec<u32> {
+        if let Self::Fragment { item, .. } = self { vec![*item] } else { Vec::new() }
+    }
+}
+
 impl fmt::Display for Step {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {

@@ -76,6 +76,36 @@ pub struct EdgeOf {
     pub to: Plan,
 }
 
+impl crate::technique::Step for Step {
+    fn section(&self) -> &'static str {
+        match self {
+            Self::Sky | Self::Ground { .. } | Self::Range(_) | Self::Refused(_) => "3.2",
+            Self::NearEdges(_) | Self::Class(_) => "3.3",
+            Self::Areas { .. } => "3.5",
+            Self::Sample { .. } => "3.4, 3.5",
+            Self::Mean(_) => "3.4",
+        }
+    }
+
+    fn place(&self) -> Option<Plan> {
+        match self {
+            Self::Ground { plan, .. } => Some(*plan),
+            Self::Sample { at, .. } => Some(*at),
+            _ => None,
+        }
+    }
+
+    fn items(&self) -> Vec<u32> {
+        let of = |areas: &[AreaId]| areas.iter().map(|area| area.item()).collect();
+        match self {
+            Self::NearEdges(edges) => edges.iter().map(|edge| edge.area.item()).collect(),
+            Self::Areas { whole, partly } => of(&[&whole[..], partly].concat()),
+            Self::Sample { within, .. } => of(within),
+            _ => Vec::new(),
+        }
+    }
+}
+
 impl fmt::Display for Step {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {

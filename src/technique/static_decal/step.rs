@@ -54,6 +54,28 @@ pub enum Step {
     Mean(Paint),
 }
 
+impl crate::technique::Step for Step {
+    fn section(&self) -> &'static str {
+        match self {
+            Self::Sky { .. } | Self::Hit { .. } => "4.4.1",
+            Self::Sample { .. } => "4.4.1, Eqs. 4.3, 4.4",
+            Self::Search { .. } => "3.4.1, Algorithm 3.5",
+            Self::Share { .. } | Self::Mean(_) => "4.5",
+        }
+    }
+
+    fn place(&self) -> Option<Plan> {
+        if let Self::Sample { plan, .. } = self { Some(*plan) } else { None }
+    }
+
+    fn items(&self) -> Vec<u32> {
+        match self {
+            Self::Hit { item, .. } | Self::Share { item, .. } => vec![*item],
+            _ => Vec::new(),
+        }
+    }
+}
+
 impl fmt::Display for Step {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {

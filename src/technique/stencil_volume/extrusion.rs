@@ -115,6 +115,11 @@ impl<'l> Extrusion<'l> {
         piece.into_iter().chain(rings)
     }
 
+    /// The object that a volume was made for: its own, or what it is cut to.
+    pub fn object_of(&self, volume: u32) -> u32 {
+        self.objects.partition_point(|object| object.volumes.end <= volume) as u32
+    }
+
     /// Which counts of an object are inside.
     pub fn rule_of(&self, object: u32) -> Rule {
         let style = self.list.style_of(object);

@@ -148,7 +148,8 @@ fn sample<R: Record<Step>>(
     let paint = painted.unwrap_or_else(|| context.ground_paint(last, seen_at));
     tile.record.step(|| {
         let triangle = context.sight.triangle(seen_at.0, seen_at.1);
-        Step::Sample { sample: [c, r], triangle: (triangle != SKY).then_some(triangle), paint }
+        let plan = context.sight.hit(seen_at.0, seen_at.1).map(|hit| hit.plan);
+        Step::Sample { sample: [c, r], triangle: (triangle != SKY).then_some(triangle), plan, paint }
     });
     (paint, painted.is_some())
 }

@@ -87,7 +87,8 @@ impl<R: Record<Step>> Tile<'_, R> {
             }
             tile.record.step(|| {
                 let sample = sample_of(&tile.blocks, at);
-                Step::Mask { sample, pass: entry.pass, value, paint: is_painted.then_some(paint) }
+                let items = tile.context.extrusion.passes[entry.pass as usize].objects.clone();
+                Step::Mask { sample, pass: entry.pass, items, value, paint: is_painted.then_some(paint) }
             });
         });
     }
@@ -185,7 +186,9 @@ impl<R: Record<Step>> Tile<'_, R> {
         self.record.step(|| Step::Crossing {
             sample: sample_of(&self.blocks, at),
             pass: entry.pass,
+            item: self.context.extrusion.object_of(entry.volume),
             volume: entry.volume,
+            is_z_fail: method == Method::ZFail,
             is_front: fragment.facing > 0,
             is_behind: fragment.is_behind,
             step,

@@ -1,6 +1,7 @@
 //! The steps on the way to a pixel's colour.
 
 use crate::resolve::Paint;
+use crate::space::Plan;
 use std::fmt;
 
 /// A step on the way to a pixel's colour. Samples are counted in the pixel: column and row of n x n. Passes, volumes: as the technique
@@ -13,8 +14,12 @@ pub enum Step {
         sample: [usize; 2],
         /// The pass that the volume belongs to.
         pass: u32,
+        /// The item that is extruded to it.
+        item: u32,
         /// The volume.
         volume: u32,
+        /// Whether faces behind the surface are counted (z-fail), for the eye may be in it; else those before it (z-pass).
+        is_z_fail: bool,
         /// Whether the volume is entered there.
         is_front: bool,
         /// Whether the face lies behind the surface point: the depth test fails.
@@ -39,6 +44,8 @@ pub enum Step {
         sample: [usize; 2],
         /// The pass.
         pass: u32,
+        /// The items that share it.
+        items: Vec<u32>,
         /// The count, which becomes zero.
         value: u16,
         /// What the sample is painted with; `None`: the stencil test fails, or the outline is cut off here.
@@ -50,6 +57,8 @@ pub enum Step {
         sample: [usize; 2],
         /// The triangle that it sees; `None`: the sky.
         triangle: Option<u32>,
+        /// The plan point that it sees.
+        plan: Option<Plan>,
         /// Its paint.
         paint: Paint,
     },
@@ -57,33 +66,57 @@ pub enum Step {
     Mean(Paint),
 }
 
+impl crate::technique::Step for Step {
+    fn section(&self) -> &'static str {
+        match self {
+            Self::Crossing { .. } => "3.1, 4.2.1",
+            Self::Cut { .. } => "4.1",
+            Self::Mask { .. } => "4.2.2",
+            Self::Sample { .. } | Self::Mean(_) => "4.2.2",
+        }
+    }
+
+    fn place(&self) -> Option<Plan> {
+        if let Self::Sample { plan, .. } = self { *plan } else { None }
+    }
+
+    fn items(&self) -> Vec<u32> {
+        match self {
+            Self::Crossing { item, .. } => vec![*item],
+            Self::Mask { items, .. } => items.clone(),
+            _ => Vec::new(),
+        }
+    }
+}
+
 impl fmt::Display for Step {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
-            Self::Crossing { sample: [x, y], pass, volume, is_front, is_behind, step, count } => {
+            Self::Crossing { sample: [x, y], pass, volume, is_z_fail, is_front, is_behind, step, count, .. } => {
                 let face = if *is_front { "front" } else { "back" };
                 let place = if *is_behind { "behind" } else { "before" };
                 write!(
                     f,
                     "sample {x},{y}: pass {pass}: a {face} face of volume {volume} lies {place} the surface: "
                 )?;
-                write!(f, "{step:+}, the count is {count}")
+                let method = if *is_z_fail { "z-fail" } else { "z-pass" };
+                write!(f, "{step:+} by {method}, the count is {count}")
             }
             Self::Cut { sample: [x, y], value, is_inside } => {
                 let place = if *is_inside { "inside" } else { "outside" };
                 write!(f, "sample {x},{y}: {place} the outline's polygon, whose count is {value}")
             }
-            Self::Mask { sample: [x, y], pass, value, paint } => {
+            Self::Mask { sample: [x, y], pass, value, paint, .. } => {
                 write!(f, "sample {x},{y}: the mask of pass {pass} is {value}: ")?;
                 match paint {
                     Some(paint) => write!(f, "painted with {paint}"),
                     None => f.write_str("not painted"),
                 }
             }
-            Self::Sample { sample: [x, y], triangle: Some(triangle), paint } => {
+            Self::Sample { sample: [x, y], triangle: Some(triangle), paint, .. } => {
                 write!(f, "sample {x},{y} of triangle {triangle} is {paint}")
             }
-            Self::Sample { sample: [x, y], triangle: None, paint } => {
+            Self::Sample { sample: [x, y], triangle: None, paint, .. } => {
                 write!(f, "sample {x},{y} of the sky is {paint}")
             }
             Self::Mean(paint) => write!(f, "the mean of the samples is {paint}"),

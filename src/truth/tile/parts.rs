@@ -37,6 +37,8 @@ impl Work<'_> {
         let mut whole = Whole::default();
         self.part(pixel, ([0.0, 0.0], 1.0), leaves, &mut whole);
         (self.facets, self.boxes) = kept;
+        // What is in it is of the last part's triangles.
+        self.sight.clear();
         self.smallest = SMALLEST;
         let index = y * self.size[0] + x;
         self.out.colors[index] = whole.sum.colors(&self.setting.compositor);
