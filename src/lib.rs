@@ -66,6 +66,8 @@ pub mod decal;
 pub mod draw_list;
 mod error;
 #[cfg(feature = "render")]
+pub mod explain;
+#[cfg(feature = "render")]
 pub mod export;
 #[cfg(feature = "render")]
 pub(crate) mod footprint;

@@ -226,6 +226,30 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "buffer",
         ],
     ),
+    // Single pixels: what is there, as the truth and supersampling see it, and what techniques did.
+    (
+        "explain",
+        &[
+            "open",
+            "technique",
+            "canvas",
+            "truth",
+            "sampling",
+            "footprint",
+            "visibility",
+            "resolve",
+            "stage",
+            "draw_list",
+            "terrain",
+            "scene_file",
+            "scene",
+            "space",
+            "compare",
+            "output",
+            "parallel",
+            "buffer",
+        ],
+    ),
     // Drafts of scenes, whoever draws and judges them.
     ("reduce", &["scene_file", "scene", "space"]),
     // The judge and what is shown to it: all that draws.

@@ -9,6 +9,7 @@ mod columns;
 mod compare;
 mod completions;
 mod device_argument;
+mod explain;
 mod export;
 mod golden;
 mod info;
@@ -41,6 +42,7 @@ Examples:
   drapery compare expected.png actual.png --tolerance 1/255
   drapery compare bundle my-frames                 is what my program drew from the bundle right?
   drapery export scene.toml -t clipmap -o bundle   mesh, features, matrices, pictures for a GPU client
+  drapery explain scene.toml --pixel 640,420       why this pixel has its colour
   drapery golden check
   drapery schema > scene.schema.json               for completion in an editor
 
@@ -71,6 +73,8 @@ enum Command {
     New(new::Arguments),
     /// Write a scene and its pictures for a program on a graphics processor that is to draw the same.
     Export(export::Arguments),
+    /// Tell why a pixel has its colour.
+    Explain(explain::Arguments),
     /// Find out how a graphics processor rounds, so that it can be imitated.
     Calibrate(calibrate::Arguments),
     /// Judge a frame by a bundle, or a picture by another.
@@ -110,6 +114,7 @@ fn run(command: Command) -> Outcome {
         Command::Render(arguments) => render::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
+        Command::Explain(arguments) => explain::run(&arguments),
         Command::Calibrate(arguments) => calibrate::run(&arguments),
         Command::New(arguments) => new::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),

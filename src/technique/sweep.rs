@@ -16,6 +16,8 @@ pub struct Sweep {
     pub crossed: &'static [Axis],
     /// One at a time, all else as in the scene.
     pub alone: &'static [Axis],
+    /// What is tried at a pixel that is explained: what may bring it nearer to the truth.
+    pub remedies: Axis,
 }
 
 /// The machines that are imitated: single precision, then what graphics processors add to it.

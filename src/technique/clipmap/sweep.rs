@@ -19,6 +19,7 @@ pub(super) const SWEEP: Sweep = Sweep {
         FILTER_BITS,
         MACHINES,
     ],
+    remedies: REMEDIES,
 };
 
 const ANISOTROPY: Axis = &[
@@ -95,3 +96,15 @@ const TEXEL: Axis = &[&["technique.clipmap.texel=unorm8"]];
 
 /// What graphics processors have.
 const FILTER_BITS: Axis = &[&["device.filter_bits=8"]];
+
+const REMEDIES: Axis = &[
+    &["technique.clipmap.virtual_size=1048576"],
+    &[
+        "technique.clipmap.polygons=exact",
+        "technique.clipmap.joints=style",
+        "technique.clipmap.overlaps=once",
+        "technique.clipmap.threshold_texels=0",
+    ],
+    &["technique.clipmap.anisotropy=64"],
+    &["technique.clipmap.level_bias=-1"],
+];

@@ -5,6 +5,7 @@ use crate::technique::sweep::{Axis, MACHINES, Sweep};
 pub(super) const SWEEP: Sweep = Sweep {
     crossed: &[SIMPLIFICATION, ANTIALIASING],
     alone: &[THIN_LINES, BOXES, CULLING, CORNERS, SORTING, OVERLAPS, L_MAX, MACHINES],
+    remedies: REMEDIES,
 };
 
 const SIMPLIFICATION: Axis = &[
@@ -35,3 +36,14 @@ const SORTING: Axis = &[&["technique.dynamic-line.sorting=none"]];
 const OVERLAPS: Axis = &[&["technique.dynamic-line.overlaps=double"]];
 
 const L_MAX: Axis = &[&["technique.dynamic-line.l_max=10"], &["technique.dynamic-line.l_max=1000"]];
+
+const REMEDIES: Axis = &[
+    &["technique.dynamic-line.antialiasing=none"],
+    &["technique.dynamic-line.antialiasing=analytic"],
+    &[
+        "technique.dynamic-line.boxes=enclosing",
+        "technique.dynamic-line.culling=boxes",
+        "technique.dynamic-line.simplification=none",
+        "technique.dynamic-line.thin_lines=none",
+    ],
+];

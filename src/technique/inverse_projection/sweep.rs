@@ -3,7 +3,9 @@
 use crate::technique::sweep::{Axis, MACHINES, Sweep};
 
 pub(super) const SWEEP: Sweep =
-    Sweep { crossed: &[SAMPLES, CORNERS], alone: &[POINT_IN_POLYGON, SILHOUETTE, MACHINES] };
+    Sweep { crossed: &[SAMPLES, CORNERS], alone: &[POINT_IN_POLYGON, SILHOUETTE, MACHINES],
+    remedies: REMEDIES,
+};
 
 const SAMPLES: Axis = &[
     &["technique.inverse-projection.samples=1"],
@@ -25,3 +27,10 @@ const CORNERS: Axis = &[
 const POINT_IN_POLYGON: Axis = &[&["technique.inverse-projection.point_in_polygon=winding"]];
 
 const SILHOUETTE: Axis = &[&["technique.inverse-projection.silhouette=smear"]];
+
+const REMEDIES: Axis = &[
+    &["technique.inverse-projection.corners=\"true\""],
+    &["technique.inverse-projection.corners=\"true\"", "technique.inverse-projection.samples=16"],
+    &["technique.inverse-projection.point_in_polygon=winding"],
+    &["technique.inverse-projection.silhouette=smear"],
+];

@@ -4,7 +4,9 @@
 use crate::technique::sweep::{Axis, MACHINES, Sweep};
 
 pub(super) const SWEEP: Sweep =
-    Sweep { crossed: &[SAMPLES, JOINS], alone: &[GRID, LEAF_CAPACITY, DEPTH, HIERARCHY, EDGES, MACHINES] };
+    Sweep { crossed: &[SAMPLES, JOINS], alone: &[GRID, LEAF_CAPACITY, DEPTH, HIERARCHY, EDGES, MACHINES],
+    remedies: REMEDIES,
+};
 
 const SAMPLES: Axis = &[
     &["technique.static-decal.samples=1"],
@@ -30,3 +32,9 @@ const HIERARCHY: Axis =
     &[&["technique.static-decal.hierarchy=wide"], &["technique.static-decal.hierarchy=curve"]];
 
 const EDGES: Axis = &[&["technique.static-decal.edges=analytic"]];
+
+const REMEDIES: Axis = &[
+    &["technique.static-decal.samples=256"],
+    &["technique.static-decal.edges=analytic"],
+    &["technique.static-decal.joins=style", "technique.static-decal.outlines=polygon"],
+];

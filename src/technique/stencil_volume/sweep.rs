@@ -4,7 +4,9 @@
 use crate::technique::sweep::{Axis, MACHINES, Sweep};
 
 pub(super) const SWEEP: Sweep =
-    Sweep { crossed: &[SAMPLES, JOINS], alone: &[METHOD, GROUPING, STENCIL, DEPTH, MACHINES] };
+    Sweep { crossed: &[SAMPLES, JOINS], alone: &[METHOD, GROUPING, STENCIL, DEPTH, MACHINES],
+    remedies: REMEDIES,
+};
 
 const SAMPLES: Axis = &[
     &["technique.stencil-volume.samples=1"],
@@ -28,3 +30,8 @@ const STENCIL: Axis = &[
 ];
 
 const DEPTH: Axis = &[&["device.depth=f32"], &["device.depth=unorm24"], &["device.depth=unorm16"]];
+
+const REMEDIES: Axis = &[
+    &["technique.stencil-volume.samples=4"],
+    &["technique.stencil-volume.samples=4", "technique.stencil-volume.joins=style"],
+];

@@ -1,0 +1,112 @@
+//! `drapery explain [SCENE]`
+
+use super::bar::Bar;
+use super::device_argument::DeviceArgument;
+use super::print::print;
+use super::render::techniques::{self, Name};
+use super::scene_input;
+use super::stop::{Outcome, Status, Stop};
+use super::truth_arguments::TruthArguments;
+use drapery::explain::{self, Account, Asking};
+use drapery::measure::Watch;
+use drapery::output::write_whole;
+use drapery::source::load;
+use drapery::technique::Kind;
+use drapery::{Error, Result, parallel};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+const EXAMPLES: &str = "\
+Examples:
+  drapery explain --pixel 640,420                          why a pixel of the built-in scene has its colour
+  drapery explain scene.toml --pixel 12,30 -t clipmap      what one technique did there
+  drapery explain scene.toml --pixel 12,30 --html why.html the pixel under the microscope, as a page
+  drapery explain scene.toml --pixel 12,30 --feature A1    why the road A1 is not there
+  drapery explain scene.toml --pixel 12,30 --json - | jq .truth
+
+--feature takes a layer's name, LAYER/NUMBER, or what any column of a file says.";
+
+#[derive(Debug, clap::Args)]
+#[command(after_long_help = EXAMPLES)]
+pub(super) struct Arguments {
+    /// The scene file, `-` for stdin; without it, a built-in generated scene.
+    scene: Option<PathBuf>,
+    /// The pixel: column and row, from 0 at the upper left.
+    #[arg(long, value_name = "X,Y", value_parser = pixel)]
+    pixel: [usize; 2],
+    /// A technique to ask; may be repeated. Default: all that draw the scene.
+    #[arg(short, long = "technique", value_name = "T")]
+    techniques: Vec<Name>,
+    /// A feature to look for: a layer, LAYER/NUMBER, or what a column says.
+    #[arg(long, value_name = "NAME")]
+    feature: Option<String>,
+    /// Write all of it as JSON; `-`: on stdout in place of the text.
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// Change the scene: a dotted path and a TOML value; may be repeated. No value removes the key.
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    overrides: Vec<String>,
+    /// How many threads; 0: as many as the machine has.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    threads: usize,
+    #[command(flatten)]
+    device: DeviceArgument,
+    #[command(flatten)]
+    truth: TruthArguments,
+}
+
+fn pixel(text: &str) -> std::result::Result<[usize; 2], String> {
+    let numbers = text.split_once(',').and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]));
+    numbers.ok_or_else(|| "a pixel is a column and a row, such as 640,420".into())
+}
+
+pub(super) fn run(arguments: &Arguments) -> Outcome {
+    let kinds = kinds(&arguments.techniques)?;
+    let budget = arguments.truth.budget()?;
+    let changes = arguments.device.before(&arguments.overrides)?;
+    let text = scene_input::read(arguments.scene.as_deref(), &changes)?;
+    let bar = Bar::new();
+    let answer = || -> Result<Account> {
+        let mut scene = scene_input::open(&text, &bar)?;
+        let attributes = load::attributes(&text.file, &|told| bar.note(told));
+        let feature = arguments.feature.as_deref();
+        let asking = Asking { kinds: kinds.as_deref(), feature, attributes: &attributes, budget };
+        bar.start("explaining");
+        explain::pixel(&mut scene, &asking, arguments.pixel)
+    };
+    let account = parallel::with_threads(arguments.threads, answer)?;
+    let account = account.map_err(|error| scene_input::blame(&text, error))?;
+    drop(bar);
+    write(arguments, &account)
+}
+
+fn write(arguments: &Arguments, account: &Account) -> Outcome {
+    let json = || {
+        let text = serde_json::to_string_pretty(&account.document());
+        text.map(|text| text + "\n").map_err(|error| Error::internal("an account is no JSON").caused_by(error))
+    };
+    match arguments.json.as_deref() {
+        Some(path) if path == Path::new("-") => return print(&json()?),
+        Some(path) => {
+            let text = json()?;
+            write_whole(path, |to: &mut dyn Write| to.write_all(text.as_bytes()))?;
+        }
+        None => {}
+    }
+    match print(&account.text()) {
+        Ok(_) | Err(Stop::PipeClosed) => Ok(Status::Passed),
+        Err(stop) => Err(stop),
+    }
+}
+
+/// The techniques that are asked for, each once; `None`: all.
+fn kinds(names: &[Name]) -> Result<Option<Vec<Kind>>> {
+    let mut kinds = Vec::new();
+    for name in names.iter().filter(|name| **name != Name::Truth) {
+        let kind = techniques::built(*name)?;
+        if !kinds.contains(&kind) {
+            kinds.push(kind);
+        }
+    }
+    Ok((!names.is_empty()).then_some(kinds))
+}

@@ -1,0 +1,117 @@
+//! An account as a person reads it in a terminal.
+
+use super::absence::percent;
+use super::account::{Account, ByTechnique, Centre, Covering, Right, Step, color_of, hex};
+use super::margin::short;
+use std::fmt::{self, Write};
+
+impl Account {
+    /// The account in lines.
+    pub fn text(&self) -> String {
+        let mut text = String::new();
+        // Writing into a text cannot fail.
+        let _ = self.write(&mut text);
+        text
+    }
+
+    fn write(&self, to: &mut String) -> fmt::Result {
+        let [x, y] = self.pixel;
+        writeln!(to, "pixel {x},{y}")?;
+        self.write_sight(to)?;
+        writeln!(to, "\nright: {}", right(&self.truth))?;
+        self.covering.iter().try_for_each(|covering| writeln!(to, "  {}", covered(covering)))?;
+        if self.others > 0.0 {
+            writeln!(to, "  others cover up to {:.2} %", 100.0 * self.others)?;
+        }
+        if !self.ladder.is_empty() {
+            writeln!(to, "\nat its centre, from the ground up:")?;
+        }
+        for rung in &self.ladder {
+            writeln!(to, "  {}  {} {}", hex(rung.after), rung.name, hex(rung.color))?;
+        }
+        if let Some(feature) = &self.feature {
+            let verdict = if feature.shows { "shows here" } else { "does not show here" };
+            writeln!(to, "\n`{}` {verdict}:", feature.asked)?;
+            feature.reasons.iter().try_for_each(|reason| writeln!(to, "  {reason}"))?;
+        }
+        self.techniques.iter().try_for_each(|by| write_technique(by, to))?;
+        for left_out in &self.left_out {
+            writeln!(to, "\n{} is left out: {}", left_out.technique, left_out.reason)?;
+        }
+        Ok(())
+    }
+
+    fn write_sight(&self, to: &mut String) -> fmt::Result {
+        let ([a, b, c], [u, v, w]) = (self.ray.from, self.ray.direction);
+        writeln!(to, "its line of sight: from ({a:.3}, {b:.3}, {c:.3}) along ({u:.6}, {v:.6}, {w:.6})")?;
+        match &self.centre {
+            Some(centre) => write_centre(centre, to)?,
+            None => writeln!(to, "its centre sees the sky")?,
+        }
+        let own = self.scenery.pieces.iter().filter(|piece| piece.share > 0.0);
+        let pieces: Vec<String> = own
+            .map(|piece| {
+                let what = piece.triangle.map_or("the sky".into(), |id| format!("triangle {id}"));
+                format!("{what} {:.2} %", 100.0 * piece.share)
+            })
+            .collect();
+        writeln!(to, "it sees {}", if pieces.is_empty() { "too many triangles to tell".into() } else { pieces.join(", ") })
+    }
+}
+
+fn write_centre(centre: &Centre, to: &mut String) -> fmt::Result {
+    let Centre { triangle, plan: [x, y], world: [.., z], depth, .. } = centre;
+    writeln!(to, "its centre sees triangle {triangle} at plan ({x:.3}, {y:.3}), height {z:.3}, {depth:.3} m deep")?;
+    if let Some([dx, dy]) = centre.pixel {
+        let length = |[x, y]: [f64; 2]| short((x * x + y * y).sqrt());
+        writeln!(to, "a pixel there is {} m to the right and {} m down, in the plan", length(dx), length(dy))?;
+    }
+    centre.margins.iter().try_for_each(|margin| writeln!(to, "its centre is {}", margin.text()))
+}
+
+/// The right colour in words.
+pub(super) fn right(truth: &Right) -> String {
+    let codes = |of: [f64; 4]| of.map(|v| format!("{:.3}", v * 255.0)).join(" ");
+    let width = short(255.0 * truth.width());
+    format!(
+        "{} between [{}] and [{}] of 255, {width} wide",
+        hex(truth.estimate),
+        codes(truth.low),
+        codes(truth.high)
+    )
+}
+
+/// What an item covers, in words.
+pub(super) fn covered(covering: &Covering) -> String {
+    format!("{} covers {}  {}", covering.name, percent(covering.low, covering.high), hex(covering.color))
+}
+
+/// How far a technique's colour is from the truth, in words.
+pub(super) fn distance(error: f64) -> String {
+    match 255.0 * error {
+        codes if codes <= 0.0 => "right".into(),
+        codes if codes <= 0.5 => "right but for rounding".into(),
+        codes => format!("off by {} codes of 255", short(codes)),
+    }
+}
+
+fn write_technique(by: &ByTechnique, to: &mut String) -> fmt::Result {
+    writeln!(to, "\n{}: {}, {}", by.technique, hex(color_of(by.code)), distance(by.error))?;
+    writeln!(to, "  {}", by.paper)?;
+    by.steps.iter().try_for_each(|step| write_step(step, to))?;
+    for tried in &by.tried {
+        let verdict = match tried.error < by.error {
+            true => "nearer",
+            false if tried.error > by.error => "farther",
+            false => "as far",
+        };
+        let changes = tried.changes.join(" ");
+        writeln!(to, "  with {changes}: {}, {} ({verdict})", hex(color_of(tried.code)), distance(tried.error))?;
+    }
+    Ok(())
+}
+
+fn write_step(step: &Step, to: &mut String) -> fmt::Result {
+    writeln!(to, "  {:<22} {}", step.section, step.text)?;
+    step.margins.iter().try_for_each(|margin| writeln!(to, "  {:<22}   it is {}", "", margin.text()))
+}
