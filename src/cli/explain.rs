@@ -56,7 +56,8 @@ pub(super) struct Arguments {
 }
 
 fn pixel(text: &str) -> std::result::Result<[usize; 2], String> {
-    let numbers = text.split_once(',').and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]));
+    let numbers =
+        text.split_once(',').and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]));
     numbers.ok_or_else(|| "a pixel is a column and a row, such as 640,420".into())
 }
 
@@ -83,7 +84,8 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
 fn write(arguments: &Arguments, account: &Account) -> Outcome {
     let json = || {
         let text = serde_json::to_string_pretty(&account.document());
-        text.map(|text| text + "\n").map_err(|error| Error::internal("an account is no JSON").caused_by(error))
+        text.map(|text| text + "\n")
+            .map_err(|error| Error::internal("an account is no JSON").caused_by(error))
     };
     match arguments.json.as_deref() {
         Some(path) if path == Path::new("-") => return print(&json()?),

@@ -29,7 +29,8 @@ pub(super) fn presence(bench: &Bench, near: &Near, wanted: &Wanted, account: &Ac
     }
     if wanted.items.is_empty() {
         reasons.push(
-            "nothing of it is drawn: its layer's style, `where` or the terrain's extent leaves nothing".to_owned(),
+            "nothing of it is drawn: its layer's style, `where` or the terrain's extent leaves nothing"
+                .to_owned(),
         );
     } else if here.is_empty() {
         not_here(bench, near, wanted, &mut reasons);
@@ -51,7 +52,10 @@ fn said_of_one_here(bench: &Bench, item: u32, account: &Account, reasons: &mut V
     let above: Vec<_> = above.collect();
     for other in above.iter().take(MOST_ITEMS) {
         let share = percent(other.low, other.high);
-        reasons.push(format!("{}, which is drawn over it, is opaque and covers {share} of the pixel", other.name));
+        reasons.push(format!(
+            "{}, which is drawn over it, is opaque and covers {share} of the pixel",
+            other.name
+        ));
     }
     if bench.paint_of(item).0[3] == 0.0 {
         reasons.push(format!("{name} is wholly transparent"));
@@ -120,12 +124,15 @@ fn nearest_on(path: &[Plan], chain: &Chain, to: Plan) -> (f64, Plan) {
     if chain.segments() == 0 {
         return start;
     }
-    path.windows(2).map(|pair| on(pair[0], pair[1])).fold(start, |best, one| if one.0 < best.0 { one } else { best })
+    path.windows(2)
+        .map(|pair| on(pair[0], pair[1]))
+        .fold(start, |best, one| if one.0 < best.0 { one } else { best })
 }
 
 /// A direction of the plan in words.
 fn compass(way: DVec2) -> &'static str {
-    const NAMES: [&str; 8] = ["east", "north-east", "north", "north-west", "west", "south-west", "south", "south-east"];
+    const NAMES: [&str; 8] =
+        ["east", "north-east", "north", "north-west", "west", "south-west", "south", "south-east"];
     let turn = crate::math::atan2(way.y, way.x) / std::f64::consts::TAU * 8.0;
     NAMES[(turn.round() as i64).rem_euclid(8) as usize]
 }
@@ -137,7 +144,8 @@ fn whereabouts(bench: &Bench, at: Plan) -> String {
     };
     let world = World::new(at.x, at.y, height);
     let (depth, view) = (bench.view.depth(world), bench.view);
-    let Some(screen) = view.screen_from_world(world).filter(|_| depth >= view.near() && depth < view.far()) else {
+    let Some(screen) = view.screen_from_world(world).filter(|_| depth >= view.near() && depth < view.far())
+    else {
         return "lies behind the camera or beyond its planes".into();
     };
     let Screen { x, y } = screen;

@@ -1,7 +1,8 @@
 //! What is told of a pixel, as data.
 
-use super::margin::Margin;
+use super::margin::{Margin, Silhouette};
 use super::scenery::Scenery;
+use crate::buffer::Buffer;
 use serde::Serialize;
 
 /// The version of the JSON document.
@@ -30,6 +31,9 @@ pub struct Account {
     pub techniques: Vec<ByTechnique>,
     /// Techniques that do not draw the scene, and why.
     pub left_out: Vec<LeftOut>,
+    /// The pixel and half a pixel around it through a microscope, where that was asked for.
+    #[serde(skip)]
+    pub close_up: Option<Buffer<[u8; 4]>>,
     /// Why the features that were asked for are not there, or that they are.
     pub feature: Option<Presence>,
 }
@@ -72,6 +76,8 @@ pub struct Centre {
     pub pixel: Option<[[f64; 2]; 2]>,
     /// The nearest borders of items.
     pub margins: Vec<Margin>,
+    /// The nearest silhouette.
+    pub silhouette: Option<Silhouette>,
 }
 
 /// What an item covers of a pixel, as shares of its area.
@@ -156,6 +162,8 @@ pub struct Step {
     pub screen: Option<[f64; 2]>,
     /// The nearest borders of items.
     pub margins: Vec<Margin>,
+    /// The nearest silhouette.
+    pub silhouette: Option<Silhouette>,
 }
 
 /// Other settings, and what they make of the pixel.

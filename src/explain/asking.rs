@@ -4,7 +4,7 @@ use super::absence::presence;
 use super::account::{Account, Centre, Covering, Ray, Right};
 use super::bench::{Bench, Near, Seen};
 use super::ladder::ladder;
-use super::margin::margins;
+use super::margin::{margins, silhouette};
 use super::names::Names;
 use super::scenery::Scenery;
 use super::search::Wanted;
@@ -17,8 +17,8 @@ use crate::stage::Stage;
 use crate::technique::{self, Kind};
 use crate::truth::{Budget, footprints_seen};
 
-/// Borders that are farther from a pixel's centre are not told, pixels; and not more than so many.
-const MARGIN: (f64, usize) = (1.5, 3);
+/// Of a pixel's centre no more margins are told.
+const MOST_MARGINS: usize = 3;
 
 /// What is asked about pixels.
 #[derive(Debug, Clone, Copy)]
@@ -85,7 +85,7 @@ pub(super) fn account(bench: &Bench, near: &Near) -> Account {
     Account {
         pixel: near.pixel,
         ray: ray(bench, middle),
-        centre: seen.as_ref().map(|seen| centre(bench, seen)),
+        centre: seen.as_ref().map(|seen| centre(bench, near, seen)),
         scenery: Scenery::of(bench, near),
         covering: coverage
             .map(|covering| Covering {
@@ -101,6 +101,7 @@ pub(super) fn account(bench: &Bench, near: &Near) -> Account {
         ladder: ladder(bench, near, seen.as_ref()),
         techniques: Vec::new(),
         left_out: Vec::new(),
+        close_up: None,
         feature: None,
     }
 }
@@ -111,10 +112,9 @@ fn ray(bench: &Bench, at: Screen) -> Ray {
     Ray { from: bench.absolute_world(ray.from), direction: direction.to_array() }
 }
 
-fn centre(bench: &Bench, seen: &Seen) -> Centre {
+fn centre(bench: &Bench, near: &Near, seen: &Seen) -> Centre {
     let mut margins = margins(bench, seen);
-    margins.retain(|margin| margin.pixels <= MARGIN.0);
-    margins.truncate(MARGIN.1);
+    margins.truncate(MOST_MARGINS);
     Centre {
         triangle: seen.triangle,
         plan: bench.absolute(seen.hit.plan),
@@ -122,5 +122,6 @@ fn centre(bench: &Bench, seen: &Seen) -> Centre {
         depth: seen.hit.depth,
         pixel: bench.reach(seen).map(|reach| [reach.dx.to_array(), reach.dy.to_array()]),
         margins,
+        silhouette: silhouette(bench, near, seen),
     }
 }

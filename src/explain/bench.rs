@@ -4,7 +4,7 @@ use super::names::Names;
 use crate::canvas::Backdrop;
 use crate::footprint::Footprints;
 use crate::resolve::{Paint, Stack};
-use crate::sampling::Nearby;
+use crate::holding::Nearby;
 use crate::space::{Plan, Screen, ViewFrame, World};
 use crate::stage::Stage;
 use crate::terrain::{Mesh, SKY, SurfaceTriangle};
@@ -48,14 +48,6 @@ pub(super) struct Near {
     pub(super) look: PixelLook,
     /// What it and its neighbours see; its own pieces come first.
     pub(super) pieces: Vec<SeenPiece>,
-}
-
-/// What is where a point of the screen looks.
-pub(super) struct Spot {
-    /// The items there, in draw order.
-    pub(super) items: Vec<u32>,
-    /// The composed paint.
-    pub(super) paint: Paint,
 }
 
 impl<'a> Bench<'a> {
@@ -110,7 +102,7 @@ impl<'a> Bench<'a> {
     }
 
     /// Whether a pixel near sees the sky at a point, as far as is known.
-    pub(super) fn is_sky(near: &Near, at: Screen) -> bool {
+    fn is_sky(near: &Near, at: Screen) -> bool {
         near.pieces.iter().any(|piece| piece.triangle == SKY && holds(&piece.corners, at))
     }
 
@@ -165,15 +157,14 @@ impl<'a> Bench<'a> {
         held.map(|item| item.number).collect()
     }
 
-    /// What is where a point of the screen looks; `None`: that is not known.
-    pub(super) fn spot(&self, near: &Near, at: Screen, room: &mut Nearby) -> Option<Spot> {
+    /// The paint that a point of the screen sees; `None`: that is not known.
+    pub(super) fn spot(&self, near: &Near, at: Screen, room: &mut Nearby) -> Option<Paint> {
         let Some(seen) = self.seen(near, at) else {
-            return Self::is_sky(near, at).then(|| Spot { items: Vec::new(), paint: self.backdrop.sky });
+            return Self::is_sky(near, at).then_some(self.backdrop.sky);
         };
-        let items = self.items_at(&seen, seen.hit.plan, room);
         let mut stack = Stack::on(self.ground(&seen));
-        items.iter().for_each(|item| self.draw(&mut stack, *item));
-        Some(Spot { items, paint: stack.finished() })
+        self.items_at(&seen, seen.hit.plan, room).iter().for_each(|item| self.draw(&mut stack, *item));
+        Some(stack.finished())
     }
 
     /// The terrain's own paint.

@@ -3,7 +3,7 @@
 use super::account::Rung;
 use super::bench::{Bench, Near, Seen};
 use crate::resolve::{Paint, Stack};
-use crate::sampling::Nearby;
+use crate::holding::Nearby;
 
 /// The ladder of what a pixel's centre sees.
 pub(super) fn ladder(bench: &Bench, near: &Near, centre: Option<&Seen>) -> Vec<Rung> {

@@ -1,16 +1,20 @@
 //! How near a decision was: how far a sample lies from where the answer would be another, and which machines may find another.
 
-use super::bench::{Bench, Seen};
+use super::bench::{Bench, Near, Seen};
 use crate::footprint::{HalfPlane, Primitive};
 use crate::math;
-use crate::sampling::Nearby;
+use crate::holding::Nearby;
 use crate::space::{Plan, PlanBox};
+use crate::truth::SeenPiece;
 use crate::visibility::PixelFootprint;
 use glam::{DMat2, DVec2};
 use serde::Serialize;
 
 /// Borders farther away than this are not looked for, pixels.
 const REACH: f64 = 1.5;
+
+/// Surfaces that are no farther apart than this share of their view depth meet.
+const STEP: f64 = 1e-6;
 
 /// A step over a border, pixels: the answer has to be another on its two sides.
 const OVER: f64 = 1e-5;
@@ -35,6 +39,77 @@ pub struct Margin {
     pub flipped_by: Vec<&'static str>,
 }
 
+/// Where something else is seen: a silhouette near a sample.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Silhouette {
+    /// How far it is from the sample on the screen, pixels.
+    pub pixels: f64,
+    /// Where it lies from there.
+    pub toward: &'static str,
+    /// The triangle that is seen beyond; none: the sky.
+    pub triangle: Option<u32>,
+    /// How much deeper what is seen there is, metres; none in the sky.
+    pub deeper: Option<f64>,
+    /// What may flip it.
+    pub flipped_by: Vec<&'static str>,
+}
+
+impl Silhouette {
+    /// It in words.
+    pub fn text(&self) -> String {
+        let beyond = match (self.triangle, self.deeper) {
+            (Some(triangle), Some(deeper)) if deeper < 0.0 => {
+                format!("triangle {triangle}, {} m nearer", short(-deeper))
+            }
+            (Some(triangle), Some(deeper)) => format!("triangle {triangle}, {} m farther", short(deeper)),
+            _ => "the sky".into(),
+        };
+        let flipped = flipped(&self.flipped_by);
+        format!("beyond a silhouette {} px {}, {beyond} is seen{flipped}", short(self.pixels), self.toward)
+    }
+}
+
+/// The silhouette that is nearest to a sample.
+pub(super) fn silhouette(bench: &Bench, near: &Near, seen: &Seen) -> Option<Silhouette> {
+    let mut best: Option<(f64, DVec2, &SeenPiece)> = None;
+    for piece in near.pieces.iter().filter(|piece| piece.triangle != seen.triangle) {
+        for (a, b) in piece.corners.iter().zip(piece.corners.iter().cycle().skip(1)) {
+            of_segment([*a - seen.at, *b - seen.at], &mut |offset, _| {
+                let length = offset.length();
+                let is_nearest = length <= REACH && best.is_none_or(|(known, ..)| length < known);
+                if is_nearest && is_step(bench, seen, piece, offset) {
+                    best = Some((length, offset, piece));
+                }
+            });
+        }
+    }
+    let (pixels, offset, piece) = best?;
+    let (here, beyond) = depths(bench, seen, piece, offset);
+    let along = offset.try_normalize().unwrap_or(DVec2::X).abs();
+    Some(Silhouette {
+        pixels,
+        toward: toward(offset),
+        triangle: beyond.map(|_| piece.triangle),
+        deeper: beyond.zip(here).map(|(beyond, here)| beyond - here),
+        flipped_by: causes(pixels, 0.0, along),
+    })
+}
+
+/// The view depths of a sample's own plane and of another piece's at a point beside the sample; `None`: the sky.
+fn depths(bench: &Bench, seen: &Seen, piece: &SeenPiece, offset: DVec2) -> (Option<f64>, Option<f64>) {
+    let at = seen.at + offset;
+    let depth = |triangle| bench.on_triangle(triangle, at).map(|seen| seen.hit.depth);
+    (depth(seen.triangle), depth(piece.triangle))
+}
+
+/// Whether what is seen jumps between a sample's own plane and another piece there: they do not meet.
+fn is_step(bench: &Bench, seen: &Seen, piece: &SeenPiece, offset: DVec2) -> bool {
+    match depths(bench, seen, piece, offset) {
+        (Some(here), Some(beyond)) => (here - beyond).abs() > STEP * here,
+        _ => true,
+    }
+}
+
 /// A border near a sample.
 struct Border {
     item: u32,
@@ -49,12 +124,14 @@ impl Margin {
     pub fn text(&self) -> String {
         let Self { name, pixels, toward, .. } = self;
         let place = if self.is_inside { "inside" } else { "outside" };
-        let flipped = match self.flipped_by.is_empty() {
-            true => String::new(),
-            false => format!(": {} may flip it", self.flipped_by.join(" or ")),
-        };
+        let flipped = flipped(&self.flipped_by);
         format!("{place} {name}, whose border is {} px {toward}{flipped}", short(*pixels))
     }
+}
+
+/// What may flip a decision, in words.
+fn flipped(by: &[&str]) -> String {
+    if by.is_empty() { String::new() } else { format!(": {} may flip it", by.join(" or ")) }
 }
 
 /// A number with three digits that tell something.
@@ -91,22 +168,22 @@ pub(super) fn margins(bench: &Bench, seen: &Seen) -> Vec<Margin> {
     found
 }
 
-fn margin(
-    bench: &Bench,
-    seen: &Seen,
-    to_pixels: &DMat2,
-    (border, is_inside): (&Border, bool),
-) -> Margin {
+fn margin(bench: &Bench, seen: &Seen, to_pixels: &DMat2, (border, is_inside): (&Border, bool)) -> Margin {
     let pixels = border.offset.length();
-    let along = border.across.abs();
-    // A corner that is rounded to a grid is off by up to half its step in both axes.
-    let snap = |bits: i32| (along.x + along.y) * 0.5 / f64::from(1 << bits);
     let size = seen.hit.plan.to_vec().abs().max_element();
     let single = (to_pixels.x_axis.length() + to_pixels.y_axis.length()) * size * f64::from(f32::EPSILON);
-    let causes = [(single, "single precision"), (snap(8), "a snap to 1/256 px"), (snap(4), "a snap to 1/16 px")];
-    let flipped_by = causes.into_iter().filter(|(by, _)| pixels <= *by).map(|(_, what)| what).collect();
+    let flipped_by = causes(pixels, single, border.across.abs());
     let name = bench.name_of(border.item);
     Margin { item: border.item, name, is_inside, pixels, toward: toward(border.offset), flipped_by }
+}
+
+/// What may move a border across a sample that is so far from it: rounding, by this much, and snaps of corners, across the border.
+fn causes(pixels: f64, single: f64, across: DVec2) -> Vec<&'static str> {
+    // A corner that is rounded to a grid is off by up to half its step in both axes.
+    let snap = |bits: i32| (across.x + across.y) * 0.5 / f64::from(1 << bits);
+    let causes =
+        [(single, "single precision"), (snap(8), "a snap to 1/256 px"), (snap(4), "a snap to 1/16 px")];
+    causes.into_iter().filter(|(by, _)| pixels <= *by).map(|(_, what)| what).collect()
 }
 
 /// A direction on the screen, y down, in words.

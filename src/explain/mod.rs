@@ -7,7 +7,9 @@
 
 mod absence;
 mod account;
+mod asking;
 mod bench;
+mod close_up;
 mod ladder;
 mod margin;
 mod names;
@@ -15,12 +17,11 @@ mod scenery;
 mod search;
 mod techniques;
 mod text;
-mod asking;
 
 pub use account::{
     Account, ByTechnique, Centre, Covering, LeftOut, Presence, Ray, Right, Rung, Step, Tried, color_of, hex,
 };
 pub use asking::{Asking, pixel};
-pub use margin::Margin;
+pub use margin::{Margin, Silhouette};
 pub use names::Names;
 pub use scenery::{Piece, Scenery, Shape};

@@ -1,6 +1,6 @@
 //! What a pixel and its surroundings see, as polygons on the screen and in the plan: of the terrain's triangles, and of items' borders on them.
 
-use super::bench::{Bench, Near, holds, twice_area};
+use super::bench::{Bench, Near, twice_area};
 use crate::footprint::{BorderPart, HalfPlane, Primitive};
 use crate::math;
 use crate::space::{Plan, PlanBox, Screen};
@@ -96,7 +96,8 @@ fn add_shapes(bench: &Bench, (triangle, piece): (u32, &[Plan]), shapes: &mut Vec
         bench.footprints.primitives(part, &mut room);
         for primitive in &room {
             let (is_area, plan) = cut(bench, primitive, (triangle, piece));
-            let screen: Option<Vec<Screen>> = plan.iter().map(|at| bench.screen_over(triangle, *at)).collect();
+            let screen: Option<Vec<Screen>> =
+                plan.iter().map(|at| bench.screen_over(triangle, *at)).collect();
             if let Some(screen) = screen.filter(|screen| screen.len() > 1) {
                 shapes.push(Shape {
                     item: part.item,
@@ -177,7 +178,8 @@ fn clipped(polygon: &[Plan], lines: &[Line]) -> Vec<Plan> {
 
 /// What of a segment lies in a convex polygon.
 fn segment_in(from: Plan, to: Plan, polygon: &[Plan]) -> Vec<Plan> {
-    let turn = polygon.windows(2).map(|pair| (pair[0] - polygon[0]).perp_dot(pair[1] - polygon[0])).sum::<f64>();
+    let turn =
+        polygon.windows(2).map(|pair| (pair[0] - polygon[0]).perp_dot(pair[1] - polygon[0])).sum::<f64>();
     let (mut low, mut high) = (0.0, 1.0);
     for (a, b) in polygon.iter().zip(polygon.iter().cycle().skip(1)) {
         let normal = (*b - *a).perp() * turn.signum();
@@ -190,12 +192,6 @@ fn segment_in(from: Plan, to: Plan, polygon: &[Plan]) -> Vec<Plan> {
         }
     }
     if low < high { vec![from + (to - from) * low, from + (to - from) * high] } else { Vec::new() }
-}
-
-/// Whether a point of the screen lies in a piece.
-pub(super) fn piece_holds(piece: &Piece, at: [f64; 2]) -> bool {
-    let corners: Vec<Screen> = piece.screen.iter().map(|[x, y]| Screen::new(*x, *y)).collect();
-    holds(&corners, Screen::new(at[0], at[1]))
 }
 
 #[cfg(test)]
@@ -221,7 +217,8 @@ mod tests {
     fn a_capsule_has_the_area_of_its_segment_and_disc() {
         let wide = [(-50.0, -50.0), (50.0, -50.0), (50.0, 50.0), (-50.0, 50.0)].map(|(x, y)| Plan::new(x, y));
         let shape = clipped(&wide, &capsule(Plan::new(0.0, 0.0), Plan::new(10.0, 0.0), 2.0));
-        let area: f64 = shape.windows(2).map(|p| (p[0] - shape[0]).perp_dot(p[1] - shape[0])).sum::<f64>() / 2.0;
+        let area: f64 =
+            shape.windows(2).map(|p| (p[0] - shape[0]).perp_dot(p[1] - shape[0])).sum::<f64>() / 2.0;
         let exact = 40.0 + std::f64::consts::PI * 4.0;
         assert!(area >= exact && area < 1.003 * exact, "{area} {exact}");
     }

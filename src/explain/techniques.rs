@@ -2,7 +2,7 @@
 
 use super::account::{Account, ByTechnique, LeftOut, Right, Step, Tried, color_of};
 use super::bench::{Bench, Near};
-use super::margin::margins;
+use super::margin::{margins, silhouette};
 use crate::error::Result;
 use crate::scene_file::SceneText;
 use crate::space::ViewFrame;
@@ -39,7 +39,13 @@ impl<'a> Prepare<'a> {
 }
 
 /// What a technique did at a pixel.
-pub(super) fn told(bench: &Bench, near: &Near, right: &Right, kind: Kind, explained: Explanation) -> ByTechnique {
+pub(super) fn told(
+    bench: &Bench,
+    near: &Near,
+    right: &Right,
+    kind: Kind,
+    explained: Explanation,
+) -> ByTechnique {
     let steps = explained.steps.iter().map(|step| told_step(bench, near, step.as_ref())).collect();
     ByTechnique {
         technique: kind.name(),
@@ -66,6 +72,7 @@ fn told_step(bench: &Bench, near: &Near, step: &dyn technique::Step) -> Step {
         plan: step.place().map(|plan| bench.absolute(plan)),
         screen: seen.map(|seen| [seen.at.x, seen.at.y]),
         margins,
+        silhouette: seen.and_then(|seen| silhouette(bench, near, &seen)).filter(|edge| edge.pixels <= FAR),
     }
 }
 

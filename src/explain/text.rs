@@ -5,6 +5,9 @@ use super::account::{Account, ByTechnique, Centre, Covering, Right, Step, color_
 use super::margin::short;
 use std::fmt::{self, Write};
 
+/// Shares of a pixel below this are not spoken of.
+const MATTERS: f64 = 5e-5;
+
 impl Account {
     /// The account in lines.
     pub fn text(&self) -> String {
@@ -20,7 +23,7 @@ impl Account {
         self.write_sight(to)?;
         writeln!(to, "\nright: {}", right(&self.truth))?;
         self.covering.iter().try_for_each(|covering| writeln!(to, "  {}", covered(covering)))?;
-        if self.others > 0.0 {
+        if self.others > MATTERS {
             writeln!(to, "  others cover up to {:.2} %", 100.0 * self.others)?;
         }
         if !self.ladder.is_empty() {
@@ -55,18 +58,31 @@ impl Account {
                 format!("{what} {:.2} %", 100.0 * piece.share)
             })
             .collect();
-        writeln!(to, "it sees {}", if pieces.is_empty() { "too many triangles to tell".into() } else { pieces.join(", ") })
+        writeln!(
+            to,
+            "it sees {}",
+            if pieces.is_empty() { "too many triangles to tell".into() } else { pieces.join(", ") }
+        )
     }
 }
 
 fn write_centre(centre: &Centre, to: &mut String) -> fmt::Result {
     let Centre { triangle, plan: [x, y], world: [.., z], depth, .. } = centre;
-    writeln!(to, "its centre sees triangle {triangle} at plan ({x:.3}, {y:.3}), height {z:.3}, {depth:.3} m deep")?;
+    writeln!(
+        to,
+        "its centre sees triangle {triangle} at plan ({x:.3}, {y:.3}), height {z:.3}, {depth:.3} m deep"
+    )?;
     if let Some([dx, dy]) = centre.pixel {
         let length = |[x, y]: [f64; 2]| short((x * x + y * y).sqrt());
-        writeln!(to, "a pixel there is {} m to the right and {} m down, in the plan", length(dx), length(dy))?;
+        writeln!(
+            to,
+            "a pixel there is {} m to the right and {} m down, in the plan",
+            length(dx),
+            length(dy)
+        )?;
     }
-    centre.margins.iter().try_for_each(|margin| writeln!(to, "its centre is {}", margin.text()))
+    centre.margins.iter().try_for_each(|margin| writeln!(to, "its centre is {}", margin.text()))?;
+    centre.silhouette.iter().try_for_each(|edge| writeln!(to, "{}", edge.text()))
 }
 
 /// The right colour in words.
@@ -106,12 +122,23 @@ fn write_technique(by: &ByTechnique, to: &mut String) -> fmt::Result {
             false => "as far",
         };
         let changes = tried.changes.join(" ");
-        writeln!(to, "  with {changes}: {}, {} ({verdict})", hex(color_of(tried.code)), distance(tried.error))?;
+        writeln!(
+            to,
+            "  with {changes}: {}, {} ({verdict})",
+            hex(color_of(tried.code)),
+            distance(tried.error)
+        )?;
     }
     Ok(())
 }
 
+/// How near a step's decision was, in words.
+pub(super) fn notes(step: &Step) -> Vec<String> {
+    let margins = step.margins.iter().map(|margin| format!("it is {}", margin.text()));
+    margins.chain(step.silhouette.iter().map(|edge| edge.text())).collect()
+}
+
 fn write_step(step: &Step, to: &mut String) -> fmt::Result {
     writeln!(to, "  {:<22} {}", step.section, step.text)?;
-    step.margins.iter().try_for_each(|margin| writeln!(to, "  {:<22}   it is {}", "", margin.text()))
+    notes(step).iter().try_for_each(|note| writeln!(to, "  {:<22}   {note}", ""))
 }

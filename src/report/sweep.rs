@@ -87,7 +87,11 @@ mod tests {
 
     #[test]
     fn a_sweep_without_lines_is_one_thing_at_a_time() {
-        let sweep = Sweep { crossed: &[], alone: &[&[&["a.b=1"], &["a.b=2"]], &[&["a.c=x", "a.d=y"]]], remedies: &[] };
+        let sweep = Sweep {
+            crossed: &[],
+            alone: &[&[&["a.b=1"], &["a.b=2"]], &[&["a.c=x", "a.d=y"]]],
+            remedies: &[],
+        };
         let changes: Vec<Vec<&str>> = variations(&sweep).into_iter().map(|v| v.changes).collect();
         assert_eq!(changes, [vec![], vec!["a.b=1"], vec!["a.b=2"], vec!["a.c=x", "a.d=y"]]);
     }

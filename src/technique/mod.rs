@@ -63,6 +63,14 @@ pub trait Prepared: Sync {
     /// As [`Prepared::frame`].
     fn steps(&self, view: &ViewFrame, pixel: [usize; 2]) -> Result<Explanation>;
 
+    /// As [`Prepared::steps`], of several pixels: where a view takes a while to set up, that is done once.
+    ///
+    /// # Errors
+    /// As [`Prepared::frame`].
+    fn steps_of_all(&self, view: &ViewFrame, pixels: &[[usize; 2]]) -> Result<Vec<Explanation>> {
+        pixels.iter().map(|pixel| self.steps(view, *pixel)).collect()
+    }
+
     /// Bytes of the structures that the technique built (without the terrain's).
     fn structure_bytes(&self) -> usize;
 }
@@ -97,6 +105,11 @@ impl Explanation {
     fn new<S: Step + 'static>(steps: Vec<S>, code: [u8; 4]) -> Self {
         let boxed = |step| -> Box<dyn Step> { Box::new(step) };
         Self { steps: steps.into_iter().map(boxed).collect(), code }
+    }
+
+    /// Of a technique's own steps at several pixels.
+    fn all<S: Step + 'static>(all: Vec<(Vec<S>, [u8; 4])>) -> Vec<Self> {
+        all.into_iter().map(|(steps, code)| Self::new(steps, code)).collect()
     }
 }
 

@@ -2,12 +2,12 @@
 
 use super::facet::{Facet, Hit};
 use super::knowledge::Pixel;
+use super::look::{PixelLook, SeenPiece};
 use super::outcome::Sample;
 use super::polygon::{self, Pieces};
 use super::refine::Refinery;
 use super::setting::Setting;
 use super::tile_rays::TileRays;
-use super::look::{PixelLook, SeenPiece};
 use super::visible::Sight;
 use super::{Centre, PixelCoverage, Tally};
 use crate::math;

@@ -36,10 +36,18 @@ pub(super) fn draw(
     FramePainter::new(prepared, (mesh, view), sight).frame(options)
 }
 
-/// Decides one pixel of a view as a frame does, with the tiles that it reads: its steps and its code values.
-pub(super) fn explain(prepared: &Prepare, view: &ViewFrame, [x, y]: [usize; 2]) -> (Vec<Step>, [u8; 4]) {
+/// Decides single pixels of a view as a frame does, with the tiles that they read: of each its steps and its code values.
+pub(super) fn explain(
+    prepared: &Prepare,
+    view: &ViewFrame,
+    pixels: &[[usize; 2]],
+) -> Vec<(Vec<Step>, [u8; 4])> {
     let mesh = &*prepared.stage.mesh_for(view);
     let drawing = FramePainter::new(prepared, (mesh, view), see(prepared, (mesh, view), visibility::TILE));
+    pixels.iter().map(|pixel| explained(prepared, &drawing, *pixel)).collect()
+}
+
+fn explained(prepared: &Prepare, drawing: &FramePainter, [x, y]: [usize; 2]) -> (Vec<Step>, [u8; 4]) {
     let (painter, mut steps) = (&drawing.painter, Vec::new());
     let plan = painter.sight.hit(x, y).map_or(Plan::new(f64::INFINITY, f64::INFINITY), |hit| hit.plan);
     let reading = painter.reading((x, y), plan, &mut None, &mut steps);

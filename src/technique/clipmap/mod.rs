@@ -135,7 +135,7 @@ impl<'s> Prepare<'s> {
 
     /// The steps of a pixel (column, row) of a view's picture, and its code values; see [`super::explain`].
     pub fn steps_of(&self, view: &ViewFrame, pixel: [usize; 2]) -> (Vec<Step>, [u8; 4]) {
-        frame::explain(self, view, pixel)
+        frame::explain(self, view, &[pixel]).pop().unwrap_or_default()
     }
 
     /// The virtual texture.
@@ -205,6 +205,10 @@ impl Prepared for Prepare<'_> {
     fn steps(&self, view: &ViewFrame, pixel: [usize; 2]) -> Result<Explanation> {
         let (steps, code) = self.steps_of(view, pixel);
         Ok(Explanation::new(steps, code))
+    }
+
+    fn steps_of_all(&self, view: &ViewFrame, pixels: &[[usize; 2]]) -> Result<Vec<Explanation>> {
+        Ok(Explanation::all(frame::explain(self, view, pixels)))
     }
 
     fn structure_bytes(&self) -> usize {

@@ -72,18 +72,18 @@ pub fn draw(
     }
 }
 
-/// Decides one pixel of a view as a frame does: its steps and its code values.
+/// Decides single pixels of a view as a frame does: of each its steps and its code values.
 ///
 /// # Errors
 /// When there are more segments than there is room for.
 pub fn explain(
     (stage, view): (&Stage, &ViewFrame),
     prepared: &Prepared,
-    pixel: [usize; 2],
-) -> Result<(Vec<Step>, [u8; 4])> {
+    pixels: &[[usize; 2]],
+) -> Result<Vec<(Vec<Step>, [u8; 4])>> {
     match stage.scene.device.precision {
-        Precision::F64 => explain_with::<f64>((stage, view), prepared, pixel),
-        Precision::F32 => explain_with::<f32>((stage, view), prepared, pixel),
+        Precision::F64 => explain_with::<f64>((stage, view), prepared, pixels),
+        Precision::F32 => explain_with::<f32>((stage, view), prepared, pixels),
     }
 }
 
@@ -132,31 +132,38 @@ fn draw_with<T: Real>(
 fn explain_with<T: Real>(
     (stage, view): (&Stage, &ViewFrame),
     prepared: &Prepared,
-    [x, y]: [usize; 2],
-) -> Result<(Vec<Step>, [u8; 4])> {
+    pixels: &[[usize; 2]],
+) -> Result<Vec<(Vec<Step>, [u8; 4])>> {
     let mesh = &*stage.mesh_for(view);
     let setup = Setup::<T>::new((stage, mesh, view), prepared, (TILE, false, false))?;
-    let draw = |place: TilePlace, record: &mut Vec<Step>| {
-        let ([x, y], [width, height]) = (place.corner, place.size);
-        let meets = |[columns, rows]: &Window| {
-            columns.start < x + width && x < columns.end && rows.start < y + height && y < rows.end
+    Ok(pixels.iter().map(|pixel| setup.explained(view, *pixel)).collect())
+}
+
+impl<T: Real> Setup<'_, T> {
+    /// Decides one pixel.
+    fn explained(&self, view: &ViewFrame, [x, y]: [usize; 2]) -> (Vec<Step>, [u8; 4]) {
+        let draw = |place: TilePlace, record: &mut Vec<Step>| {
+            let ([x, y], [width, height]) = (place.corner, place.size);
+            let meets = |[columns, rows]: &Window| {
+                columns.start < x + width && x < columns.end && rows.start < y + height && y < rows.end
+            };
+            let near: Vec<u32> =
+                (0..).zip(&self.windows).filter(|(_, window)| meets(window)).map(|(k, _)| k).collect();
+            self.context.draw(place, &near, record)
         };
-        let near: Vec<u32> =
-            (0..).zip(&setup.windows).filter(|(_, window)| meets(window)).map(|(k, _)| k).collect();
-        setup.context.draw(place, &near, record)
-    };
-    let mut steps = Vec::new();
-    let own = draw(TilePlace { corner: [x, y], size: [1, 1] }, &mut steps);
-    if setup.context.settings.antialiasing != Antialiasing::Fxaa {
-        return Ok((steps, code_values(own.colors[0])));
+        let mut steps = Vec::new();
+        let own = draw(TilePlace { corner: [x, y], size: [1, 1] }, &mut steps);
+        if self.context.settings.antialiasing != Antialiasing::Fxaa {
+            return (steps, code_values(own.colors[0]));
+        }
+        let corner = [x.saturating_sub(REACH), y.saturating_sub(REACH)];
+        let end = [(x + REACH + 1).min(view.width()), (y + REACH + 1).min(view.height())];
+        let size = [end[0] - corner[0], end[1] - corner[1]];
+        let around = draw(TilePlace { corner, size }, &mut Vec::new());
+        let color = Picture::new(size, &around.colors).smoothed([x - corner[0], y - corner[1]]);
+        steps.push(Step::Smoothed(color));
+        (steps, code_values(color))
     }
-    let corner = [x.saturating_sub(REACH), y.saturating_sub(REACH)];
-    let end = [(x + REACH + 1).min(view.width()), (y + REACH + 1).min(view.height())];
-    let size = [end[0] - corner[0], end[1] - corner[1]];
-    let around = draw(TilePlace { corner, size }, &mut Vec::new());
-    let color = Picture::new(size, &around.colors).smoothed([x - corner[0], y - corner[1]]);
-    steps.push(Step::Smoothed(color));
-    Ok((steps, code_values(color)))
 }
 
 /// The picture after the filter over it, if it is wanted.

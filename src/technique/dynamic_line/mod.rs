@@ -137,7 +137,8 @@ impl<'s> Prepare<'s> {
     /// # Errors
     /// When the view has more segments than there is room for.
     pub fn steps_of(&self, view: &ViewFrame, pixel: [usize; 2]) -> Result<(Vec<Step>, [u8; 4])> {
-        frame::explain((self.stage, view), &self.prepared, pixel)
+        let all = frame::explain((self.stage, view), &self.prepared, &[pixel])?;
+        Ok(all.into_iter().next().unwrap_or_default())
     }
 }
 
@@ -183,6 +184,10 @@ impl Prepared for Prepare<'_> {
     fn steps(&self, view: &ViewFrame, pixel: [usize; 2]) -> Result<Explanation> {
         let (steps, code) = self.steps_of(view, pixel)?;
         Ok(Explanation::new(steps, code))
+    }
+
+    fn steps_of_all(&self, view: &ViewFrame, pixels: &[[usize; 2]]) -> Result<Vec<Explanation>> {
+        Ok(Explanation::all(frame::explain((self.stage, view), &self.prepared, pixels)?))
     }
 
     fn structure_bytes(&self) -> usize {

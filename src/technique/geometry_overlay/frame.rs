@@ -48,11 +48,15 @@ pub(super) fn draw(prepared: &Prepare, view: &ViewFrame, options: &FrameOptions)
     }
 }
 
-/// Decides one pixel of a view as a frame does: its steps and its code values.
-pub(super) fn explain(prepared: &Prepare, view: &ViewFrame, pixel: [usize; 2]) -> (Vec<Step>, [u8; 4]) {
+/// Decides single pixels of a view as a frame does: of each its steps and its code values.
+pub(super) fn explain(
+    prepared: &Prepare,
+    view: &ViewFrame,
+    pixels: &[[usize; 2]],
+) -> Vec<(Vec<Step>, [u8; 4])> {
     match prepared.stage.scene.device.precision {
-        Precision::F64 => explain_with::<f64>(prepared, view, pixel),
-        Precision::F32 => explain_with::<f32>(prepared, view, pixel),
+        Precision::F64 => explain_with::<f64>(prepared, view, pixels),
+        Precision::F32 => explain_with::<f32>(prepared, view, pixels),
     }
 }
 
@@ -98,18 +102,25 @@ fn draw_with<T: Real>(prepared: &Prepare, view: &ViewFrame, options: &FrameOptio
     })
 }
 
-fn explain_with<T: Real>(prepared: &Prepare, view: &ViewFrame, corner: [usize; 2]) -> (Vec<Step>, [u8; 4]) {
+fn explain_with<T: Real>(
+    prepared: &Prepare,
+    view: &ViewFrame,
+    pixels: &[[usize; 2]],
+) -> Vec<(Vec<Step>, [u8; 4])> {
     let mesh = &*prepared.stage.mesh_for(view);
     let setup = Setup::<T>::new(prepared, (mesh, view), TILE);
-    let [x, y] = corner;
-    let holds = |piece: &Piece<T>| piece.window.columns.contains(&x) && piece.window.rows.contains(&y);
-    let pieces = (0..).zip(&setup.context.pieces);
-    let near: Vec<u32> = pieces.filter(|(_, piece)| holds(piece)).map(|(number, _)| number).collect();
-    let mut steps = Vec::new();
-    let place = TilePlace { corner, size: [1, 1] };
-    let drawn = setup.context.draw(place, &near, (true, false, Touches::default()), &mut steps);
-    let code = drawn.pixels.colors().first().map_or([0; 4], |color| code_values(*color));
-    (steps, code)
+    let explained = |corner: &[usize; 2]| {
+        let [x, y] = *corner;
+        let holds = |piece: &Piece<T>| piece.window.columns.contains(&x) && piece.window.rows.contains(&y);
+        let pieces = (0..).zip(&setup.context.pieces);
+        let near: Vec<u32> = pieces.filter(|(_, piece)| holds(piece)).map(|(number, _)| number).collect();
+        let mut steps = Vec::new();
+        let place = TilePlace { corner: *corner, size: [1, 1] };
+        let drawn = setup.context.draw(place, &near, (true, false, Touches::default()), &mut steps);
+        let code = drawn.pixels.colors().first().map_or([0; 4], |color| code_values(*color));
+        (steps, code)
+    };
+    pixels.iter().map(explained).collect()
 }
 
 impl<'a, T: Real> Setup<'a, T> {

@@ -157,8 +157,12 @@ impl Prepared for Prepare<'_> {
     }
 
     fn steps(&self, view: &ViewFrame, pixel: [usize; 2]) -> Result<Explanation> {
-        let (steps, code) = frame::explain(self, view, pixel);
+        let (steps, code) = frame::explain(self, view, &[pixel]).pop().unwrap_or_default();
         Ok(Explanation::new(steps, code))
+    }
+
+    fn steps_of_all(&self, view: &ViewFrame, pixels: &[[usize; 2]]) -> Result<Vec<Explanation>> {
+        Ok(Explanation::all(frame::explain(self, view, pixels)))
     }
 
     fn structure_bytes(&self) -> usize {

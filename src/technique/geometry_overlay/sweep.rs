@@ -3,9 +3,8 @@
 
 use crate::technique::sweep::{Axis, MACHINES, Sweep};
 
-pub(super) const SWEEP: Sweep = Sweep { crossed: &[LINES, WIDTHS], alone: &[OFFSET, TOLERANCE, MACHINES],
-    remedies: REMEDIES,
-};
+pub(super) const SWEEP: Sweep =
+    Sweep { crossed: &[LINES, WIDTHS], alone: &[OFFSET, TOLERANCE, MACHINES], remedies: REMEDIES };
 
 const LINES: Axis =
     &[&["technique.geometry-overlay.lines=gl"], &["technique.geometry-overlay.lines=antialiased"]];
@@ -21,7 +20,5 @@ const OFFSET: Axis = &[
 const TOLERANCE: Axis =
     &[&["technique.geometry-overlay.tolerance_px=0.5"], &["technique.geometry-overlay.tolerance_px=2"]];
 
-const REMEDIES: Axis = &[
-    &["technique.geometry-overlay.lines=antialiased"],
-    &["technique.geometry-overlay.offset_factor=4"],
-];
+const REMEDIES: Axis =
+    &[&["technique.geometry-overlay.lines=antialiased"], &["technique.geometry-overlay.offset_factor=4"]];

@@ -53,18 +53,21 @@ pub fn draw(
     Frame { image: Buffer::from_values(width, height, codes), planes, counts: counts(&painter, index, &rows) }
 }
 
-/// Decides one pixel of a view as a frame does: its steps and its code values.
+/// Decides single pixels of a view as a frame does: of each its steps and its code values.
 pub fn explain(
     (stage, view): (&Stage, &ViewFrame),
     settings: &Settings,
     index: &EdgeIndex,
-    [x, y]: [usize; 2],
-) -> (Vec<Step>, [u8; 4]) {
+    pixels: &[[usize; 2]],
+) -> Vec<(Vec<Step>, [u8; 4])> {
     let mesh = &*stage.mesh_for(view);
     let painter = PixelPainter::new((stage, mesh, view), settings, index, (TILE, false));
-    let mut steps = Vec::new();
-    let pixel = painter.pixel((x, y), &mut painter.lists(), &mut Counts::default(), &mut steps);
-    (steps, code_values(painter.backdrop().compositor.encoded(pixel.paint)))
+    let explained = |[x, y]: &[usize; 2]| {
+        let mut steps = Vec::new();
+        let pixel = painter.pixel((*x, *y), &mut painter.lists(), &mut Counts::default(), &mut steps);
+        (steps, code_values(painter.backdrop().compositor.encoded(pixel.paint)))
+    };
+    pixels.iter().map(explained).collect()
 }
 
 fn row(

@@ -101,7 +101,7 @@ impl<'s> Prepare<'s> {
 
     /// The steps of a pixel (column, row) of a view's picture, and its code values; see [`super::explain`].
     pub fn steps_of(&self, view: &ViewFrame, pixel: [usize; 2]) -> (Vec<Step>, [u8; 4]) {
-        frame::explain((self.stage, view), &self.settings, &self.index, pixel)
+        frame::explain((self.stage, view), &self.settings, &self.index, &[pixel]).pop().unwrap_or_default()
     }
 }
 
@@ -128,6 +128,11 @@ impl Prepared for Prepare<'_> {
     fn steps(&self, view: &ViewFrame, pixel: [usize; 2]) -> Result<Explanation> {
         let (steps, code) = self.steps_of(view, pixel);
         Ok(Explanation::new(steps, code))
+    }
+
+    fn steps_of_all(&self, view: &ViewFrame, pixels: &[[usize; 2]]) -> Result<Vec<Explanation>> {
+        let all = frame::explain((self.stage, view), &self.settings, &self.index, pixels);
+        Ok(Explanation::all(all))
     }
 
     fn structure_bytes(&self) -> usize {

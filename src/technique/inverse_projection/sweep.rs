@@ -2,8 +2,9 @@
 
 use crate::technique::sweep::{Axis, MACHINES, Sweep};
 
-pub(super) const SWEEP: Sweep =
-    Sweep { crossed: &[SAMPLES, CORNERS], alone: &[POINT_IN_POLYGON, SILHOUETTE, MACHINES],
+pub(super) const SWEEP: Sweep = Sweep {
+    crossed: &[SAMPLES, CORNERS],
+    alone: &[POINT_IN_POLYGON, SILHOUETTE, MACHINES],
     remedies: REMEDIES,
 };
 

@@ -3,8 +3,9 @@
 
 use crate::technique::sweep::{Axis, MACHINES, Sweep};
 
-pub(super) const SWEEP: Sweep =
-    Sweep { crossed: &[SAMPLES, JOINS], alone: &[GRID, LEAF_CAPACITY, DEPTH, HIERARCHY, EDGES, MACHINES],
+pub(super) const SWEEP: Sweep = Sweep {
+    crossed: &[SAMPLES, JOINS],
+    alone: &[GRID, LEAF_CAPACITY, DEPTH, HIERARCHY, EDGES, MACHINES],
     remedies: REMEDIES,
 };
 

@@ -79,27 +79,34 @@ pub fn draw((stage, view): (&Stage, &ViewFrame), extrusion: &Extrusion, options:
     }
 }
 
-/// Decides one pixel of a view as a frame does: its steps and its code values. A tile of this pixel alone is drawn; where a frame counts
-/// in passing, every face is counted here, which makes the same masks.
+/// Decides single pixels of a view as a frame does: of each its steps and its code values. A tile of each pixel alone is drawn; where a
+/// frame counts in passing, every face is counted here, which makes the same masks.
 pub fn explain(
     (stage, view): (&Stage, &ViewFrame),
     extrusion: &Extrusion,
-    [x, y]: [usize; 2],
-) -> (Vec<Step>, [u8; 4]) {
+    pixels: &[[usize; 2]],
+) -> Vec<(Vec<Step>, [u8; 4])> {
     let options = FrameOptions { tile: TILE, buffers: &[], progress: &|_| {} };
     let mesh = &*stage.mesh_for(view);
     let mut context = FrameContext::new((stage, mesh, view), extrusion, &options);
     if context.way == Way::Sparse {
         context.way = Way::Full;
     }
-    let (n, mut entries) = (context.samples(), context.looks.entries(extrusion));
+    let entries = context.looks.entries(extrusion);
+    pixels.iter().map(|pixel| explained(&context, &entries, *pixel)).collect()
+}
+
+/// Decides one pixel of a frame, of whose volumes these are in the picture.
+fn explained(context: &FrameContext, entries: &[Entry], [x, y]: [usize; 2]) -> (Vec<Step>, [u8; 4]) {
+    let n = context.samples();
     let (column, row) = (x * n, y * n);
-    entries.retain(|entry| {
+    let is_near = |entry: &&Entry| {
         let [c0, r0, c1, r1] = entry.window.map(|v| v as usize);
         c0 < column + n && column <= c1 && r0 < row + n && row <= r1
-    });
-    let pixel = TileView::new(view, context.sight.lattice(), (column, row), n);
-    let mut tile = Tile::new(&context, pixel, &entries, Vec::new());
+    };
+    let entries: Vec<Entry> = entries.iter().filter(is_near).copied().collect();
+    let pixel = TileView::new(context.view, context.sight.lattice(), (column, row), n);
+    let mut tile = Tile::new(context, pixel, &entries, Vec::new());
     tile.draw(&entries);
     let pixels = pixels(&mut tile, false);
     (tile.record, pixels.codes()[0])

@@ -133,8 +133,12 @@ impl<'s> Prepare<'s> {
     /// # Errors
     /// When there is no room for the samples of the picture.
     pub fn steps_of(&self, view: &ViewFrame, pixel: [usize; 2]) -> Result<(Vec<Step>, [u8; 4])> {
+        Ok(self.explained(view, &[pixel])?.pop().unwrap_or_default())
+    }
+
+    fn explained(&self, view: &ViewFrame, pixels: &[[usize; 2]]) -> Result<Vec<(Vec<Step>, [u8; 4])>> {
         has_room((view.width(), view.height()), self.settings.samples)?;
-        Ok(frame::explain((self.stage, view), &self.extrusion, pixel))
+        Ok(frame::explain((self.stage, view), &self.extrusion, pixels))
     }
 }
 
@@ -194,6 +198,10 @@ impl Prepared for Prepare<'_> {
     fn steps(&self, view: &ViewFrame, pixel: [usize; 2]) -> Result<Explanation> {
         let (steps, code) = self.steps_of(view, pixel)?;
         Ok(Explanation::new(steps, code))
+    }
+
+    fn steps_of_all(&self, view: &ViewFrame, pixels: &[[usize; 2]]) -> Result<Vec<Explanation>> {
+        Ok(Explanation::all(self.explained(view, pixels)?))
     }
 
     fn structure_bytes(&self) -> usize {

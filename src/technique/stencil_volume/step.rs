@@ -92,7 +92,17 @@ impl crate::technique::Step for Step {
 impl fmt::Display for Step {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
-            Self::Crossing { sample: [x, y], pass, volume, is_z_fail, is_front, is_behind, step, count, .. } => {
+            Self::Crossing {
+                sample: [x, y],
+                pass,
+                volume,
+                is_z_fail,
+                is_front,
+                is_behind,
+                step,
+                count,
+                ..
+            } => {
                 let face = if *is_front { "front" } else { "back" };
                 let place = if *is_behind { "behind" } else { "before" };
                 write!(

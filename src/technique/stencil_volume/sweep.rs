@@ -3,8 +3,9 @@
 
 use crate::technique::sweep::{Axis, MACHINES, Sweep};
 
-pub(super) const SWEEP: Sweep =
-    Sweep { crossed: &[SAMPLES, JOINS], alone: &[METHOD, GROUPING, STENCIL, DEPTH, MACHINES],
+pub(super) const SWEEP: Sweep = Sweep {
+    crossed: &[SAMPLES, JOINS],
+    alone: &[METHOD, GROUPING, STENCIL, DEPTH, MACHINES],
     remedies: REMEDIES,
 };
 
