@@ -231,6 +231,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
         "explain",
         &[
             "open",
+            "measure",
             "technique",
             "canvas",
             "truth",

@@ -7,7 +7,7 @@ use super::render::techniques::{self, Name};
 use super::scene_input;
 use super::stop::{Outcome, Status, Stop};
 use super::truth_arguments::TruthArguments;
-use drapery::explain::{self, Account, Asking};
+use drapery::explain::{self, Account, Asking, page};
 use drapery::measure::Watch;
 use drapery::output::write_whole;
 use drapery::source::load;
@@ -21,6 +21,7 @@ Examples:
   drapery explain --pixel 640,420                          why a pixel of the built-in scene has its colour
   drapery explain scene.toml --pixel 12,30 -t clipmap      what one technique did there
   drapery explain scene.toml --pixel 12,30 --html why.html the pixel under the microscope, as a page
+  drapery explain scene.toml --html why.html               the whole picture: click where it looks wrong
   drapery explain scene.toml --pixel 12,30 --feature A1    why the road A1 is not there
   drapery explain scene.toml --pixel 12,30 --json - | jq .truth
 
@@ -31,18 +32,24 @@ Examples:
 pub(super) struct Arguments {
     /// The scene file, `-` for stdin; without it, a built-in generated scene.
     scene: Option<PathBuf>,
-    /// The pixel: column and row, from 0 at the upper left.
-    #[arg(long, value_name = "X,Y", value_parser = pixel)]
-    pixel: [usize; 2],
+    /// The pixel: column and row, from 0 at the upper left. Without it, a page of the whole picture is written, in which one clicks.
+    #[arg(long, value_name = "X,Y", value_parser = pixel, required_unless_present = "html")]
+    pixel: Option<[usize; 2]>,
     /// A technique to ask; may be repeated. Default: all that draw the scene.
     #[arg(short, long = "technique", value_name = "T")]
     techniques: Vec<Name>,
     /// A feature to look for: a layer, LAYER/NUMBER, or what a column says.
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", requires = "pixel")]
     feature: Option<String>,
     /// Write all of it as JSON; `-`: on stdout in place of the text.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", requires = "pixel")]
     json: Option<PathBuf>,
+    /// Write a page, one file that needs no network.
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
+    /// How many pixels a page of the whole picture tells of at most.
+    #[arg(long, value_name = "N", default_value_t = 300, conflicts_with = "pixel", value_parser = clap::value_parser!(u32).range(1..=4000))]
+    most: u32,
     /// Change the scene: a dotted path and a TOML value; may be repeated. No value removes the key.
     #[arg(long = "set", value_name = "PATH=VALUE")]
     overrides: Vec<String>,
@@ -67,19 +74,40 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
     let changes = arguments.device.before(&arguments.overrides)?;
     let text = scene_input::read(arguments.scene.as_deref(), &changes)?;
     let bar = Bar::new();
-    let answer = || -> Result<Account> {
+    let answer = || -> Result<Answer> {
         let mut scene = scene_input::open(&text, &bar)?;
         let attributes = load::attributes(&text.file, &|told| bar.note(told));
-        let feature = arguments.feature.as_deref();
-        let asking = Asking { kinds: kinds.as_deref(), feature, attributes: &attributes, budget };
+        let asking = Asking {
+            kinds: kinds.as_deref(),
+            feature: arguments.feature.as_deref(),
+            attributes: &attributes,
+            close_up: if arguments.html.is_some() { CLOSE_UP } else { 0 },
+            budget,
+        };
+        let name = scene.stage.scene.name.clone();
+        let Some(pixel) = arguments.pixel else {
+            let interesting = explain::picture(&scene, &asking, arguments.most as usize, &bar)?;
+            return Ok((None, Some(page::of_picture(&name, &interesting)?)));
+        };
         bar.start("explaining");
-        explain::pixel(&mut scene, &asking, arguments.pixel)
+        let account = explain::pixel(&mut scene, &asking, pixel)?;
+        let page = arguments.html.as_ref().map(|_| page::of_pixel(&name, &account)).transpose()?;
+        Ok((Some(account), page))
     };
-    let account = parallel::with_threads(arguments.threads, answer)?;
-    let account = account.map_err(|error| scene_input::blame(&text, error))?;
+    let answer = parallel::with_threads(arguments.threads, answer)?;
+    let (account, page) = answer.map_err(|error| scene_input::blame(&text, error))?;
     drop(bar);
-    write(arguments, &account)
+    if let (Some(path), Some(page)) = (&arguments.html, page) {
+        write_whole(path, |to: &mut dyn Write| to.write_all(page.as_bytes()))?;
+    }
+    account.map_or(Ok(Status::Passed), |account| write(arguments, &account))
 }
+
+/// What is told of a pixel, and the page that was asked for.
+type Answer = (Option<Account>, Option<String>);
+
+/// Samples a side of a close-up.
+const CLOSE_UP: usize = 160;
 
 fn write(arguments: &Arguments, account: &Account) -> Outcome {
     let json = || {

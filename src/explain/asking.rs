@@ -3,6 +3,7 @@
 use super::absence::presence;
 use super::account::{Account, Centre, Covering, Ray, Right};
 use super::bench::{Bench, Near, Seen};
+use super::close_up::close_up;
 use super::ladder::ladder;
 use super::margin::{margins, silhouette};
 use super::names::Names;
@@ -29,6 +30,8 @@ pub struct Asking<'a> {
     pub feature: Option<&'a str>,
     /// The columns of attributes of each layer, as far as they are known.
     pub attributes: &'a [Vec<Column>],
+    /// Samples a side of a close-up of the pixel, for a page; 0: none is made.
+    pub close_up: usize,
     /// How exact the truth is to be.
     pub budget: Budget,
 }
@@ -68,7 +71,10 @@ fn one_pixel(stage: &Stage, view: &ViewFrame, asking: &Asking, at: [usize; 2]) -
     let mut account = account(&bench, near);
     for (kind, prepared) in &techniques.prepared {
         let explained = technique::explain(prepared.as_ref(), view, at)?;
-        account.techniques.push(told(&bench, near, &account.truth, *kind, explained));
+        account.techniques.push(told(&bench, near, &account.truth, *kind, &explained));
+    }
+    if asking.close_up > 0 {
+        account.close_up = Some(close_up(&bench, near, asking.close_up));
     }
     account.left_out = techniques.left_out;
     account.feature = wanted.map(|wanted| presence(&bench, near, &wanted, &account));

@@ -10,9 +10,11 @@ mod account;
 mod asking;
 mod bench;
 mod close_up;
+mod interesting;
 mod ladder;
 mod margin;
 mod names;
+pub mod page;
 mod scenery;
 mod search;
 mod techniques;
@@ -22,6 +24,7 @@ pub use account::{
     Account, ByTechnique, Centre, Covering, LeftOut, Presence, Ray, Right, Rung, Step, Tried, color_of, hex,
 };
 pub use asking::{Asking, pixel};
+pub use interesting::{Interesting, picture};
 pub use margin::{Margin, Silhouette};
 pub use names::Names;
 pub use scenery::{Piece, Scenery, Shape};

@@ -44,7 +44,7 @@ pub(super) fn told(
     near: &Near,
     right: &Right,
     kind: Kind,
-    explained: Explanation,
+    explained: &Explanation,
 ) -> ByTechnique {
     let steps = explained.steps.iter().map(|step| told_step(bench, near, step.as_ref())).collect();
     ByTechnique {

@@ -76,7 +76,7 @@ pub trait Prepared: Sync {
 }
 
 /// A step of a technique on the way to a pixel's colour: data of its own that has a short text.
-pub trait Step: fmt::Debug + fmt::Display + Send {
+pub trait Step: fmt::Debug + fmt::Display + Send + Sync {
     /// Where the technique's paper says so: section, figure, equation or algorithm.
     fn section(&self) -> &'static str;
 
