@@ -4,6 +4,7 @@ use super::margin::{Margin, Silhouette};
 use super::scenery::Scenery;
 use crate::buffer::Buffer;
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// The version of the JSON document.
 const SCHEMA: u32 = 1;
@@ -19,6 +20,8 @@ pub struct Account {
     pub centre: Option<Centre>,
     /// What the pixel and its surroundings see.
     pub scenery: Scenery,
+    /// What items that are spoken of are called, by their numbers in the draw list.
+    pub items: BTreeMap<u32, String>,
     /// What items cover of the pixel, hidden ones too, in draw order.
     pub covering: Vec<Covering>,
     /// What any other item covers at most: more than 0 where there are too many to tell.

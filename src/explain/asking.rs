@@ -17,6 +17,7 @@ use crate::space::{Screen, ViewFrame};
 use crate::stage::Stage;
 use crate::technique::{self, Kind};
 use crate::truth::{Budget, footprints_seen};
+use std::collections::BTreeMap;
 
 /// Of a pixel's centre no more margins are told.
 const MOST_MARGINS: usize = 3;
@@ -77,8 +78,18 @@ fn one_pixel(stage: &Stage, view: &ViewFrame, asking: &Asking, at: [usize; 2]) -
         account.close_up = Some(close_up(&bench, near, asking.close_up));
     }
     account.left_out = techniques.left_out;
+    name_items(&bench, &mut account);
     account.feature = wanted.map(|wanted| presence(&bench, near, &wanted, &account));
     Ok(account)
+}
+
+/// Names all items that an account speaks of.
+pub(super) fn name_items(bench: &Bench, account: &mut Account) {
+    let shapes = account.scenery.shapes.iter().map(|shape| shape.item);
+    let steps =
+        account.techniques.iter().flat_map(|by| &by.steps).flat_map(|step| step.items.iter().copied());
+    let covering = account.covering.iter().map(|covering| covering.item);
+    account.items = shapes.chain(steps).chain(covering).map(|item| (item, bench.name_of(item))).collect();
 }
 
 /// What is to be told of a pixel, whatever techniques do.
@@ -93,6 +104,7 @@ pub(super) fn account(bench: &Bench, near: &Near) -> Account {
         ray: ray(bench, middle),
         centre: seen.as_ref().map(|seen| centre(bench, near, seen)),
         scenery: Scenery::of(bench, near),
+        items: BTreeMap::new(),
         covering: coverage
             .map(|covering| Covering {
                 item: covering.item,

@@ -102,7 +102,7 @@ impl<'a> Bench<'a> {
     }
 
     /// Whether a pixel near sees the sky at a point, as far as is known.
-    fn is_sky(near: &Near, at: Screen) -> bool {
+    pub(super) fn is_sky(near: &Near, at: Screen) -> bool {
         near.pieces.iter().any(|piece| piece.triangle == SKY && holds(&piece.corners, at))
     }
 

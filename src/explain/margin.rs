@@ -5,7 +5,6 @@ use crate::footprint::{HalfPlane, Primitive};
 use crate::math;
 use crate::holding::Nearby;
 use crate::space::{Plan, PlanBox};
-use crate::truth::SeenPiece;
 use crate::visibility::PixelFootprint;
 use glam::{DMat2, DVec2};
 use serde::Serialize;
@@ -71,42 +70,42 @@ impl Silhouette {
 
 /// The silhouette that is nearest to a sample.
 pub(super) fn silhouette(bench: &Bench, near: &Near, seen: &Seen) -> Option<Silhouette> {
-    let mut best: Option<(f64, DVec2, &SeenPiece)> = None;
+    let mut best: Option<(f64, Silhouette)> = None;
     for piece in near.pieces.iter().filter(|piece| piece.triangle != seen.triangle) {
         for (a, b) in piece.corners.iter().zip(piece.corners.iter().cycle().skip(1)) {
-            of_segment([*a - seen.at, *b - seen.at], &mut |offset, _| {
+            of_segment([*a - seen.at, *b - seen.at], &mut |offset, across| {
                 let length = offset.length();
-                let is_nearest = length <= REACH && best.is_none_or(|(known, ..)| length < known);
-                if is_nearest && is_step(bench, seen, piece, offset) {
-                    best = Some((length, offset, piece));
+                if length <= REACH && best.as_ref().is_none_or(|(known, _)| length < *known) {
+                    best = step_at(bench, near, seen, (offset, across))
+                        .map(|step| (length, step))
+                        .or(best.take());
                 }
             });
         }
     }
-    let (pixels, offset, piece) = best?;
-    let (here, beyond) = depths(bench, seen, piece, offset);
-    let along = offset.try_normalize().unwrap_or(DVec2::X).abs();
-    Some(Silhouette {
+    best.map(|(_, silhouette)| silhouette)
+}
+
+/// The silhouette at a place beside a sample; `None`: what is seen on both sides of it meets there.
+fn step_at(bench: &Bench, near: &Near, seen: &Seen, (offset, across): (DVec2, DVec2)) -> Option<Silhouette> {
+    let at = seen.at + offset;
+    let [before, beyond] = [-OVER, OVER].map(|side| bench.seen(near, at + across * side));
+    let pixels = offset.length();
+    let silhouette = |triangle, deeper| Silhouette {
         pixels,
         toward: toward(offset),
-        triangle: beyond.map(|_| piece.triangle),
-        deeper: beyond.zip(here).map(|(beyond, here)| beyond - here),
-        flipped_by: causes(pixels, 0.0, along),
-    })
-}
-
-/// The view depths of a sample's own plane and of another piece's at a point beside the sample; `None`: the sky.
-fn depths(bench: &Bench, seen: &Seen, piece: &SeenPiece, offset: DVec2) -> (Option<f64>, Option<f64>) {
-    let at = seen.at + offset;
-    let depth = |triangle| bench.on_triangle(triangle, at).map(|seen| seen.hit.depth);
-    (depth(seen.triangle), depth(piece.triangle))
-}
-
-/// Whether what is seen jumps between a sample's own plane and another piece there: they do not meet.
-fn is_step(bench: &Bench, seen: &Seen, piece: &SeenPiece, offset: DVec2) -> bool {
-    match depths(bench, seen, piece, offset) {
-        (Some(here), Some(beyond)) => (here - beyond).abs() > STEP * here,
-        _ => true,
+        triangle,
+        deeper,
+        flipped_by: causes(pixels, 0.0, across.abs()),
+    };
+    match (before, beyond) {
+        (Some(before), Some(beyond)) => {
+            let deeper = beyond.hit.depth - before.hit.depth;
+            let is_step = before.triangle != beyond.triangle && deeper.abs() > STEP * before.hit.depth;
+            is_step.then(|| silhouette(Some(beyond.triangle), Some(deeper)))
+        }
+        (Some(_), None) => Bench::is_sky(near, at + across * OVER).then(|| silhouette(None, None)),
+        _ => None,
     }
 }
 

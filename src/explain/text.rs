@@ -38,6 +38,10 @@ impl Account {
             feature.reasons.iter().try_for_each(|reason| writeln!(to, "  {reason}"))?;
         }
         self.techniques.iter().try_for_each(|by| write_technique(by, to))?;
+        if !self.items.is_empty() {
+            writeln!(to, "\nitems:")?;
+        }
+        self.items.iter().try_for_each(|(item, name)| writeln!(to, "  {item} is {name}"))?;
         for left_out in &self.left_out {
             writeln!(to, "\n{} is left out: {}", left_out.technique, left_out.reason)?;
         }
@@ -89,12 +93,11 @@ fn write_centre(centre: &Centre, to: &mut String) -> fmt::Result {
 pub(super) fn right(truth: &Right) -> String {
     let codes = |of: [f64; 4]| of.map(|v| format!("{:.3}", v * 255.0)).join(" ");
     let width = short(255.0 * truth.width());
-    format!(
-        "{} between [{}] and [{}] of 255, {width} wide",
-        hex(truth.estimate),
-        codes(truth.low),
-        codes(truth.high)
-    )
+    let (color, low, high) = (hex(truth.estimate), codes(truth.low), codes(truth.high));
+    if low == high {
+        return format!("{color}, [{low}] of 255, known to {width}");
+    }
+    format!("{color} between [{low}] and [{high}] of 255, {width} wide")
 }
 
 /// What an item covers, in words.

@@ -22,9 +22,7 @@ const PALETTE: [&str; 7] = ["#d55e00", "#0072b2", "#009e73", "#cc79a7", "#e69f00
 
 /// The colour in which an account's drawings have an item's borders.
 pub(super) fn color_of_item(account: &Account, item: u32) -> &'static str {
-    let mut items: Vec<u32> = account.scenery.shapes.iter().map(|shape| shape.item).collect();
-    items.sort_unstable();
-    items.dedup();
+    let items = drawn_items(account);
     PALETTE[items.binary_search(&item).unwrap_or_else(|at| at) % PALETTE.len()]
 }
 
@@ -46,10 +44,9 @@ pub(super) fn screen(account: &Account) -> Result<Markup> {
             @if let Some(url) = picture {
                 image href=(url) x=(from) y=(from) width=(side) height=(side) preserveAspectRatio="none" {}
             }
-            @for piece in &account.scenery.pieces { (outline(&piece.screen, &at, piece)) }
-            @for shape in account.scenery.shapes.iter().take(MOST_SHAPES) {
-                (border(account, shape, &shape.screen, &at))
-            }
+            (pieces(account, &|piece| &piece.screen, &at))
+            (parts(account, &|shape| &shape.screen, &at))
+            rect.halo x="0" y="0" width=(UNIT) height=(UNIT) {}
             rect.pixel x="0" y="0" width=(UNIT) height=(UNIT) {}
             (samples(account, &|step| step.screen, &at))
         }
@@ -67,12 +64,8 @@ pub(super) fn plan(account: &Account) -> Option<Markup> {
     );
     Some(html! {
         svg.plan viewBox=(format!("0 0 {PLAN} {PLAN}")) role="img" aria-label=(label) {
-            @for piece in account.scenery.pieces.iter().filter(|piece| !piece.plan.is_empty()) {
-                (outline(&piece.plan, &at, piece))
-            }
-            @for shape in account.scenery.shapes.iter().take(MOST_SHAPES) {
-                (border(account, shape, &shape.plan, &at))
-            }
+            (pieces(account, &|piece| &piece.plan, &at))
+            (parts(account, &|shape| &shape.plan, &at))
             (samples(account, &|step| step.plan, &at))
             (frame.scale())
         }
@@ -99,7 +92,9 @@ impl Frame {
         let size = |[dx, dy]: [[f64; 2]; 2]| dx[0].abs() + dx[1].abs() + dy[0].abs() + dy[1].abs();
         let reach = centre.and_then(|centre| centre.pixel).map_or(f64::INFINITY, |pixel| FAR * size(pixel));
         let is_near = |at: &&[f64; 2]| (0..2).all(|k| (at[k] - middle[k]).abs() <= reach);
-        let near = points.iter().filter(is_near).chain([&middle]);
+        let steps = account.techniques.iter().flat_map(|by| &by.steps);
+        let samples: Vec<[f64; 2]> = steps.filter_map(|step| step.plan).collect();
+        let near = points.iter().chain(&samples).filter(is_near).chain([&middle]);
         let (mut low, mut high) = (middle, middle);
         for at in near {
             for k in 0..2 {
@@ -143,53 +138,84 @@ pub(super) fn data_url(png: &[u8]) -> String {
     format!("data:image/png;base64,{}", base64(png))
 }
 
-/// Corners as SVG has them.
-fn points(corners: &[[f64; 2]], at: &dyn Fn([f64; 2]) -> [f64; 2]) -> String {
-    let corners = corners.iter().map(|corner| {
-        let [x, y] = at(*corner);
-        format!("{x:.1},{y:.1}")
-    });
-    corners.collect::<Vec<String>>().join(" ")
+/// Where the corners of something lie, and where that is in a drawing.
+type Place<'a, T> = &'a dyn Fn(&T) -> &[[f64; 2]];
+type At<'a> = &'a dyn Fn([f64; 2]) -> [f64; 2];
+
+/// Corners as a part of an SVG path; nothing where they are all beside the drawing.
+fn path(corners: &[[f64; 2]], is_closed: bool, at: At) -> String {
+    let corners: Vec<[f64; 2]> = corners.iter().map(|corner| at(*corner)).collect();
+    let (low, high) = (-BESIDE * UNIT, (1.0 + BESIDE) * UNIT);
+    let is_beside = |axis: usize| {
+        corners.iter().all(|corner| corner[axis] < low) || corners.iter().all(|corner| corner[axis] > high)
+    };
+    if corners.is_empty() || is_beside(0) || is_beside(1) {
+        return String::new();
+    }
+    let mut path = String::from("M");
+    for (k, corner) in corners.iter().enumerate() {
+        let [x, y] = corner.map(|v| v.clamp(-1e5, 1e5).round());
+        path += &format!("{}{x} {y}", if k == 0 { "" } else { "L" });
+    }
+    path + if is_closed { "Z" } else { "" }
 }
 
-fn outline(corners: &[[f64; 2]], at: &dyn Fn([f64; 2]) -> [f64; 2], piece: &Piece) -> Markup {
-    let what = piece.triangle.map_or("the sky".into(), |id| format!("triangle {id}"));
-    let is_own = piece.share > 0.0;
+/// What is seen: the pixel's own pieces one by one, those around it together.
+fn pieces(account: &Account, corners: Place<Piece>, at: At) -> Markup {
+    let (own, others): (Vec<&Piece>, Vec<&Piece>) =
+        account.scenery.pieces.iter().partition(|piece| piece.share > 0.0);
+    let others: String = others.iter().map(|piece| path(corners(piece), true, at)).collect();
     html! {
-        polygon.piece.own[is_own] points=(points(corners, at)) {
-            title { (what) @if is_own { ": " (format!("{:.2}", 100.0 * piece.share)) " % of the pixel" } }
+        path.piece d=(others) {}
+        @for piece in own {
+            path.piece.own d=(path(corners(piece), true, at)) {
+                title {
+                    @match piece.triangle { Some(id) => { "triangle " (id) }, None => "the sky" }
+                    ": " (format!("{:.2}", 100.0 * piece.share)) " % of the pixel"
+                }
+            }
         }
     }
 }
 
-fn border(
-    account: &Account,
-    shape: &Shape,
-    corners: &[[f64; 2]],
-    at: &dyn Fn([f64; 2]) -> [f64; 2],
-) -> Markup {
-    let color = color_of_item(account, shape.item);
+/// The parts of items' borders, each item's together.
+fn parts(account: &Account, corners: Place<Shape>, at: At) -> Markup {
+    let shapes = &account.scenery.shapes[..account.scenery.shapes.len().min(MOST_SHAPES)];
+    let of = |item: u32, is_area: bool| -> String {
+        let shapes = shapes.iter().filter(|shape| shape.item == item && shape.is_area == is_area);
+        shapes.map(|shape| path(corners(shape), is_area, at)).collect()
+    };
     html! {
-        @if shape.is_area {
-            polygon.part points=(points(corners, at)) stroke=(color) fill=(color) {}
-        } @else {
-            polyline.part points=(points(corners, at)) stroke=(color) {}
+        @for item in drawn_items(account) {
+            @let color = color_of_item(account, item);
+            @for (is_area, fill) in [(true, color), (false, "none")] {
+                @let path = of(item, is_area);
+                @if !path.is_empty() { path.part d=(path) stroke=(color) fill=(fill) {} }
+            }
         }
     }
+}
+
+/// The items whose borders are drawn.
+pub(super) fn drawn_items(account: &Account) -> Vec<u32> {
+    let mut items: Vec<u32> = account.scenery.shapes.iter().map(|shape| shape.item).collect();
+    items.sort_unstable();
+    items.dedup();
+    items
 }
 
 /// Where the samples of each technique lie.
 fn samples(
     account: &Account,
     place: &dyn Fn(&super::super::account::Step) -> Option<[f64; 2]>,
-    at: &dyn Fn([f64; 2]) -> [f64; 2],
+    at: At,
 ) -> Markup {
     html! {
         @for by in &account.techniques {
             g.samples data-of=(by.technique) {
                 @for step in &by.steps {
                     @if let Some([x, y]) = place(step).map(at).filter(|at| at.iter().all(|v| v.abs() < 1e5)) {
-                        circle cx=(format!("{x:.1}")) cy=(format!("{y:.1}")) r="14" { title { (step.text) } }
+                        circle cx=(x.round()) cy=(y.round()) r="14" {}
                     }
                 }
             }
@@ -200,7 +226,7 @@ fn samples(
 /// The truth's interval of each channel as a bar, and each technique's value on it.
 pub(super) fn bars(account: &Account) -> Markup {
     let truth = &account.truth;
-    let is_opaque = truth.low[3] >= 1.0 && account.techniques.iter().all(|by| by.code[3] == 255);
+    let is_opaque = truth.low[3] > 1.0 - 1e-6 && account.techniques.iter().all(|by| by.code[3] == 255);
     let channels = if is_opaque { 3 } else { 4 };
     html! {
         div.bars {
@@ -212,7 +238,7 @@ pub(super) fn bars(account: &Account) -> Markup {
 }
 
 /// Units of a bar's length, and of what it leaves free at its ends.
-const BAR: (f64, f64) = (1000.0, 60.0);
+const BAR: (f64, f64) = (400.0, 24.0);
 
 fn bar(name: &str, [low, high]: [f64; 2], account: &Account, channel: usize) -> Markup {
     let values = account.techniques.iter().map(|by| f64::from(by.code[channel]));
@@ -223,19 +249,19 @@ fn bar(name: &str, [low, high]: [f64; 2], account: &Account, channel: usize) -> 
     let span = math::max(most - least, 4.0);
     let start = 0.5 * (least + most - span);
     let x = |value: f64| BAR.1 + (value - start) / span * (BAR.0 - 2.0 * BAR.1);
-    let width = math::max(x(high) - x(low), 4.0);
+    let width = math::max(x(high) - x(low), 3.0);
     html! {
         figure.bar {
             figcaption { (name) " " span { (format!("{least:.1} to {most:.1} of 255")) } }
-            svg viewBox="0 0 1000 92" role="img" aria-label=(format!("{name}: right between {low:.2} and {high:.2}")) {
-                path.axis d="M20 40H980" {}
-                rect.interval x=(format!("{:.1}", x(low) - 0.5 * (width - (x(high) - x(low))))) y="22" width=(format!("{width:.1}")) height="36" {
+            svg viewBox="0 0 400 62" role="img" aria-label=(format!("{name}: right between {low:.2} and {high:.2}")) {
+                path.axis d="M8 31H392" {}
+                rect.interval x=(format!("{:.1}", x(low) - 0.5 * (width - (x(high) - x(low))))) y="21" width=(format!("{width:.1}")) height="20" {
                     title { "right: " (format!("{low:.3} to {high:.3}")) }
                 }
                 @for (k, value) in values.enumerate() {
                     g.value data-of=(account.techniques[k].technique) {
-                        path d=(format!("M{:.1} 14v52", x(value))) {}
-                        text x=(format!("{:.1}", x(value) + 16.0 * (k % 3) as f64 - 16.0)) y=(if k % 2 == 0 { 88 } else { 12 }) { (k + 1) }
+                        path d=(format!("M{:.1} 16v30", x(value))) {}
+                        text x=(format!("{:.1}", x(value) + 7.0 * ((k / 2) % 3) as f64 - 7.0)) y=(if k % 2 == 0 { 60 } else { 12 }) { (k + 1) }
                         title { (account.techniques[k].technique) ": " (value) }
                     }
                 }

@@ -2,7 +2,7 @@
 
 use super::super::account::{Account, ByTechnique, Rung, Step, color_of, hex};
 use super::super::text::{covered, distance, notes, right};
-use super::drawing::{bars, color_of_item, plan, screen, swatch};
+use super::drawing::{bars, color_of_item, drawn_items, plan, screen, swatch};
 use crate::error::Result;
 use maud::{Markup, html};
 
@@ -84,17 +84,12 @@ fn tabs(account: &Account) -> Markup {
 
 /// Which item is drawn in which colour.
 fn key(account: &Account) -> Markup {
-    let mut items: Vec<u32> = account.scenery.shapes.iter().map(|shape| shape.item).collect();
-    items.sort_unstable();
-    items.dedup();
-    let name = |item: u32| {
-        let known = account.covering.iter().find(|covering| covering.item == item);
-        known.map_or_else(|| format!("item {item}, beside the pixel"), |covering| covering.name.clone())
-    };
     html! {
         ul.key {
             li { span.line style="--c:#fff;outline:1px solid #888" {} "triangles" }
-            @for item in items { li { span.line style=(format!("--c:{}", color_of_item(account, item))) {} (name(item)) } }
+            @for item in drawn_items(account) {
+                li { span.line style=(format!("--c:{}", color_of_item(account, item))) {} "item " (item) ": " (account.items.get(&item).map_or("", String::as_str)) }
+            }
             li { span.dot {} "what the technique looked at" }
         }
     }

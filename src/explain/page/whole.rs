@@ -41,9 +41,9 @@ pub fn of_picture(scene: &str, interesting: &Interesting) -> Result<String> {
             h1 { (scene) }
             p.lead {
                 "Why does a pixel have its colour? Click into the picture: the nearest of " (fragments.len())
-                " pixels that were looked at is explained. They are those where a technique is farthest from the truth, or the truth itself is wide, at "
-                "most one of each square of " (interesting.square) " x " (interesting.square) " pixels. Arrow keys go to the next one in that direction, "
-                kbd { "n" } " and " kbd { "p" } " through all, the worst first."
+                " pixels that were looked at is explained. They are those where a technique is farthest from the truth, or where the truth itself is wide, "
+                "for each technique at most one of each square of " (interesting.square) " x " (interesting.square) " pixels. Arrow keys go to the next one in "
+                "that direction, " kbd { "n" } " and " kbd { "p" } " through all: each technique's worst in turn."
             }
         }
         main.whole {
