@@ -76,6 +76,7 @@ pub mod golden;
 #[cfg(feature = "render")]
 pub(crate) mod holding;
 #[cfg(feature = "render")]
+pub mod hard_cases;
 pub mod index;
 #[cfg(feature = "render")]
 pub(crate) mod interval;

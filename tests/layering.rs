@@ -271,6 +271,23 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "buffer",
         ],
     ),
+    // Scenes, and all that draws.
+    (
+        "hard_cases",
+        &[
+            "technique",
+            "canvas",
+            "truth",
+            "source",
+            "scene_file",
+            "stage",
+            "scene",
+            "space",
+            "output",
+            "parallel",
+            "buffer",
+        ],
+    ),
     // Text alone.
     ("tutorial", &[]),
 ];

@@ -12,6 +12,7 @@ mod device_argument;
 mod explain;
 mod export;
 mod golden;
+mod hard_cases;
 mod info;
 mod judge_test;
 mod lines;
@@ -83,6 +84,8 @@ enum Command {
     Reduce(reduce::Arguments),
     /// Replay goldens: small scenes whose every buffer is known.
     Golden(golden::Arguments),
+    /// Draw failures that users of real systems reported, with their known answers.
+    HardCases(hard_cases::Arguments),
     /// Tell what a data file holds.
     Info(info::Arguments),
     /// Print the JSON Schema of the scene file.
@@ -120,6 +123,7 @@ fn run(command: Command) -> Outcome {
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Reduce(arguments) => reduce::run(&arguments),
         Command::Golden(arguments) => golden::run(&arguments),
+        Command::HardCases(arguments) => hard_cases::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Schema => schema::run(),
         Command::JudgeTest(arguments) => judge_test::run(&arguments),

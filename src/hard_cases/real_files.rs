@@ -1,0 +1,2 @@
+use super::case::Case;
+pub(super) const CASES: &[Case] = &[];
