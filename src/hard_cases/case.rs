@@ -9,6 +9,10 @@ use crate::error::Result;
 use crate::technique::Kind;
 use serde::Serialize;
 
+/// The techniques that draw footprints of metres, fills and strokes alike.
+pub(super) const FILLS: &[Kind] =
+    &[Kind::Clipmap, Kind::StencilVolume, Kind::InverseProjection, Kind::StaticDecal];
+
 /// A hard case.
 #[derive(Debug, Clone, Copy)]
 pub struct Case {

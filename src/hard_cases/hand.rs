@@ -128,7 +128,10 @@ impl Hand<'_> {
 /// When the scene is wrong.
 pub(super) fn stage(setup: &Setup, changes: &[&str]) -> Result<Stage> {
     let changes = changes.iter().map(|change| Override::parse(change)).collect::<Result<Vec<_>>>()?;
-    let (scene, surface) = load::load(&SceneFile::parse(&setup.text, None, &changes)?, &|_| {})?;
+    let (mut scene, surface) = load::load(&SceneFile::parse(&setup.text, None, &changes)?, &|_| {})?;
+    if let Some(edit) = setup.edit {
+        edit(&mut scene);
+    }
     Stage::new(scene, setup.surface.clone().unwrap_or(surface))
 }
 

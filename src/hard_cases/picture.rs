@@ -47,11 +47,6 @@ impl Picture {
         (0..self.height()).map(|y| self.shade(x, y)).sum()
     }
 
-    /// The largest shade.
-    pub(super) fn brightest(&self) -> f64 {
-        self.values.iter().fold(0.0, |most, value| math::max(most, value[0]))
-    }
-
     /// Where what is covered has its middle, pixels.
     pub(super) fn middle(&self) -> [f64; 2] {
         let mut sums = [0.0; 3];
@@ -63,7 +58,7 @@ impl Picture {
     }
 
     /// The indices of a pixel and those around it, up to `radius` away.
-    fn around(&self, k: usize, radius: usize) -> impl Iterator<Item = usize> {
+    pub(super) fn around(&self, k: usize, radius: usize) -> impl Iterator<Item = usize> {
         let (x, y, width) = (k % self.width, k / self.width, self.width);
         let columns = x.saturating_sub(radius)..(x + radius + 1).min(width);
         let rows = y.saturating_sub(radius)..(y + radius + 1).min(self.height());
@@ -71,7 +66,7 @@ impl Picture {
     }
 
     /// Whether all pixels around one look as it does.
-    fn is_even(&self, k: usize, radius: usize) -> bool {
+    pub(super) fn is_even(&self, k: usize, radius: usize) -> bool {
         self.around(k, radius).all(|other| distance(&self.values[k], &self.values[other]) <= STEP + ROUNDING)
     }
 }

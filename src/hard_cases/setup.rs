@@ -1,6 +1,7 @@
 //! Scenes of cases: white features on black ground under a black sky, unless they say otherwise, so that a pixel's shade is what is covered.
 
-use crate::scene::Surface;
+use crate::scene::{Scene, Surface};
+use crate::technique::Kind;
 use std::fmt::Write;
 
 /// A scene as a text, and a surface that the text cannot say.
@@ -10,6 +11,8 @@ pub(super) struct Setup {
     pub(super) text: String,
     /// The terrain, in place of the text's.
     pub(super) surface: Option<Surface>,
+    /// What the text cannot say of the scene.
+    pub(super) edit: Option<fn(&mut Scene)>,
 }
 
 /// Looking straight down on 128 m, north up.
@@ -27,7 +30,7 @@ impl Setup {
             "schema = 1\nimage = {{ width = {width}, height = {height}, background = \"#000000\" }}\n\
              terrain = {{ generate = {{ {terrain} }}, color = \"#000000\" }}\ncamera = {{ {camera} }}\n{more}"
         );
-        Self { text, surface: None }
+        Self { text, surface: None, edit: None }
     }
 
     /// 128 m of a plane from straight above, a metre a pixel.
@@ -49,6 +52,18 @@ impl Setup {
         Self { text: format!("plan = \"globe\"\n{}", flat.text), ..flat }
     }
 
+    /// The terrain moved to the north-east; the text's own coordinates are where they are.
+    pub(super) fn moved(self, by: f64) -> Self {
+        let offset = format!("color = \"#000000\", offset = [{by:?}, {by:?}] }}");
+        Self { text: self.text.replacen("color = \"#000000\" }", &offset, 1), ..self }
+    }
+
+    /// With other keys of the terrain.
+    pub(super) fn with_terrain(self, keys: &str) -> Self {
+        let keys = format!("color = \"#000000\", {keys} }}");
+        Self { text: self.text.replacen("color = \"#000000\" }", &keys, 1), ..self }
+    }
+
     /// With another terrain.
     pub(super) fn over(self, surface: Surface) -> Self {
         Self { surface: Some(surface), ..self }
@@ -67,6 +82,14 @@ pub(super) fn lines(points: &str, style: &str) -> String {
         "[[layer]]\nfeatures = [{features}]\nline = {{ color = \"#ffffff\", {} }}\n",
         style.trim_end_matches([',', ' '])
     )
+}
+
+/// A layer of white lines as whom they are for draws them: so many metres wide, or so many pixels.
+pub(super) fn stroke(kind: Option<Kind>, points: &str, metres: f64, pixels: f64) -> String {
+    match kind {
+        Some(Kind::DynamicLine) => lines(points, &format!("width_px = {pixels:?}")),
+        _ => line(points, metres, ""),
+    }
 }
 
 /// A layer of one white polygon; rings are parted by semicolons.

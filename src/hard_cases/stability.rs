@@ -3,7 +3,7 @@
 use super::hand::{Hand, Truths, Who};
 use super::machine::{MACHINES, Machine};
 use super::picture::{Picture, farthest, rmse};
-use super::setup::{Setup, line, lines, points, polygons, square, towards};
+use super::setup::{Setup, lines, points, polygons, square, stroke, towards};
 use crate::error::{ErrorKind, Result};
 use crate::math;
 use crate::parallel;
@@ -116,30 +116,21 @@ fn points_of(subject: &Subject, hand: &Hand) -> Result<Vec<[f64; 2]>> {
     Ok(points)
 }
 
-/// The layer of lines that a technique draws: in pixels for one that draws nothing else.
-fn stroke(hand: &Hand, points: &str, width: f64) -> String {
-    match hand.kind() {
-        Some(Kind::DynamicLine) => lines(points, &format!("width_px = {width:?}")),
-        _ => line(points, width, ""),
-    }
-}
-
 /// A road and a field over hills, all of it moved.
 fn moved(hand: &Hand, by: f64) -> Setup {
     let at = |[x, y]: [f64; 2]| format!("[{:?}, {:?}]", x + by, y + by);
     let road = [[-60.0, -40.0], [10.0, 22.0], [55.0, 3.0]].map(at).join(", ");
     let field = [[-30.0, -45.0], [40.0, -30.0], [5.0, 40.0]].map(at).join(", ");
     let camera = format!("eye = [{:?}, {:?}, 110], target = [{by:?}, {by:?}, 5]", by + 5.0, by - 120.0);
-    let layers =
-        polygons(&format!("{{ polygon = [[{field}]] }}"), ", opacity = 0.5") + &stroke(hand, &road, 6.0);
-    let flat = Setup::new(
+    let layers = polygons(&format!("{{ polygon = [[{field}]] }}"), ", opacity = 0.5")
+        + &stroke(hand.kind(), &road, 6.0, 6.0);
+    Setup::new(
         [48, 48],
         "kind = \"fbm\", seed = 2, posts = [17, 17], cell_m = 10.0, height_m = 20.0",
         &camera,
         &layers,
-    );
-    let offset = format!("color = \"#000000\", offset = [{by:?}, {by:?}] }}");
-    Setup { text: flat.text.replacen("color = \"#000000\" }", &offset, 1), ..flat }
+    )
+    .moved(by)
 }
 
 fn by_offset(hand: &Hand, by: f64) -> Result<f64> {
@@ -148,7 +139,7 @@ fn by_offset(hand: &Hand, by: f64) -> Result<f64> {
 
 fn by_turn(hand: &Hand, turn: f64) -> Result<f64> {
     let bend = points(&[[-50.0, 0.3], [0.0, 1.3], towards([0.0, 1.3], turn, 50.0)]);
-    against_truth(hand, &Setup::map_of(128.0, 48, &stroke(hand, &bend, 8.0)))
+    against_truth(hand, &Setup::map_of(128.0, 48, &stroke(hand.kind(), &bend, 8.0, 8.0)))
 }
 
 fn by_near_plane(hand: &Hand, near: f64) -> Result<f64> {
@@ -159,7 +150,7 @@ fn by_near_plane(hand: &Hand, near: f64) -> Result<f64> {
 }
 
 fn by_width(hand: &Hand, width: f64) -> Result<f64> {
-    let setup = Setup::map_of(48.0, 48, &stroke(hand, "[-20.3, -11.7], [19.1, 14.9]", width));
+    let setup = Setup::map_of(48.0, 48, &stroke(hand.kind(), "[-20.3, -11.7], [19.1, 14.9]", width, width));
     area_off(hand, &setup)
 }
 
@@ -167,7 +158,7 @@ fn by_distance(hand: &Hand, distance: f64) -> Result<f64> {
     let across = format!("[-{0:?}, {distance:?}], [{0:?}, {distance:?}]", 2.0 * distance);
     let terrain = "kind = \"plane\", posts = [3, 3], cell_m = 20000.0";
     let camera = "eye = [0, 0, 100], target = [0, 1000, 100], fov_y_deg = 60, near_m = 1";
-    area_off(hand, &Setup::new([16, 192], terrain, camera, &stroke(hand, &across, 2.0)))
+    area_off(hand, &Setup::new([16, 192], terrain, camera, &stroke(hand.kind(), &across, 2.0, 2.0)))
 }
 
 fn by_overlaps(hand: &Hand, count: f64) -> Result<f64> {

@@ -79,7 +79,13 @@ fn result(case: Case) -> Result<CaseResult> {
     let mut rows = vec![row(&case, &hand(Who::Truth, F64, &[]))?];
     for kind in case.concerns {
         for machine in case.machines {
-            rows.push(row(&case, &hand(Who::Technique(*kind), *machine, &[]))?);
+            let row = row(&case, &hand(Who::Technique(*kind), *machine, &[]))?;
+            // What refuses a scene does so on any machine.
+            let is_refused = row.verdict == Verdict::Refused;
+            rows.push(if is_refused { Row { machine: "any", ..row } } else { row });
+            if is_refused {
+                break;
+            }
         }
         for variant in case.variants.iter().filter(|variant| variant.kind == *kind) {
             let row = row(&case, &hand(Who::Technique(*kind), F64, variant.keys))?;

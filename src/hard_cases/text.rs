@@ -38,7 +38,7 @@ fn table(result: &CaseResult) -> String {
 }
 
 fn line(row: &Row) -> String {
-    let mut text = format!("  {:20} {:10} {:14}", row.technique, row.machine, row.verdict.word());
+    let mut text = format!("  {:20} {:10} {:15}", row.technique, row.machine, row.verdict.word());
     let figures: Vec<String> = row.figures.iter().map(told).collect();
     text += &figures.join(", ");
     if !row.settings.is_empty() {
