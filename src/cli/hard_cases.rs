@@ -25,6 +25,9 @@ pub(super) struct Arguments {
     /// Only the case of this number; may be repeated.
     #[arg(long, value_name = "N")]
     only: Vec<u32>,
+    /// Exact mathematics alone: no machine is imitated.
+    #[arg(long)]
+    quick: bool,
     /// Write hard-cases.html, hard-cases.json and hard-cases.txt into this folder, with curves of error against what makes scenes hard.
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
@@ -58,7 +61,7 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
 /// Draws the cases; the curves where files are wanted, of the whole suite.
 fn suite(arguments: &Arguments, bar: &Bar) -> drapery::Result<Suite> {
     bar.start("drawing the hard cases");
-    let plan = Plan { only: arguments.only.clone() };
+    let plan = Plan { only: arguments.only.clone(), is_quick: arguments.quick };
     let cases = hard_cases::run(&plan, &|share| bar.done(share))?;
     let wants_files = arguments.output.is_some() || arguments.json.is_some();
     if !wants_files || !arguments.only.is_empty() {

@@ -18,6 +18,8 @@ use crate::truth;
 pub struct Plan {
     /// The numbers of the cases; none: all.
     pub only: Vec<u32>,
+    /// Whether no machine is imitated: exact mathematics alone.
+    pub is_quick: bool,
 }
 
 /// A case and how all did.
@@ -69,16 +71,16 @@ pub fn run(plan: &Plan, progress: &(dyn Fn(f64) + Sync)) -> Result<Vec<CaseResul
     }
     let wanted: Vec<Case> =
         all.into_iter().filter(|case| plan.only.is_empty() || plan.only.contains(&case.number)).collect();
-    parallel::map_telling(wanted.len(), progress, |k| result(wanted[k])).into_iter().collect()
+    parallel::map_telling(wanted.len(), progress, |k| result(wanted[k], plan.is_quick)).into_iter().collect()
 }
 
 /// A case, drawn by all whom it concerns.
-fn result(case: Case) -> Result<CaseResult> {
+fn result(case: Case, is_quick: bool) -> Result<CaseResult> {
     let truths = Truths::default();
     let hand = |who, machine, settings| Hand { who, machine, settings, truths: &truths };
     let mut rows = vec![row(&case, &hand(Who::Truth, F64, &[]))?];
     for kind in case.concerns {
-        for machine in case.machines {
+        for machine in case.machines.iter().filter(|machine| !is_quick || **machine == F64) {
             let row = row(&case, &hand(Who::Technique(*kind), *machine, &[]))?;
             // What refuses a scene does so on any machine.
             let is_refused = row.verdict == Verdict::Refused;
