@@ -70,13 +70,16 @@ pub mod explain;
 #[cfg(feature = "render")]
 pub mod export;
 #[cfg(feature = "render")]
+pub mod figures;
+#[cfg(feature = "render")]
 pub(crate) mod footprint;
 #[cfg(feature = "render")]
 pub mod golden;
 #[cfg(feature = "render")]
+pub mod hard_cases;
+#[cfg(feature = "render")]
 pub(crate) mod holding;
 #[cfg(feature = "render")]
-pub mod hard_cases;
 pub mod index;
 #[cfg(feature = "render")]
 pub(crate) mod interval;

@@ -251,6 +251,28 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "buffer",
         ],
     ),
+    // Scenes of its own, drawn by every technique and the truth.
+    (
+        "figures",
+        &[
+            "open",
+            "measure",
+            "technique",
+            "canvas",
+            "truth",
+            "sampling",
+            "stage",
+            "draw_list",
+            "terrain",
+            "scene_file",
+            "scene",
+            "space",
+            "compare",
+            "output",
+            "parallel",
+            "buffer",
+        ],
+    ),
     // Drafts of scenes, whoever draws and judges them.
     ("reduce", &["scene_file", "scene", "space"]),
     // The judge and what is shown to it: all that draws.

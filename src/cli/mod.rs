@@ -11,6 +11,7 @@ mod completions;
 mod device_argument;
 mod explain;
 mod export;
+mod figures;
 mod golden;
 mod hard_cases;
 mod info;
@@ -44,6 +45,7 @@ Examples:
   drapery compare bundle my-frames                 is what my program drew from the bundle right?
   drapery export scene.toml -t clipmap -o bundle   mesh, features, matrices, pictures for a GPU client
   drapery explain scene.toml --pixel 640,420       why this pixel has its colour
+  drapery figures she-13                           a paper's figure, made again
   drapery golden check
   drapery schema > scene.schema.json               for completion in an editor
 
@@ -82,6 +84,8 @@ enum Command {
     Compare(compare::Arguments),
     /// Find the smallest scene that a program still draws wrong.
     Reduce(reduce::Arguments),
+    /// Make the papers' figures again, and some of our own.
+    Figures(figures::Arguments),
     /// Replay goldens: small scenes whose every buffer is known.
     Golden(golden::Arguments),
     /// Draw failures that users of real systems reported, with their known answers.
@@ -122,6 +126,7 @@ fn run(command: Command) -> Outcome {
         Command::New(arguments) => new::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Reduce(arguments) => reduce::run(&arguments),
+        Command::Figures(arguments) => figures::run(&arguments),
         Command::Golden(arguments) => golden::run(&arguments),
         Command::HardCases(arguments) => hard_cases::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),

@@ -1,0 +1,49 @@
+//! The papers' figures, made again by their techniques, and some of our own: a folder a paper.
+//!
+//! Input: nothing; scenes are generated, so that everybody has them. Output: pictures (PNG) and drawings of structures (SVG), the same bits on every
+//! machine, `figures.html` (one page with captions and what to look for) and `figures.json` ([`write()`]). What a renderer cannot make (photographs,
+//! flow charts) and what other commands measure is in [`UNMADE`]. Refuses: names of no figure ([`chosen`]).
+
+mod drawing;
+mod figure;
+mod made;
+mod page;
+mod pictures;
+mod she;
+mod shot;
+mod unmade;
+
+pub use figure::{Content, Figure, Panel, Paper, Scale};
+pub use made::{PAGE, hash, write};
+pub use unmade::{UNMADE, Unmade};
+
+use crate::error::{Error, Result};
+use crate::scene_file::nearest_or_all;
+
+/// Every figure, in the order of the page.
+pub fn all() -> impl Iterator<Item = &'static Figure> {
+    she::FIGURES.iter().copied()
+}
+
+/// The figures of these names, each a figure's or a paper's (all of its figures); all where there is no name. In the order of the page.
+///
+/// # Errors
+/// When a name is no figure's, with the nearest.
+pub fn chosen(names: &[String]) -> Result<Vec<&'static Figure>> {
+    let is_named = |figure: &Figure, name: &str| figure.name == name || figure.paper.name() == name;
+    for name in names {
+        if !all().any(|figure| is_named(figure, name)) {
+            return Err(unknown(name));
+        }
+    }
+    let is_wanted = |figure: &&Figure| names.is_empty() || names.iter().any(|name| is_named(figure, name));
+    Ok(all().filter(is_wanted).collect())
+}
+
+/// The refusal of a name.
+fn unknown(name: &str) -> Error {
+    let papers = Paper::ALL.iter().map(|paper| paper.name());
+    let known: Vec<&str> = papers.chain(all().map(|figure| figure.name)).collect();
+    Error::usage(format!("there is no figure `{name}`"))
+        .help(format!("{}; `drapery figures --list` tells all", nearest_or_all(name, &known, "figures")))
+}
