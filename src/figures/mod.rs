@@ -4,14 +4,21 @@
 //! machine, `figures.html` (one page with captions and what to look for) and `figures.json` ([`write()`]). What a renderer cannot make (photographs,
 //! flow charts) and what other commands measure is in [`UNMADE`]. Refuses: names of no figure ([`chosen`]).
 
+mod bars;
 mod drawing;
 mod figure;
 mod made;
 mod page;
 mod pictures;
+mod pixel_grid;
+mod scenery;
 mod she;
 mod shot;
+mod strips;
+mod taibo;
 mod unmade;
+mod volumes;
+mod ways;
 
 pub use figure::{Content, Figure, Panel, Paper, Scale};
 pub use made::{PAGE, hash, write};
@@ -22,7 +29,7 @@ use crate::scene_file::nearest_or_all;
 
 /// Every figure, in the order of the page.
 pub fn all() -> impl Iterator<Item = &'static Figure> {
-    she::FIGURES.iter().copied()
+    [taibo::FIGURES, she::FIGURES].into_iter().flatten().copied()
 }
 
 /// The figures of these names, each a figure's or a paper's (all of its figures); all where there is no name. In the order of the page.

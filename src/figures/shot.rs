@@ -68,6 +68,12 @@ impl Tables {
         &self.0.image
     }
 
+    /// What was counted by this name.
+    pub(super) fn count(&self, name: &str) -> u64 {
+        let found = self.0.counts.iter().find(|(counted, _)| *counted == name);
+        found.map_or(0, |(_, count)| *count)
+    }
+
     /// A buffer that was asked for.
     pub(super) fn plane(&self, name: &str) -> Result<&Plane> {
         let found = self.0.planes.iter().find(|plane| plane.name == name);
@@ -78,6 +84,10 @@ impl Tables {
     pub(super) fn whole<const N: usize>(&self, name: &str) -> Result<Vec<[u32; N]>> {
         match &self.plane(name)?.values {
             Values::U32(values) => Ok(values.as_chunks().0.to_vec()),
+            Values::U16(values) => {
+                let values: Vec<u32> = values.iter().map(|value| u32::from(*value)).collect();
+                Ok(values.as_chunks().0.to_vec())
+            }
             Values::U8(values) => {
                 let values: Vec<u32> = values.iter().map(|value| u32::from(*value)).collect();
                 Ok(values.as_chunks().0.to_vec())

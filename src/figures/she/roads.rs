@@ -13,10 +13,10 @@ pub(super) const FIGURE_12: Figure = Figure {
     paper: Paper::She,
     number: "Fig. 12",
     title: "Roads narrower than a pixel",
-    caption: "Roads of 5 m, of which most are less than a pixel wide: single sampling by stencil volumes beside inverse projection with 2 x 2, 3 x 3 \
+    caption: "Roads of 5 m, most of which are less than a pixel wide, enlarged: single sampling by stencil volumes beside inverse projection with 2 x 2, 3 x 3 \
               and 4 x 4 samples a pixel.",
     look_for: "single sampling breaks far roads into dots; with more samples they become whole and fainter, as far as they are narrower than a pixel.",
-    draw: |scale| compared("layer.roads.line.width_m=5", [0.0, 0.0, 1.0, 1.0], 1, scale),
+    draw: |scale| compared("layer.roads.line.width_m=5", [0.1, 0.2, 0.7, 0.6], 2, scale),
 };
 
 pub(super) const FIGURE_13: Figure = Figure {
