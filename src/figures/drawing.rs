@@ -131,11 +131,6 @@ impl Window {
     pub(super) fn all(&self, points: &[Plan]) -> Vec<At> {
         points.iter().map(|point| self.at(*point)).collect()
     }
-
-    /// Units of the drawing a metre.
-    pub(super) fn scale(&self) -> f64 {
-        self.scale
-    }
 }
 
 /// `M x y L x y ...`

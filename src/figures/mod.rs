@@ -12,12 +12,14 @@ mod page;
 mod pictures;
 mod pixel_grid;
 mod scenery;
+mod schneider_klein;
 mod she;
 mod shot;
 mod strips;
 mod taibo;
 mod unmade;
 mod volumes;
+mod wartell;
 mod ways;
 
 pub use figure::{Content, Figure, Panel, Paper, Scale};
@@ -29,7 +31,7 @@ use crate::scene_file::nearest_or_all;
 
 /// Every figure, in the order of the page.
 pub fn all() -> impl Iterator<Item = &'static Figure> {
-    [taibo::FIGURES, she::FIGURES].into_iter().flatten().copied()
+    [schneider_klein::FIGURES, wartell::FIGURES, taibo::FIGURES, she::FIGURES].into_iter().flatten().copied()
 }
 
 /// The figures of these names, each a figure's or a paper's (all of its figures); all where there is no name. In the order of the page.

@@ -12,8 +12,6 @@ pub(super) struct Volume {
     pub(super) rings: Vec<Vec<Plan>>,
     pub(super) bottom: f64,
     pub(super) top: f64,
-    /// Whether it is counted by z-fail in the frame's view.
-    pub(super) is_z_fail: bool,
 }
 
 impl Volume {
@@ -57,7 +55,7 @@ pub(super) fn volumes(tables: &Tables) -> Result<Vec<Volume>> {
     let volume = |(row, level): (&[u32; 6], &[f64; 2])| -> Result<Volume> {
         let rings = rings.get(part([row[0], row[1]])).ok_or_else(lost)?;
         let rings = rings.iter().map(ring).collect::<Result<_>>()?;
-        Ok(Volume { rings, bottom: level[0], top: level[1], is_z_fail: row[2] == 1 })
+        Ok(Volume { rings, bottom: level[0], top: level[1] })
     };
     rows.iter().zip(&levels).map(volume).collect()
 }

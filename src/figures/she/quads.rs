@@ -24,7 +24,7 @@ pub(super) const FIGURE_3: Figure = Figure {
     paper: Paper::She,
     number: "Fig. 3",
     title: "How stencil volumes colour two pixels",
-    caption: "A camera of 9 x 6 pixels, the terrain, and the volumes of a road: pixel 1 sees a point of the terrain that lies in a volume, pixel 2 does not.",
+    caption: "A camera of 12 x 8 pixels, the terrain, and the volumes of a road: pixel 1 sees a point of the terrain that lies in a volume, pixel 2 does not.",
     look_for: "volumes reach a little below and above the terrain; that is all of the road that is in them.",
     draw: figure_3,
 };
@@ -114,11 +114,11 @@ fn figure_5(_: Scale) -> Result<Vec<Panel>> {
 
 /// A few pixels of the middle, as shares of the picture.
 fn is_shown(k: usize, columns: usize) -> bool {
-    (1..7).contains(&(k % columns)) && (1..5).contains(&(k / columns))
+    (3..9).contains(&(k % columns)) && (2..7).contains(&(k / columns))
 }
 
 fn figure_6(_: Scale) -> Result<Vec<Panel>> {
-    let shot = Shot::of(HILLOCK, &["terrain.generate.height_m=60"])?;
+    let shot = Shot::of(HILLOCK, &["terrain.generate.height_m=45"])?;
     let frame = shot.frame(Kind::InverseProjection, &["depth", "plan", "quad"])?;
     let (depths, plan, quads) =
         (frame.real::<1>("depth")?, frame.real::<2>("plan")?, frame.real::<8>("quad")?);

@@ -1,7 +1,7 @@
 //! Figs. 4 to 8: how lines become polygons.
 
 use super::super::drawing::{Drawing, Window};
-use super::super::figure::{Figure, Panel, Paper, Scale};
+use super::super::figure::{Figure, Panel, Paper};
 use super::super::shot::Shot;
 use super::super::strips::{Primitive, Tessellated};
 use crate::error::Result;
