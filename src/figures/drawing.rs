@@ -49,14 +49,16 @@ impl Drawing {
         let along = [to[0] - from[0], to[1] - from[1]];
         let length = crate::math::max((along[0] * along[0] + along[1] * along[1]).sqrt(), 1e-9);
         let [x, y] = along.map(|v| 7.0 * v / length);
-        let head = [[to[0] - x - 0.4 * y, to[1] - y + 0.4 * x], to, [to[0] - x + 0.4 * y, to[1] - y - 0.4 * x]];
+        let head =
+            [[to[0] - x - 0.4 * y, to[1] - y + 0.4 * x], to, [to[0] - x + 0.4 * y, to[1] - y - 0.4 * x]];
         self.line(&[from, to], class);
         self.line(&head, class);
     }
 
     /// A dot.
     pub(super) fn dot(&mut self, at: At, radius: f64, class: &str) {
-        self.parts.push(html! { circle class=(class) cx=(fixed(at[0])) cy=(fixed(at[1])) r=(fixed(radius)) {} });
+        self.parts
+            .push(html! { circle class=(class) cx=(fixed(at[0])) cy=(fixed(at[1])) r=(fixed(radius)) {} });
     }
 
     /// A word; the anchor is `start`, `middle` or `end`.
@@ -107,7 +109,10 @@ pub(super) struct Window {
 
 impl Window {
     /// The smallest part of the plan that holds the points, as large as it goes into a drawing's rectangle (left, top, width, height).
-    pub(super) fn around(points: impl IntoIterator<Item = Plan>, [left, top, width, height]: [f64; 4]) -> Self {
+    pub(super) fn around(
+        points: impl IntoIterator<Item = Plan>,
+        [left, top, width, height]: [f64; 4],
+    ) -> Self {
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for point in points {
             for (k, v) in [point.x, point.y].into_iter().enumerate() {
@@ -135,9 +140,8 @@ impl Window {
 
 /// `M x y L x y ...`
 fn path(points: &[At]) -> String {
-    let point = |(k, [x, y]): (usize, &At)| {
-        format!("{}{} {}", if k == 0 { 'M' } else { 'L' }, fixed(*x), fixed(*y))
-    };
+    let point =
+        |(k, [x, y]): (usize, &At)| format!("{}{} {}", if k == 0 { 'M' } else { 'L' }, fixed(*x), fixed(*y));
     points.iter().enumerate().map(point).collect()
 }
 

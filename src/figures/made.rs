@@ -67,7 +67,9 @@ pub fn write(
     let mut made = Vec::new();
     for (k, figure) in figures.iter().enumerate() {
         telling(figure.name, k as f64 / figures.len() as f64);
-        let panels = figure.panels(scale).map_err(|error| error.reworded(|what| format!("{}: {what}", figure.name)))?;
+        let panels = figure
+            .panels(scale)
+            .map_err(|error| error.reworded(|what| format!("{}: {what}", figure.name)))?;
         made.push(Made { figure, panels });
     }
     for one in &made {

@@ -5,9 +5,12 @@
 //! flow charts) and what other commands measure is in [`UNMADE`]. Refuses: names of no figure ([`chosen`]).
 
 mod bars;
+mod clippings;
+mod curves;
 mod drawing;
 mod figure;
 mod made;
+mod ours;
 mod page;
 mod pictures;
 mod pixel_grid;
@@ -21,6 +24,7 @@ mod unmade;
 mod volumes;
 mod wartell;
 mod ways;
+mod zechmeister;
 
 pub use figure::{Content, Figure, Panel, Paper, Scale};
 pub use made::{PAGE, hash, write};
@@ -31,7 +35,15 @@ use crate::scene_file::nearest_or_all;
 
 /// Every figure, in the order of the page.
 pub fn all() -> impl Iterator<Item = &'static Figure> {
-    [schneider_klein::FIGURES, wartell::FIGURES, taibo::FIGURES, she::FIGURES].into_iter().flatten().copied()
+    let papers = [
+        schneider_klein::FIGURES,
+        wartell::FIGURES,
+        taibo::FIGURES,
+        she::FIGURES,
+        zechmeister::FIGURES,
+        ours::FIGURES,
+    ];
+    papers.into_iter().flatten().copied()
 }
 
 /// The figures of these names, each a figure's or a paper's (all of its figures); all where there is no name. In the order of the page.

@@ -18,11 +18,7 @@ pub(super) struct Way {
 
 impl Way {
     /// By a technique.
-    pub(super) const fn by(
-        kind: Kind,
-        settings: &'static [&'static str],
-        caption: &'static str,
-    ) -> Self {
+    pub(super) const fn by(kind: Kind, settings: &'static [&'static str], caption: &'static str) -> Self {
         Self { kind: Some(kind), settings, caption }
     }
 
@@ -33,7 +29,12 @@ impl Way {
 }
 
 /// A panel each: a part of the picture, its pixels so many times as large.
-pub(super) fn drawn_in(ways: &[Way], text: &str, (part, times): (Part, usize), scale: Scale) -> Result<Vec<Panel>> {
+pub(super) fn drawn_in(
+    ways: &[Way],
+    text: &str,
+    (part, times): (Part, usize),
+    scale: Scale,
+) -> Result<Vec<Panel>> {
     let panel = |way: &Way| {
         let shot = Shot::scaled(text, way.settings, scale)?;
         let picture = match way.kind {

@@ -51,7 +51,8 @@ fn counted(frame: &Tables, name: &str, caption: &str) -> Result<Panel> {
 
 /// The triangles of a cap's fan that face up, or down, with the rings.
 fn fan(volume: &Volume, is_up: bool) -> String {
-    let window = Window::around(volume.rings.iter().flatten().copied(), [20.0, 20.0, SIZE[0] - 40.0, SIZE[1] - 40.0]);
+    let window =
+        Window::around(volume.rings.iter().flatten().copied(), [20.0, 20.0, SIZE[0] - 40.0, SIZE[1] - 40.0]);
     let mut drawing = Drawing::new("a fan", SIZE);
     let first = volume.rings.first().and_then(|ring| ring.first()).copied().unwrap_or_default();
     for ring in &volume.rings {

@@ -84,9 +84,10 @@ fn figure_2(_: Scale) -> Result<Vec<Panel>> {
     let eye = upright(eye.y, eye.z);
     // The first point of the last area that the eye sees: no ground before it is above the line of sight.
     let is_seen = |at: &Plan| {
-        profile.iter().filter(|other| other.x > eye.x && other.x < at.x - STEP).all(|other| {
-            other.y < eye.y + (at.y - eye.y) * (other.x - eye.x) / (at.x - eye.x)
-        })
+        profile
+            .iter()
+            .filter(|other| other.x > eye.x && other.x < at.x - STEP)
+            .all(|other| other.y < eye.y + (at.y - eye.y) * (other.x - eye.x) / (at.x - eye.x))
     };
     let inside = profile.iter().filter(|at| at.x > south + 2.0 && at.x < north - 2.0);
     let seen = inside.copied().find(is_seen).ok_or_else(|| Error::internal("a figure sees nothing"))?;
@@ -119,7 +120,12 @@ fn sight(drawing: &mut Drawing, window: &Window, (eye, seen): (Plan, Plan), cuts
             drawing.word([x + 4.0, y - 9.0], "middle", sign);
         }
     }
-    for (point, word, anchor) in [(eye, "eye", "start"), (at(near), "O near", "start"), (seen, "P", "start"), (at(far), "O inf", "end")] {
+    for (point, word, anchor) in [
+        (eye, "eye", "start"),
+        (at(near), "O near", "start"),
+        (seen, "P", "start"),
+        (at(far), "O inf", "end"),
+    ] {
         let [x, y] = window.at(point);
         drawing.dot([x, y], 3.5, "ink dot");
         drawing.word([x, y + 18.0], anchor, word);
@@ -146,12 +152,16 @@ fn figure_3(_: Scale) -> Result<Vec<Panel>> {
         corners.push(along);
     }
     let caps = all.iter().flat_map(|volume| [upright(0.0, volume.bottom), upright(0.0, volume.top)]);
-    let window = Window::around(profile.iter().copied().chain(caps), [16.0, 24.0, SIZE[0] - 32.0, SIZE[1] - 48.0]);
+    let window =
+        Window::around(profile.iter().copied().chain(caps), [16.0, 24.0, SIZE[0] - 32.0, SIZE[1] - 48.0]);
     let mut drawing = Drawing::new("a line's volumes along it", SIZE);
     for (volume, ends) in all.iter().zip(corners.windows(2)) {
         let at = |x: f64, height: f64| window.at(upright(x, height));
         let [low, high] = [volume.bottom, volume.top];
-        drawing.ring(&[at(ends[0], low), at(ends[1], low), at(ends[1], high), at(ends[0], high)], "blue area faint");
+        drawing.ring(
+            &[at(ends[0], low), at(ends[1], low), at(ends[1], high), at(ends[0], high)],
+            "blue area faint",
+        );
         drawing.line(&[at(ends[0], low), at(ends[0], high)], "blue edge thin");
         drawing.line(&[at(ends[1], low), at(ends[1], high)], "blue edge thin");
         for height in [low, high] {

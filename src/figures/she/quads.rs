@@ -74,7 +74,8 @@ fn figure_3(_: Scale) -> Result<Vec<Panel>> {
         scenery.line(&[shot.view.eye(), seen], &format!("{class} edge"));
         scenery.dot(seen, &format!("{class} dot"), word);
     }
-    let caption = "stencil volumes: the terrain's point that a pixel's centre sees is in a volume, or in none";
+    let caption =
+        "stencil volumes: the terrain's point that a pixel's centre sees is in a volume, or in none";
     Ok(vec![Panel::drawing(caption, scenery.svg())])
 }
 
@@ -107,7 +108,11 @@ fn figure_5(_: Scale) -> Result<Vec<Panel>> {
         scenery.line(&[shot.view.eye(), on_ray(&shot.view, at, PICTURE), seen], &format!("{class} edge"));
         scenery.line(&[seen, below(x, y)], &format!("{class} edge dash"));
         scenery.dot(seen, &format!("{class} dot"), "");
-        scenery.dot(below(x, y), &format!("{class} dot"), if class == "blue" { "F pixel" } else { "P pixel" });
+        scenery.dot(
+            below(x, y),
+            &format!("{class} dot"),
+            if class == "blue" { "F pixel" } else { "P pixel" },
+        );
     }
     Ok(vec![Panel::drawing("the plan is drawn below the terrain, where nothing else is", scenery.svg())])
 }

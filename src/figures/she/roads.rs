@@ -43,10 +43,8 @@ pub(super) const FIGURE_15: Figure = Figure {
 /// Stencil volumes' one sample, then inverse projection's.
 fn compared(width: &str, part: Part, times: usize, scale: Scale) -> Result<Vec<Panel>> {
     let single = Shot::scaled(ROADS, &[width], scale)?.by(Kind::StencilVolume)?;
-    let mut panels = vec![Panel::picture(
-        "stencil volumes, one sample a pixel",
-        enlarged(&single, part, times),
-    )];
+    let mut panels =
+        vec![Panel::picture("stencil volumes, one sample a pixel", enlarged(&single, part, times))];
     for n in 2..=4 {
         let samples = format!("technique.inverse-projection.samples={n}");
         let picture = Shot::scaled(ROADS, &[width, &samples], scale)?.by(Kind::InverseProjection)?;

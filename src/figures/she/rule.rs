@@ -50,7 +50,8 @@ fn figure_4(_: Scale) -> Result<Vec<Panel>> {
     let shot = Shot::of(CORNER, &[])?;
     let frame = shot.frame(Kind::InverseProjection, &EDGES)?;
     let edges = edges(&frame)?;
-    let window = Window::around(edges.iter().map(|edge| edge.from), [40.0, 40.0, SIZE[0] - 80.0, SIZE[1] - 80.0]);
+    let window =
+        Window::around(edges.iter().map(|edge| edge.from), [40.0, 40.0, SIZE[0] - 80.0, SIZE[1] - 80.0]);
     let list = &shot.stage.draw_list;
     let item = list.items().first().ok_or_else(|| Error::internal("a figure's line is lost"))?;
     let path: Vec<Plan> =
@@ -86,7 +87,8 @@ fn figure_9(_: Scale) -> Result<Vec<Panel>> {
     let shot = Shot::of(CORNER, &[])?;
     let frame = shot.frame(Kind::InverseProjection, &[&EDGES[..], &["class"]].concat())?;
     let (edges, classes) = (edges(&frame)?, frame.whole::<1>("class")?);
-    let window = Window::around(edges.iter().map(|edge| edge.from), [40.0, 40.0, SIZE[0] - 80.0, SIZE[1] - 80.0]);
+    let window =
+        Window::around(edges.iter().map(|edge| edge.from), [40.0, 40.0, SIZE[0] - 80.0, SIZE[1] - 80.0]);
     let grid = PixelGrid::new(&shot, 26.0);
     let [columns, rows] = [shot.view.width(), shot.view.height()];
     let voted = |title: &str, votes: &dyn Fn(&Edge, Plan) -> bool| {
@@ -109,7 +111,10 @@ fn figure_9(_: Scale) -> Result<Vec<Panel>> {
     };
     let is_on = |edge: &Edge, sample: Plan| (0.0..=1.0).contains(&edge.foot(sample));
     Ok(vec![
-        Panel::drawing("a sample S, the feet of its perpendiculars on the edges, and votes", feet(&edges, &window)),
+        Panel::drawing(
+            "a sample S, the feet of its perpendiculars on the edges, and votes",
+            feet(&edges, &window),
+        ),
         Panel::drawing("all edges in the pixel vote (Code A alone)", voted("all edges vote", &|_, _| true)),
         Panel::drawing("those with the foot on them (Codes A and B)", voted("correlated edges vote", &is_on)),
     ])
@@ -123,7 +128,8 @@ fn feet(edges: &[Edge], window: &Window) -> String {
         let foot = edge.foot(sample);
         let is_in = (0.0..=1.0).contains(&foot);
         let at = edge.from + (edge.to - edge.from) * foot;
-        drawing.line(&window.all(&[edge.from, edge.to]), if is_in { "orange edge thick" } else { "soft edge" });
+        drawing
+            .line(&window.all(&[edge.from, edge.to]), if is_in { "orange edge thick" } else { "soft edge" });
         if is_in {
             drawing.line(&window.all(&[sample, at]), "blue edge dash");
             drawing.dot(window.at(at), 3.5, "blue dot");

@@ -26,7 +26,8 @@ const DATA: [(&str, &str); 3] = [
     ("rivers", "layer.line.generate={ kind = \"roads\", seed = 2, count = 12200, segment_m = 0.5 }"),
     ("paths", "layer.line.generate={ kind = \"paths\", seed = 3, count = 12200, segment_m = 0.5 }"),
 ];
-const SOLUTIONS: [&str; 6] = ["1-lines", "2-polygons", "3a-both", "3b-wireframe", "4a-adjacency", "4b-offsets"];
+const SOLUTIONS: [&str; 6] =
+    ["1-lines", "2-polygons", "3a-both", "3b-wireframe", "4a-adjacency", "4b-offsets"];
 
 fn figure_10(_: Scale) -> Result<Vec<Panel>> {
     let group = |(name, data): &(&str, &str)| {

@@ -1,7 +1,6 @@
 //! Wartell et al. 2003.
 
 mod borders;
-mod clippings;
 mod quad;
 
 use super::figure::Figure;

@@ -1,9 +1,9 @@
 //! Figs. 1 and 2: a line over the triangles of a quad.
 
+use super::super::clippings::{Clipping, clippings};
 use super::super::drawing::{Drawing, Window};
 use super::super::figure::{Figure, Panel, Paper, Scale};
 use super::super::shot::Shot;
-use super::clippings::{Clipping, clippings};
 use crate::error::Result;
 use crate::space::Plan;
 
@@ -63,7 +63,10 @@ fn figure_1(_: Scale) -> Result<Vec<Panel>> {
         }
         let of_mesh = |clipping: &&Clipping| clipping.layer == 2 * level;
         for (k, clipping) in clippings(&shot)?.iter().filter(of_mesh).enumerate() {
-            drawing.line(&window.all(&clipping.line), if k % 2 == 0 { "orange edge thick" } else { "blue edge thick" });
+            drawing.line(
+                &window.all(&clipping.line),
+                if k % 2 == 0 { "orange edge thick" } else { "blue edge thick" },
+            );
             for end in [clipping.line.first(), clipping.line.last()].into_iter().flatten() {
                 drawing.dot(window.at(*end), 2.5, "ink dot");
             }

@@ -1,6 +1,6 @@
 //! Triangle clippings as geometry overlay has them.
 
-use super::super::shot::{Shot, Tables};
+use super::shot::{Shot, Tables};
 use crate::error::Result;
 use crate::space::Plan;
 use crate::technique::Kind;
