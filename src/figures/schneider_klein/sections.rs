@@ -56,20 +56,47 @@ fn cut(volume: &Volume) -> Option<[f64; 2]> {
     Some([*crossings.first()?, *crossings.last()?])
 }
 
+/// The cut through the eye.
+struct Cut {
+    eye: Plan,
+    profile: Vec<Plan>,
+    /// Volumes from south to north, and the part of the cut that each takes.
+    volumes: Vec<(Volume, [f64; 2])>,
+}
+
+impl Cut {
+    fn of(shot: &Shot) -> Result<Self> {
+        let all = volumes(&shot.frame(Kind::StencilVolume, &VOLUMES)?)?;
+        let within = all.into_iter().filter_map(|volume| cut(&volume).map(|ends| (volume, ends)));
+        let ground = |y: f64| upright(y, shot.on_ground(Plan::new(0.0, y)).z);
+        let profile = (0..=320).map(|k| ground(f64::from(k) * STEP - 160.0)).collect();
+        let eye = shot.view.eye();
+        Ok(Self { eye: upright(eye.y, eye.z), profile, volumes: within.collect() })
+    }
+
+    /// The southernmost point in the last volume that the eye sees: no ground before it is above the line of sight.
+    fn seen(&self) -> Option<Plan> {
+        let (_, [south, north]) = self.volumes.last()?;
+        let is_seen = |at: &Plan| {
+            let slope = (at.y - self.eye.y) / (at.x - self.eye.x);
+            let before = self.profile.iter().filter(|other| other.x > self.eye.x && other.x < at.x - STEP);
+            before.into_iter().all(|other| other.y < self.eye.y + slope * (other.x - self.eye.x))
+        };
+        let inside = self.profile.iter().filter(|at| at.x > south + 2.0 && at.x < north - 2.0);
+        inside.copied().find(is_seen)
+    }
+}
+
 fn figure_2(_: Scale) -> Result<Vec<Panel>> {
-    let shot = Shot::of(CUT, &[])?;
-    let frame = shot.frame(Kind::StencilVolume, &[&VOLUMES[..], &["plan", "stencil"]].concat())?;
-    let cuts: Vec<(Volume, [f64; 2])> =
-        volumes(&frame)?.into_iter().filter_map(|volume| cut(&volume).map(|ends| (volume, ends))).collect();
-    let ground = |y: f64| upright(y, shot.on_ground(Plan::new(0.0, y)).z);
-    let profile: Vec<Plan> = (0..=320).map(|k| ground(f64::from(k) * STEP - 160.0)).collect();
-    let eye = shot.view.eye();
+    let cut = Cut::of(&Shot::of(CUT, &[])?)?;
+    let seen = cut.seen().ok_or_else(|| Error::internal("a figure sees nothing"))?;
+    let far = seen + (seen - cut.eye) * 0.22;
     let window = Window::around(
-        profile.iter().copied().chain([upright(eye.y, eye.z), upright(150.0, -12.0)]),
-        [16.0, 24.0, SIZE[0] - 32.0, SIZE[1] - 48.0],
+        cut.profile.iter().copied().chain([cut.eye, far]),
+        [16.0, 24.0, SIZE[0] - 32.0, SIZE[1] - 56.0],
     );
     let mut drawing = Drawing::new("a cut through the eye", SIZE);
-    for (volume, [south, north]) in &cuts {
+    for (volume, [south, north]) in &cut.volumes {
         let ring = [
             upright(*south, volume.bottom),
             upright(*north, volume.bottom),
@@ -79,31 +106,19 @@ fn figure_2(_: Scale) -> Result<Vec<Panel>> {
         drawing.ring(&window.all(&ring), "blue area");
         drawing.ring(&window.all(&ring), "blue edge");
     }
-    drawing.line(&window.all(&profile), "ink edge");
-    let (_, [south, north]) = cuts.last().ok_or_else(|| Error::internal("a figure's volumes are lost"))?;
-    let eye = upright(eye.y, eye.z);
-    // The first point of the last area that the eye sees: no ground before it is above the line of sight.
-    let is_seen = |at: &Plan| {
-        profile
-            .iter()
-            .filter(|other| other.x > eye.x && other.x < at.x - STEP)
-            .all(|other| other.y < eye.y + (at.y - eye.y) * (other.x - eye.x) / (at.x - eye.x))
-    };
-    let inside = profile.iter().filter(|at| at.x > south + 2.0 && at.x < north - 2.0);
-    let seen = inside.copied().find(is_seen).ok_or_else(|| Error::internal("a figure sees nothing"))?;
-    sight(&mut drawing, &window, (eye, seen), &cuts);
-    Ok(vec![Panel::drawing("z-pass and z-fail along one line of sight", drawing.svg())])
+    drawing.line(&window.all(&cut.profile), "ink edge");
+    sight(&mut drawing, &window, [cut.eye, seen, far], &cut.volumes);
+    Ok(vec![Panel::drawing("z-pass (orange) and z-fail (green) along one line of sight", drawing.svg())])
 }
 
 /// The line of sight from the eye through a seen point, and what is counted on it.
-fn sight(drawing: &mut Drawing, window: &Window, (eye, seen): (Plan, Plan), cuts: &[(Volume, [f64; 2])]) {
+fn sight(drawing: &mut Drawing, window: &Window, [eye, seen, far]: [Plan; 3], cuts: &[(Volume, [f64; 2])]) {
     let along = seen - eye;
     let at = |t: f64| eye + along * t;
     let near = 12.0 / along.length();
-    let far = (150.0 - eye.x) / along.x;
     drawing.line(&window.all(&[eye, at(near)]), "soft edge dash");
     drawing.line(&window.all(&[at(near), seen]), "orange edge");
-    drawing.line(&window.all(&[seen, at(far)]), "green edge");
+    drawing.line(&window.all(&[seen, far]), "green edge");
     for (volume, [south, north]) in cuts {
         let across = [(south - eye.x) / along.x, (north - eye.x) / along.x];
         let levels = [volume.bottom, volume.top].map(|height| (height - eye.y) / along.y);
@@ -120,12 +135,9 @@ fn sight(drawing: &mut Drawing, window: &Window, (eye, seen): (Plan, Plan), cuts
             drawing.word([x + 4.0, y - 9.0], "middle", sign);
         }
     }
-    for (point, word, anchor) in [
-        (eye, "eye", "start"),
-        (at(near), "O near", "start"),
-        (seen, "P", "start"),
-        (at(far), "O inf", "end"),
-    ] {
+    for (point, word, anchor) in
+        [(eye, "eye", "start"), (at(near), "O near", "start"), (seen, "P", "start"), (far, "O inf", "end")]
+    {
         let [x, y] = window.at(point);
         drawing.dot([x, y], 3.5, "ink dot");
         drawing.word([x, y + 18.0], anchor, word);

@@ -103,10 +103,19 @@ pub(super) const FIGURE_3_12: Figure = Figure {
 };
 
 const THINNER: &str = "layer.area.outline.opacity=0.5";
+const MITERS: [&str; 2] = ["technique.static-decal.joins=\"style\"", "layer.area.outline.join=\"miter\""];
 const MODES: [Way; 3] = [
-    Way::by(Kind::StaticDecal, &[THINNER, "layer.area.outline.mode=\"inset\""], "inset"),
-    Way::by(Kind::StaticDecal, &[THINNER], "normal"),
-    Way::by(Kind::StaticDecal, &[THINNER, "layer.area.outline.mode=\"offset\""], "offset"),
+    Way::by(
+        Kind::StaticDecal,
+        &[THINNER, MITERS[0], MITERS[1], "layer.area.outline.mode=\"inset\""],
+        "inset",
+    ),
+    Way::by(Kind::StaticDecal, &[THINNER, MITERS[0], MITERS[1]], "normal"),
+    Way::by(
+        Kind::StaticDecal,
+        &[THINNER, MITERS[0], MITERS[1], "layer.area.outline.mode=\"offset\""],
+        "offset",
+    ),
 ];
 
 pub(super) const FIGURE_4_8: Figure = Figure {
