@@ -3,8 +3,8 @@
 use super::names::Names;
 use crate::canvas::Backdrop;
 use crate::footprint::Footprints;
-use crate::resolve::{Paint, Stack};
 use crate::holding::Nearby;
+use crate::resolve::{Paint, Stack};
 use crate::space::{Plan, Screen, ViewFrame, World};
 use crate::stage::Stage;
 use crate::terrain::{Mesh, SKY, SurfaceTriangle};

@@ -2,9 +2,9 @@
 
 use super::bench::{Bench, Near};
 use crate::buffer::Buffer;
+use crate::holding::Nearby;
 use crate::parallel;
 use crate::resolve::code_values;
-use crate::holding::Nearby;
 use crate::space::Screen;
 
 /// How far beside the pixel is shown, pixels.

@@ -2,8 +2,8 @@
 
 use super::account::Rung;
 use super::bench::{Bench, Near, Seen};
-use crate::resolve::{Paint, Stack};
 use crate::holding::Nearby;
+use crate::resolve::{Paint, Stack};
 
 /// The ladder of what a pixel's centre sees.
 pub(super) fn ladder(bench: &Bench, near: &Near, centre: Option<&Seen>) -> Vec<Rung> {

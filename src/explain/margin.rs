@@ -2,8 +2,8 @@
 
 use super::bench::{Bench, Near, Seen};
 use crate::footprint::{HalfPlane, Primitive};
-use crate::math;
 use crate::holding::Nearby;
+use crate::math;
 use crate::space::{Plan, PlanBox};
 use crate::visibility::PixelFootprint;
 use glam::{DMat2, DVec2};

@@ -57,6 +57,16 @@ pub enum Fallback {
     Crowd,
 }
 
+impl crate::technique::Step for Step {
+    fn section(&self) -> &'static str {
+        "ours: docs/semantics.md, 7"
+    }
+
+    fn items(&self) -> Vec<u32> {
+        if let Self::Covered { items, .. } = self { items.clone() } else { Vec::new() }
+    }
+}
+
 impl fmt::Display for Step {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {

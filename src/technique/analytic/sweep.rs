@@ -2,7 +2,8 @@
 
 use crate::technique::sweep::{Axis, Sweep};
 
-pub(super) const SWEEP: Sweep = Sweep { crossed: &[], alone: &[FRAGMENTS, CROWD, SAMPLES] };
+pub(super) const SWEEP: Sweep =
+    Sweep { crossed: &[], alone: &[FRAGMENTS, CROWD, SAMPLES], remedies: REMEDIES };
 
 const FRAGMENTS: Axis = &[
     &["technique.analytic.fragments=0"],
@@ -19,3 +20,10 @@ const CROWD: Axis = &[
 ];
 
 const SAMPLES: Axis = &[&["technique.analytic.samples=2"], &["technique.analytic.samples=8"]];
+
+/// A pixel that is sampled may be cut, or sampled more densely.
+const REMEDIES: Axis = &[
+    &["technique.analytic.fragments=256"],
+    &["technique.analytic.crowd=1024"],
+    &["technique.analytic.samples=8"],
+];
