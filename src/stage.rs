@@ -82,7 +82,8 @@ impl Stage {
     /// # Errors
     /// When the camera shows nothing (eye = target, `up` along the view, an angle out of range).
     pub fn view(&self) -> Result<ViewFrame> {
-        self.scene.camera.view(&self.scene.image)
+        let view = self.scene.camera.view(&self.scene.image)?;
+        Ok(view.with_origin(self.scene.world_origin()))
     }
 }
 

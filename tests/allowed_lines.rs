@@ -231,3 +231,46 @@ fn what_bugs_draw_of_lines_overlaid_is_not_allowed() {
         assert!(best(&all, &image) > 0, "{name}");
     }
 }
+
+/// Translucent fills with a hole, across one another, an opaque one with an outline, under lines.
+const FILLED: &str = "[[layer]]\nfeatures = [{ polygon = [[[-200, -180], [90, -200], [120, 60], [-150, 120]], [[-90, -100], [20, -110], [0, 20]]] }, { polygon = [[0, -60], [220, 10], [210, -100], [30, 110]] }]\n\
+     fill = { color = \"#3388ff\", opacity = 0.5 }\n\
+     [[layer]]\nfeatures = [{ polygon = [[-60, 20], [200, 60], [-40, 160]] }]\nfill = { color = \"#cc8800\" }\noutline = { color = \"#003366\", width_px = 2 }\n";
+
+#[test]
+fn what_machines_draw_of_fills_overlaid_is_allowed_and_what_bugs_draw_is_not() {
+    let kind = Kind::GeometryOverlay;
+    let filled = "technique.geometry-overlay.polygons=\"filled\"";
+    let layers = format!("{FILLED}{LINES}");
+    let near = "eye = [20, -120, 150], target = [0, 60, 60]";
+    let above = "eye = [5, -10, 700], target = [0, 0, 40]";
+    for (name, camera) in [("hills", SOUTH), ("above", above)] {
+        assert_machines_are_inside(kind, name, &scene(HILLS, camera, &layers), &[filled]);
+    }
+    let fine = HILLS.replace("[65, 65], cell_m = 10.0", "[257, 257], cell_m = 2.5");
+    let changes = [filled, "terrain.lod={ error_px = 2.0 }", "terrain.diagonal=\"alternating\""];
+    assert_machines_are_inside(kind, "level of detail", &scene(&fine, near, &layers), &changes);
+    let text = scene(HILLS, SOUTH, &layers);
+    let all = allowed_of(kind, &stage(&text, &[filled, "device.subpixel_bits=8"]));
+    let bugs = [
+        ("no hole", ", [[-90, -100], [20, -110], [0, 20]]", ""),
+        ("opacity", "#3388ff\", opacity = 0.5", "#3388ff\", opacity = 0.48"),
+        ("a vertex moved", "[120, 60]", "[123, 60]"),
+        ("another rule", "opacity = 0.5 }", "opacity = 0.5, rule = \"nonzero\" }"),
+        ("a polygon missing", ", { polygon = [[0, -60], [220, 10], [210, -100], [30, 110]] }", ""),
+    ];
+    for (name, from, to) in bugs {
+        let with = text.replacen(from, to, 1);
+        assert_ne!(with, text, "{name}");
+        let image = frame_of(kind, &stage(&with, &[filled]), &[]).image;
+        assert!(best(&all, &image) > 0, "{name}");
+    }
+    for setting in ["polygons=\"outlines\"", "polygons=\"antialiased\"", "offset_factor=0.0"] {
+        let setting = format!("technique.geometry-overlay.{setting}");
+        let image = frame_of(kind, &stage(&text, &[filled, &setting]), &[]).image;
+        assert!(best(&all, &image) > 0, "{setting}");
+    }
+    let smooth = stage(&text, &["technique.geometry-overlay.polygons=\"antialiased\""]);
+    let refused = drapery::allowed::allowed(kind, (&smooth, &smooth.view().unwrap()), &|_| {}).unwrap_err();
+    assert!(refused.to_string().contains("shares"), "{refused}");
+}

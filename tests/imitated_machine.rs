@@ -1,10 +1,12 @@
 //! The imitated machine sees what exact mathematics sees, but for what its precision, snapping and depth buffer explain.
 #![cfg(feature = "render")]
 
+mod drawing;
+
 use drapery::parallel;
 use drapery::raster::device::{Pipeline, Real, Window};
 use drapery::raster::{Lattice, Samples};
-use drapery::scene::{DepthFormat, Device, Diagonal, Interpolation, Posts, Precision, Surface};
+use drapery::scene::{DepthFormat, Device, Diagonal, Interpolation, Positions, Posts, Precision, Surface};
 use drapery::space::{Plan, Screen, View, ViewFrame, Viewpoint, World};
 use drapery::terrain::{Mesh, SKY, SurfaceVertex};
 use drapery::visibility::{Hit, Machine, Sight, Visible};
@@ -18,6 +20,7 @@ const DOUBLE: Device = device(Precision::F64, 0, DepthFormat::F32Reversed);
 const fn device(precision: Precision, subpixel_bits: u32, depth: DepthFormat) -> Device {
     Device {
         precision,
+        position: Positions::Local,
         subpixel_bits,
         interpolation: Interpolation::Snapped,
         depth,
@@ -420,4 +423,36 @@ fn the_default_device_is_seen_exactly_and_the_sky_is_infinitely_far() {
             assert_eq!(sight.triangles(), seen_exactly(&frame, &mesh).triangles());
         }
     }
+}
+
+#[test]
+fn positions_relative_to_the_eye_draw_far_away_what_is_drawn_at_the_origin_and_absolute_ones_do_not() {
+    // Hard case 17: the scene 6400 km from zero, on a machine of single precision, a pixel of some decimetres.
+    let layer = "[[layer]]\noffset = [OX, OY]\nfeatures = [{ line = [[-40, -30], [0, 10], [45, -12]] }]\nline = { color = \"#aa0022\", width_px = 3 }\n";
+    let text = |[x, y]: [f64; 2]| {
+        let camera = format!("eye = [{}, {}, 35], target = [{x}, {y}, 2], near_m = 1.0", x - 12.0, y - 60.0);
+        let terrain = "kind = \"fbm\", seed = 5, posts = [17, 17], cell_m = 8, height_m = 6";
+        let layer = layer.replace("OX", &x.to_string()).replace("OY", &y.to_string());
+        let scene = drawing::scene(terrain, &camera, &layer);
+        scene.replace("color = \"#ffffff\" }", &format!("shade = \"hillshade\", offset = [{x}, {y}] }}"))
+    };
+    let off = |place: [f64; 2], position: &str| {
+        let position = format!("device.position={position}");
+        let machine = ["device.precision=f32", "device.subpixel_bits=8", &position];
+        let draw = |place, changes: &[&str]| {
+            drawing::frame_of(
+                drapery::technique::Kind::GeometryOverlay,
+                &drawing::stage(&text(place), changes),
+                &[],
+            )
+        };
+        let (here, there) =
+            (draw([0.0; 2], &["device.precision=f32", "device.subpixel_bits=8"]), draw(place, &machine));
+        here.image.values().iter().zip(there.image.values()).filter(|(a, b)| a != b).count()
+    };
+    let far = [6_378_137.0, 6_400_000.0];
+    let [absolute, relative, local] = ["absolute", "relative-to-eye", "local"].map(|form| off(far, form));
+    // A last bit of a few millimetres may still decide a pixel on an edge.
+    assert!(local == 0 && relative < 25 && absolute > 400, "{local} {relative} {absolute}");
+    assert!(off([0.0; 2], "absolute") < 5);
 }

@@ -3,7 +3,7 @@
 //!
 //! Input: a stage, a view, a technique at the scene's settings. Output: an [`Allowed`], which bundles carry and [`crate::compare`] judges by; and, for
 //! who fails, what pictures would be by other choices ([`alternatives()`]). No technique's own code decides: what may be seen and held within a sample's square is found with the truth's certified pieces
-//! ([`crate::truth::probe`]) over the technique's footprints. Refuses: techniques without a model.
+//! ([`crate::truth::probe`]) over the technique's footprints. Refuses: techniques without a model, machines with absolute positions.
 
 mod alternatives;
 mod by_kind;
@@ -27,8 +27,8 @@ pub use alternatives::alternatives;
 pub use envelope::Envelope;
 
 use crate::compare::Allowed;
-use crate::error::Result;
-use crate::scene::Device;
+use crate::error::{Error, Result};
+use crate::scene::{Device, Positions};
 use crate::space::ViewFrame;
 use crate::stage::Stage;
 use crate::technique::{self, Kind};
@@ -47,6 +47,12 @@ pub fn allowed(
     progress: &(dyn Fn(f64) + Sync),
 ) -> Result<Allowed> {
     technique::applies(kind, stage)?;
+    if stage.scene.device.position != Positions::Local {
+        return Err(Error::unsupported(
+            "nobody knows what a picture may be of a machine that rounds absolute positions",
+        )
+        .help("set device.position to \"local\", or judge it by its picture and a tolerance"));
+    }
     let guesses = guesses(kind, &stage.scene.device, frame);
     let Pictures { hypotheses, stages, features } =
         pictures(kind, &View { stage, frame, progress }, &guesses)?;

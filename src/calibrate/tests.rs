@@ -17,6 +17,7 @@ use std::path::Path;
 
 const DEVICE: Device = Device {
     precision: Precision::F32,
+    position: crate::scene::Positions::Local,
     subpixel_bits: 8,
     interpolation: Interpolation::Unsnapped,
     depth: DepthFormat::F32Reversed,

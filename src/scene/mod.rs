@@ -23,8 +23,8 @@ pub use layer::{
     Swath, Width,
 };
 pub use settings::{
-    BlendMode, BlendSpace, Color, Compositing, DepthFormat, Device, ImageSettings, Interpolation, Precision,
-    TechniqueSettings,
+    BlendMode, BlendSpace, Color, Compositing, DepthFormat, Device, ImageSettings, Interpolation, Positions,
+    Precision, TechniqueSettings,
 };
 
 use crate::parameter::words;
@@ -66,6 +66,11 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// Absolute world coordinates of the local zero point: on a globe geocentric.
+    pub fn world_origin(&self) -> DVec3 {
+        self.globe.map_or(self.origin, |globe| globe.world_origin)
+    }
+
     /// A scene that no file says: local coordinates are plan coordinates, all else is as in a scene file that says nothing.
     pub fn new(camera: Camera, layers: Vec<Layer>) -> Self {
         Self {

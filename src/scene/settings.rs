@@ -67,6 +67,8 @@ settings! {
     pub struct Device of "device" {
         /// Arithmetic of transforms, interpolation and plan points.
         precision: Precision = Precision::F64;
+        /// How positions of vertices reach it.
+        position: Positions = Positions::Local;
         /// Fractional bits of vertex positions on the screen; 0: no snapping.
         subpixel_bits: u32 = 0, Shape::IntegerOf(&[0, 4, 8]);
         /// From which corners depth is interpolated where positions are snapped.
@@ -85,10 +87,11 @@ settings! {
 }
 
 impl Device {
-    /// Whether visibility is decided by exact mathematics: f64, no snapping. (The depth format then only says how a
+    /// Whether visibility is decided by exact mathematics: f64, local positions, no snapping. (The depth format then only says how a
     /// stored depth would be rounded; it decides nothing.)
     pub fn is_exact(&self) -> bool {
         self.precision == Precision::F64
+            && self.position == Positions::Local
             && self.subpixel_bits == 0
             && matches!(self.depth, DepthFormat::F32Reversed)
     }
@@ -101,6 +104,18 @@ words! {
         F64 = "f64",
         /// IEEE single.
         F32 = "f32",
+    }
+}
+
+words! {
+    /// How positions of vertices reach the machine: as numbers of its precision, but each in its own way.
+    pub enum Positions {
+        /// Relative to the scene's local zero.
+        Local = "local",
+        /// Absolute: in the scene's CRS, on a globe geocentric.
+        Absolute = "absolute",
+        /// Absolute, as a multiple of 65536 and a rest; the eye's are subtracted from either (Cozzi & Ring 2011, 5.4).
+        RelativeToEye = "relative-to-eye",
     }
 }
 

@@ -105,8 +105,20 @@ object = 2
 [compositing]
 space = "linear"
 mode = "additive"
+[technique.geometry-overlay]
+lines = "antialiased"
+polygons = "filled"
+widths = "one"
+offset_factor = 0.5
+offset_units = 2
+stipple = 255
+stipple_factor = 2
+primitives = "strips"
+borrowed = "searched"
+tolerance_px = 0.5
 [device]
 precision = "f32"
+position = "relative-to-eye"
 subpixel_bits = 8
 depth = "unorm24"
 stencil_bits = 4

@@ -57,6 +57,7 @@ pub struct ViewFrame {
     near: f64,
     far: f64,
     reach: f64,
+    origin: DVec3,
 }
 
 /// What a [`ViewFrame`] is made of.
@@ -121,7 +122,30 @@ impl ViewFrame {
         let up = right.cross(forward).normalize();
         let reach = power_of_two_above(view.eye.to_vec().abs().max_element());
         let (width, height, near, far) = (width as f64, height as f64, view.near, view.far);
-        Ok(Self { eye: view.eye, right, up, forward, lens, width, height, near, far, reach })
+        Ok(Self {
+            eye: view.eye,
+            right,
+            up,
+            forward,
+            lens,
+            width,
+            height,
+            near,
+            far,
+            reach,
+            origin: DVec3::ZERO,
+        })
+    }
+
+    /// The frame of a world whose local zero has these absolute coordinates: nothing is seen elsewhere, but an imitated machine may calculate with absolute ones.
+    #[must_use]
+    pub fn with_origin(self, origin: DVec3) -> Self {
+        Self { origin, ..self }
+    }
+
+    /// The absolute coordinates of local zero; 0 where nobody said.
+    pub fn origin(&self) -> DVec3 {
+        self.origin
     }
 
     /// The eye.

@@ -2,6 +2,7 @@
 
 use super::depth::{Depths, Range};
 use super::diamond::{Crossing, Diamond, diamonds, often};
+use super::face::{Near, ScreenFace};
 use super::moved::{Moved, MovedMesh};
 use super::screen_line::ScreenLine;
 use super::share::share;
@@ -20,7 +21,9 @@ use crate::parallel;
 use crate::resolve::GroundPaint;
 use crate::scene::Width;
 use crate::space::Plan;
-use crate::technique::geometry_overlay::{LineStrip, Lines, Prepare, Primitives, Settings, Widths};
+use crate::technique::geometry_overlay::{
+    FillPiece, LineStrip, Lines, Polygons, Prepare, Primitives, Settings, Widths,
+};
 use crate::terrain::SKY;
 
 /// What a picture may be.
@@ -46,12 +49,19 @@ pub(in crate::allowed) fn picture(view: &View, guess: &Guess) -> Result<Judged> 
             "leave technique.geometry-overlay.stipple out",
         );
     }
+    if settings.polygons == Polygons::Antialiased {
+        return unknown(
+            "of fills by their shares of pixels, of whose depths other programs have their own idea",
+            "set technique.geometry-overlay.polygons to \"filled\"",
+        );
+    }
     let surfaces = surfaces(view, guess, (None, 1.0));
     let depths = Depths::new(view, guess, mesh);
     let seen = MovedMesh::new(&depths, mesh, &settings, guess).seen(view, &surfaces);
-    let strips = Prepare::new(stage)?.line_strips(frame);
+    let prepared = Prepare::new(stage)?;
+    let (strips, fills) = (prepared.line_strips(frame), prepared.fill_pieces(frame));
     let overlay = Overlay { view, guess, settings: &settings, depths: &depths, composer, ground };
-    Ok(overlay.judged(&seen, &strips))
+    Ok(overlay.judged(&seen, (&strips, &fills)))
 }
 
 /// A fragment that a segment may have in a pixel.
@@ -73,6 +83,8 @@ enum Kind {
     Aliased(Diamond, Crossing),
     /// It covers a share of the pixel.
     Share([f64; 2]),
+    /// It covers the centre, or lies near it.
+    Face(Near),
 }
 
 /// A picture at work.
@@ -96,17 +108,26 @@ struct Ready {
 /// More paints of a pixel are not told one by one.
 const MOST_PAINTS: usize = 12;
 
+/// Pieces of fills that are looked at at a time.
+const PIECES: usize = 1024;
+
+/// By how much shares of places near a centre may be off when they are added up.
+const NEXT_TO_ALL: f64 = 1e-6;
+
 /// Widths of metres that are this near to halfway between two whole numbers of pixels may be rounded to either.
 const HALFWAY: f64 = 1e-4;
 
 impl Overlay<'_> {
-    fn judged(&self, seen: &Buffer<Vec<Moved>>, strips: &[LineStrip]) -> Judged {
+    fn judged(&self, seen: &Buffer<Vec<Moved>>, (strips, fills): (&[LineStrip], &[FillPiece])) -> Judged {
         let (width, height) = (seen.width(), seen.height());
         let found = parallel::map_indices(strips.len(), |k| self.fragments(k as u32, &strips[k]));
         let mut of_pixels: Vec<Vec<Fragment>> = vec![Vec::new(); width * height];
-        for (pixel, fragment) in found.into_iter().flatten() {
+        let faces: Vec<&[FillPiece]> = fills.chunks(PIECES).collect();
+        let faces = parallel::map(&faces, |pieces| self.fragments_of_fills(pieces));
+        for (pixel, fragment) in found.into_iter().chain(faces).flatten() {
             of_pixels[pixel].push(fragment);
         }
+        of_pixels.iter_mut().for_each(|fragments| fragments.sort_by_key(|fragment| fragment.item));
         let told = |share: f64| (self.view.progress)(0.5 + 0.5 * share);
         let ranges =
             parallel::map_telling(width * height, &told, |k| self.range(&of_pixels[k], &seen.values()[k]));
@@ -188,6 +209,26 @@ impl Overlay<'_> {
                         add(Kind::Aliased(*diamond, crossing.drawn(is_drawn)));
                     }
                 }
+            });
+        }
+        out
+    }
+
+    /// The fragments that pieces of fills may have, with their pixels.
+    fn fragments_of_fills(&self, pieces: &[FillPiece]) -> Vec<(usize, Fragment)> {
+        let frame = self.view.frame;
+        let (size, planes) = ([frame.width(), frame.height()], [frame.near(), frame.far()]);
+        let mut out = Vec::new();
+        for piece in pieces {
+            let of = (&piece.corners[..], piece.triangle);
+            let Some(face) = ScreenFace::new(self.depths, of, planes, self.guess.envelope.shift()) else {
+                continue;
+            };
+            face.for_each_centre(size, &mut |pixel, near| {
+                let depth = face.depth_at(self.depths, frame, pixel);
+                let (item, kind) = (piece.item, Kind::Face(near));
+                let fragment = Fragment { item, strip: 0, segment: 0, goes_on: false, depth, kind };
+                out.push((pixel[1] * size[0] + pixel[0], fragment));
             });
         }
         out
@@ -281,7 +322,7 @@ impl Overlay<'_> {
             _ => Known::Open,
         };
         let of_item = |of: &[Fragment]| -> Laid {
-            let mut share = [0.0; 2];
+            let (mut share, mut faces, mut turns) = ([0.0; 2], [0.0; 2], false);
             let mut aliased: Vec<(u32, Diamond, u32, bool, Crossing)> = Vec::new();
             for one in of {
                 match (one.kind, passes(one.depth)) {
@@ -290,12 +331,24 @@ impl Overlay<'_> {
                         share[0] += if passes == Known::In { least } else { 0.0 };
                         share[1] += most;
                     }
+                    (Kind::Face(near), passes) => {
+                        faces[0] += if passes == Known::In { near.share } else { 0.0 };
+                        faces[1] += near.share;
+                        // Over itself and what it was beside.
+                        turns |= near.may_turn;
+                    }
                     (Kind::Aliased(diamond, crossing), passes) => {
                         let is_drawn = crossing.is_drawn.and(passes);
                         let crossing = crossing.drawn(is_drawn);
                         aliased.push((one.strip, diamond, one.segment, one.goes_on, crossing));
                     }
                 }
+            }
+            if matches!(of[0].kind, Kind::Face(_)) {
+                // What has all places near the centre covers it.
+                let [least, most] = [(faces[0] + NEXT_TO_ALL).floor(), (faces[1] - NEXT_TO_ALL).ceil()];
+                let [least, most] = [least as u32, most as u32 + if turns { 2 } else { 0 }];
+                return Laid { item: of[0].item, least, most, share: [1.0; 2] };
             }
             if self.settings.lines == Lines::Antialiased {
                 let share = share.map(|share| math::min(share, 1.0));

@@ -1,5 +1,6 @@
 //! How much of a pixel the rectangle around a segment covers (OpenGL 2.1, 3.4.2), when the segment's ends may stray.
 
+use super::convex::{area_of, cut};
 use super::screen_line::ScreenLine;
 use crate::math;
 use crate::space::Plan;
@@ -45,28 +46,6 @@ fn around(line: &ScreenLine, width: f64, off: f64, [x, y]: [usize; 2]) -> f64 {
     let near = |from: f64, at: f64| from - reach <= at && at <= from + 1.0 + reach;
     let all = width * ((b - a).length() + 2.0 * off);
     if near(x as f64, middle.x) && near(y as f64, middle.y) { math::min(all, 1.0) } else { 0.0 }
-}
-
-/// What a convex polygon has where a linear function is at least 0.
-fn cut(polygon: &[DVec2], inside: impl Fn(DVec2) -> f64) -> Vec<DVec2> {
-    let mut out = Vec::with_capacity(polygon.len() + 1);
-    for (k, p) in polygon.iter().enumerate() {
-        let q = polygon[(k + 1) % polygon.len()];
-        let (at_p, at_q) = (inside(*p), inside(q));
-        if at_p >= 0.0 {
-            out.push(*p);
-        }
-        if (at_p >= 0.0) != (at_q >= 0.0) {
-            out.push(*p + (q - *p) * (at_p / (at_p - at_q)));
-        }
-    }
-    out
-}
-
-fn area_of(polygon: &[DVec2]) -> f64 {
-    let Some(first) = polygon.first() else { return 0.0 };
-    let twice: f64 = polygon.windows(2).map(|pair| (pair[0] - *first).perp_dot(pair[1] - *first)).sum();
-    twice.abs() / 2.0
 }
 
 #[cfg(test)]

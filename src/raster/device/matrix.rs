@@ -53,9 +53,9 @@ impl Projection {
         Self { slope, constant, half }
     }
 
-    /// `clip_from_view * view_from_world`, composed in double precision.
-    pub(super) fn clip_from_world<T: Real>(&self, frame: &ViewFrame) -> Matrix<T> {
-        let row = |axis: DVec3| axis.extend(-axis.dot(frame.eye().to_vec()));
+    /// `clip_from_view * view_from_world`, composed in double precision, for points of which the eye is that one.
+    pub(super) fn clip_from_world<T: Real>(&self, frame: &ViewFrame, eye: DVec3) -> Matrix<T> {
+        let row = |axis: DVec3| axis.extend(-axis.dot(eye));
         let depth = row(frame.forward());
         let w = match frame.lens() {
             Lens::Central { .. } => depth,

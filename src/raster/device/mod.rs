@@ -3,7 +3,8 @@
 //! Input: triangles of a [`Mesh`] by number, a [`ViewFrame`], a [`Device`]. Output: [`Primitive`]s: snapped screen triangles
 //! with depth, and [`Pipeline::draw`], which draws them into [`Samples`]; of segments [`LinePrimitive`]s and of triangles that are no
 //! mesh's [`Face`]s, which draw themselves. What a graphics processor leaves open is chosen here, once:
-//! - one matrix takes scene-local points to clip space; it is composed in double precision and rounded to the device's;
+//! - one matrix takes points to clip space (scene-local ones, or as [`Positions`](crate::scene::Positions) says; the way back is for local ones); it is composed in
+//!   double precision and rounded to the device's;
 //!   products are summed from left to right, without fused operations;
 //! - clip space is that of zero-to-one depth (0 <= z <= w); an infinite far plane clips nothing, depth is clamped;
 //! - beyond the near and the far plane a guard band of 2^16 pixels (or twice the picture's size) clips, so that all
@@ -26,6 +27,7 @@ mod line;
 mod matrix;
 mod number;
 mod offset;
+mod position;
 mod scan;
 mod surface;
 
@@ -45,12 +47,14 @@ use crate::terrain::Mesh;
 use clip::Volume;
 use matrix::{Matrix, Projection};
 use number::GRID_BITS;
+use position::Encoding;
 use std::ops::Range;
 
 /// The machine with its matrices, in one precision.
 #[derive(Debug, Clone)]
 pub struct Pipeline<T> {
-    clip_from_world: Matrix<T>,
+    encoding: Encoding<T>,
+    clip_from_position: Matrix<T>,
     world_from_clip: Matrix<T>,
     projection: Projection,
     volume: Volume<T>,
@@ -73,8 +77,10 @@ impl<T: Real> Pipeline<T> {
     pub fn new(frame: &ViewFrame, mesh: &Mesh, device: &Device) -> Self {
         let depth = DepthBuffer(device.depth);
         let projection = projection(frame, mesh, device);
+        let encoding = Encoding::new(device.position, frame);
         Self {
-            clip_from_world: projection.clip_from_world(frame),
+            clip_from_position: projection.clip_from_world(frame, encoding.eye(frame)),
+            encoding,
             world_from_clip: projection.world_from_clip(frame),
             projection,
             volume: Volume::new(frame, depth.is_reversed()),
@@ -164,7 +170,8 @@ impl<T: Real> Pipeline<T> {
 
     /// A point of the world in clip space.
     fn clip(&self, p: World) -> Clip<T> {
-        Clip::from_array(self.clip_from_world.times([T::of(p.x), T::of(p.y), T::of(p.z), T::of(1.0)]))
+        let [x, y, z] = self.encoding.of(p);
+        Clip::from_array(self.clip_from_position.times([x, y, z, T::of(1.0)]))
     }
 
     /// Perspective division, viewport transform and snapping; depth stays as the division left it, within 0..=1.
@@ -266,7 +273,7 @@ impl<T: Real> Pipeline<T> {
 
 /// Rows of the matrix from scene-local points to a machine's clip space, in double precision.
 pub fn clip_from_world(frame: &ViewFrame, mesh: &Mesh, device: &Device) -> [[f64; 4]; 4] {
-    projection(frame, mesh, device).clip_from_world::<f64>(frame).rows()
+    projection(frame, mesh, device).clip_from_world::<f64>(frame, frame.eye().to_vec()).rows()
 }
 
 fn projection(frame: &ViewFrame, mesh: &Mesh, device: &Device) -> Projection {

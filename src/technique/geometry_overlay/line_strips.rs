@@ -1,8 +1,9 @@
-//! What a view draws of lines on the mesh, before any of it is on the screen: data that a bundle can hand out.
+//! What a view draws of lines and fills on the mesh, before any of it is on the screen: data that a bundle can hand out.
 //!
-//! Input: a view. Output: [`LineStrip`]s. Refuses: nothing.
+//! Input: a view. Output: [`LineStrip`]s and [`FillPiece`]s. Refuses: nothing.
 
 use super::Prepare;
+use super::fill::Patch;
 use super::mesh::MeshInUse;
 use crate::space::{ViewFrame, World};
 
@@ -15,7 +16,30 @@ pub struct LineStrip {
     pub segments: Vec<[World; 2]>,
 }
 
+/// What a fill has on a triangle of the mesh.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FillPiece {
+    /// The item that it is of.
+    pub item: u32,
+    /// The mesh's triangle.
+    pub triangle: [World; 3],
+    /// Its corners on that, at least three: a convex polygon. Pieces that meet have the same corners there.
+    pub corners: Vec<World>,
+}
+
 impl Prepare<'_> {
+    /// The pieces of fills of a view in the order in which they are drawn.
+    pub fn fill_pieces(&self, view: &ViewFrame) -> Vec<FillPiece> {
+        let shown = self.stage.mesh_for(view);
+        let Some(mesh) = MeshInUse::of(&self.stage.mesh, &shown) else { return Vec::new() };
+        let piece = |patch: &Patch| FillPiece {
+            item: patch.item,
+            triangle: patch.ground,
+            corners: patch.corners().to_vec(),
+        };
+        self.patches(&mesh, view).iter().map(piece).collect()
+    }
+
     /// The primitives of a view in the order in which they are drawn.
     pub fn line_strips(&self, view: &ViewFrame) -> Vec<LineStrip> {
         let shown = self.stage.mesh_for(view);

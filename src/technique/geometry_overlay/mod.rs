@@ -34,7 +34,7 @@ mod tests;
 mod tile;
 
 pub use dag::{Bytes, Counts, PointForm, Storage, StoredLayers};
-pub use line_strips::LineStrip;
+pub use line_strips::{FillPiece, LineStrip};
 pub use settings::{Borrowed, Lines, Polygons, Primitives, Settings, Widths};
 pub use step::Step;
 pub use stored::StoredQuad;
