@@ -101,7 +101,7 @@ fn who_chose_otherwise_is_told_what() {
     for choice in ["technique.stencil-volume.joins=\"style\"", "compositing.space=\"linear\""] {
         let other = drawing::stage(&outlines(), &[choice]);
         let image = frame_of(kind, &other, &[]).image;
-        assert!(best(&all, &image) > 10, "{choice}");
+        assert!(best(&all, &image) > 0, "{choice}");
         let fit: Vec<&str> = alternatives
             .iter()
             .filter(|of| outside(&of.hypothesis, &image) == 0)

@@ -265,6 +265,25 @@ fn a_bundle_is_for_the_device_that_is_named_and_says_so_first() {
 }
 
 #[test]
+fn a_frame_of_another_choice_fails_by_a_bundle_with_alternatives_and_is_told_which() {
+    let other = "technique.static-decal.joins=\"style\"";
+    let folder = bundle("static-decal", &[&IN_METRES[..], &["--alternatives"]].concat());
+    let program = env!("CARGO_BIN_EXE_drapery");
+    let call = |arguments: &[&str]| {
+        Command::new(program).args(arguments).current_dir(folder.path()).output().unwrap()
+    };
+    let render = ["render", "scene.toml", "-t", "static-decal", "--set", other, "-o", "frame"];
+    assert!(call(&[&render[..], &IN_METRES[..]].concat()).status.success());
+    let done = call(&["compare", ".", "frame/static-decal.png"]);
+    let said = String::from_utf8_lossy(&done.stdout).into_owned();
+    assert_eq!(done.status.code(), Some(1), "{said}");
+    let first = said.lines().next().unwrap();
+    assert!(first.starts_with("FAIL: ") && first.ends_with(&format!("; by {other} it would pass")), "{said}");
+    let files = json(&folder, "allowed.json")["alternatives"].as_array().unwrap().len();
+    assert!(files >= 4, "{files}");
+}
+
+#[test]
 fn a_device_is_asked_for_pictures_and_none_is_no_answer() {
     let folder = tempfile::tempdir().unwrap();
     let call = |arguments: &[&str]| {

@@ -6,6 +6,7 @@
 //! it draws, is left out. (Rules of ties and of interpolation are none of them: whichever a machine has, its pictures are allowed.)
 
 use super::by_kind::{guesses, pictures};
+use super::encoding::{encoded_by_tables, encoded_name, encoding};
 use super::model::{Guess, View};
 use crate::compare::{Allowed, Alternative, Hypothesis};
 use crate::error::{Error, Result};
@@ -88,7 +89,12 @@ pub fn alternatives(
 ) -> Result<Vec<Alternative>> {
     let choices = choices(kind, stage);
     let guess = guess(kind, (stage, frame));
-    let known = allowed.hypotheses.iter().find(|hypothesis| hypothesis.name == guess.name);
+    // As the alternatives are: the coarsest way to encode.
+    let name = match encoding(kind, stage.scene.compositing.space) {
+        Some(_) => encoded_name(&guess.name),
+        None => guess.name.clone(),
+    };
+    let known = allowed.hypotheses.iter().find(|hypothesis| hypothesis.name == name);
     let mut found = Vec::new();
     for (k, choice) in choices.iter().enumerate() {
         let told = |share: f64| progress((k as f64 + share) / choices.len() as f64);
@@ -158,7 +164,10 @@ fn picture(
     }
     let guess = Guess { name: choice.slug(), ..guess.clone() };
     let pictures = pictures(kind, &View { stage: &stage, frame, progress }, std::slice::from_ref(&guess))?;
-    let hypothesis = pictures.hypotheses.into_iter().next().unwrap_or_default();
+    let mut hypothesis = pictures.hypotheses.into_iter().next().unwrap_or_default();
+    if let Some(by) = encoding(kind, stage.scene.compositing.space) {
+        hypothesis = Hypothesis { name: guess.name, ..encoded_by_tables(&hypothesis, by) };
+    }
     // To which side open pixels lean matters to nobody here.
     Ok(Hypothesis { says: choice.says(), extremes: Vec::new(), ..hypothesis })
 }

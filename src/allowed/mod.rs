@@ -10,6 +10,7 @@ mod by_kind;
 mod clipmap;
 mod composition;
 mod dynamic_line;
+mod encoding;
 mod envelope;
 mod far_plane;
 mod geometry_overlay;
@@ -26,13 +27,14 @@ mod surface;
 pub use alternatives::alternatives;
 pub use envelope::Envelope;
 
-use crate::compare::Allowed;
+use crate::compare::{Allowed, Hypothesis};
 use crate::error::{Error, Result};
 use crate::scene::{Device, Positions};
 use crate::space::ViewFrame;
 use crate::stage::Stage;
 use crate::technique::{self, Kind};
 use by_kind::{guesses, pictures};
+use encoding::{encoded_by_tables, encoding};
 use envelope::DEPTH_STEPS;
 use model::View;
 use sampled::Pictures;
@@ -54,8 +56,12 @@ pub fn allowed(
         .help("set device.position to \"local\", or judge it by its picture and a tolerance"));
     }
     let guesses = guesses(kind, &stage.scene.device, frame);
-    let Pictures { hypotheses, stages, features } =
+    let Pictures { mut hypotheses, stages, features } =
         pictures(kind, &View { stage, frame, progress }, &guesses)?;
+    if let Some(by) = encoding(kind, stage.scene.compositing.space) {
+        let coarse: Vec<Hypothesis> = hypotheses.iter().map(|of| encoded_by_tables(of, by)).collect();
+        hypotheses.extend(coarse);
+    }
     let (width, height) = (frame.width(), frame.height());
     Ok(Allowed { width, height, hypotheses, stages, features, alternatives: Vec::new() })
 }

@@ -5,7 +5,6 @@ use crate::certainty::{Known, PaintMean, PaintRange};
 use crate::draw_list::DrawList;
 use crate::math;
 use crate::resolve::Compositor;
-use crate::scene::BlendSpace;
 use crate::truth::{Outcome, Sample};
 
 /// Colours between two, straight alpha, encoded, 0..=1.
@@ -28,19 +27,7 @@ pub(super) struct PixelRange {
 const MOST_CHOICES: usize = 8;
 
 /// A rounding to code values: half of one, and a hair for arithmetic in single precision.
-const BLEND: f64 = 0.51 / 255.0;
-
-/// What machines' tables of the sRGB transfer function add to it where a target encodes linear light: Direct3D allows a tenth of a code value, and
-/// machines have been seen with up to 0.14.
-const ENCODING: f64 = 0.14 / 255.0;
-
-/// What a rounding to code values may do to a channel.
-pub(super) fn rounding(compositor: &Compositor) -> f64 {
-    match compositor.space() {
-        BlendSpace::Encoded => BLEND,
-        BlendSpace::Linear => BLEND + ENCODING,
-    }
-}
+pub(super) const BLEND: f64 = 0.51 / 255.0;
 
 /// Where colours are composed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -78,13 +65,12 @@ impl PixelRange {
         (list, compositor): (&DrawList, &Compositor),
         blending: Blending,
     ) -> Self {
-        let roundings = match blending {
-            Blending::Shader => 1.0,
-            Blending::Target => roundings(samples, list, 1.0),
+        let slack = match blending {
+            Blending::Shader => BLEND,
+            Blending::Target => BLEND * roundings(samples, list, 1.0),
             // The source's colour and its opacity are rounded before they are multiplied.
-            Blending::CoarseTarget => roundings(samples, list, 3.0),
+            Blending::CoarseTarget => BLEND * roundings(samples, list, 3.0),
         };
-        let slack = rounding(compositor) * roundings;
         Self::of_means(samples, compositor, slack)
     }
 

@@ -61,11 +61,6 @@ impl Compositor {
         Self { rules }
     }
 
-    /// On which values colours are composed.
-    pub fn space(&self) -> BlendSpace {
-        self.rules.space
-    }
-
     /// A colour in the working space.
     pub fn paint(&self, color: Color) -> Paint {
         let [r, g, b, a] = color.0;

@@ -34,7 +34,7 @@ mod texture;
 
 use super::model::{Guess, View};
 use super::picture;
-use super::pixel::{PixelRange, rounding, widened};
+use super::pixel::{BLEND, PixelRange, widened};
 use super::stages::{Seen, stages};
 use crate::buffer::Buffer;
 use crate::certainty::{PaintMean, PaintRange};
@@ -251,7 +251,7 @@ fn pixel(reader: &Reader, compositor: &Compositor, tiles: &Tiles, sight: &Sight)
         let mut mean = PaintMean::NOTHING;
         mean.add(paint, 1.0);
         let [low, high, _] = mean.colors(compositor, 1e-12);
-        widened([low, high], rounding(compositor))
+        widened([low, high], BLEND)
     };
     let colors: Vec<_> = paints.iter().map(color).collect();
     let mut all = colors[0];

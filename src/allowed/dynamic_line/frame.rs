@@ -6,7 +6,7 @@ use super::order::{merged, once_each, unsorted};
 use super::patch::Patch;
 use crate::allowed::composition::{Composed, Composer, Laid};
 use crate::allowed::model::{Guess, Judged, View};
-use crate::allowed::pixel::{ColorRange, PixelRange, rounding};
+use crate::allowed::pixel::{BLEND, ColorRange, PixelRange};
 use crate::allowed::stages::stages;
 use crate::allowed::surface::{Surface, Surfaces, surfaces};
 use crate::allowed::{picture, static_decal};
@@ -256,7 +256,6 @@ impl Frame<'_> {
     ) -> Vec<PixelRange> {
         let (width, height) = (self.view.frame.width(), self.view.frame.height());
         let read = pixels.iter().map(|of| candidates(of, &self.composer.compositor)).collect();
-        let slack = rounding(&self.composer.compositor);
         let weight = 0.5 / f64::from(1u32 << self.guess.envelope.filter_bits);
         let picture = Picture { size: [width, height], pixels: read, weight };
         let told = |share: f64| (self.view.progress)(0.8 + 0.2 * share);
@@ -264,7 +263,7 @@ impl Frame<'_> {
             (0..width)
                 .map(|x| {
                     let own = &pixels[y * width + x];
-                    PixelRange { items: own.items.clone(), ..of_filtered(&picture.filtered([x, y]), slack) }
+                    PixelRange { items: own.items.clone(), ..of_filtered(&picture.filtered([x, y])) }
                 })
                 .collect::<Vec<_>>()
         });
@@ -276,7 +275,7 @@ impl Unsmoothed {
     /// As it is judged: its list is composed by one program (4.4.2), and rounded once.
     fn range(&self, compositor: &Compositor) -> PixelRange {
         let of = Composed { range: self.around.unwrap_or(PaintRange::ANY), each: self.each.clone() };
-        PixelRange::of_composed(&of, self.items.clone(), rounding(compositor), compositor)
+        PixelRange::of_composed(&of, self.items.clone(), BLEND, compositor)
     }
 
     /// What the filter may read.
@@ -304,8 +303,9 @@ fn joined(all: impl Iterator<Item = Composed>) -> Composed {
     all.reduce(whole).unwrap_or(Composed { range: PaintRange::ANY, each: Vec::new() })
 }
 
-/// A filtered pixel as it is judged: off by `slack`, as it is rounded.
-fn of_filtered(filtered: &Filtered, slack: f64) -> PixelRange {
+/// A filtered pixel as it is judged: rounded.
+fn of_filtered(filtered: &Filtered) -> PixelRange {
+    let slack = BLEND;
     let straight = |[r, g, b, a]: [f64; 4]| {
         let by = |v: f64| if a > 0.0 { math::min(v / a, 1.0) } else { 0.0 };
         [by(r), by(g), by(b), a]

@@ -10,7 +10,7 @@ use super::stipple::Count;
 use crate::allowed::composition::{Composed, Composer, Laid};
 use crate::allowed::model::{Guess, Judged, View};
 use crate::allowed::picture as pictures;
-use crate::allowed::pixel::{PixelRange, rounding};
+use crate::allowed::pixel::{BLEND, PixelRange};
 use crate::allowed::stages::{Seen, stages};
 use crate::allowed::surface::surfaces;
 use crate::buffer::Buffer;
@@ -309,7 +309,7 @@ impl Overlay<'_> {
         let mut items: Vec<u32> = fragments.iter().map(|fragment| fragment.item).collect();
         items.dedup();
         let roundings = if self.guess.has_coarse_blends { 3 } else { 1 };
-        let slack = rounding(&self.composer.compositor) * f64::from(roundings * blends.min(MOST_BLENDS));
+        let slack = BLEND * f64::from(roundings * blends.min(MOST_BLENDS));
         PixelRange::of_composed(&all, items, slack, &self.composer.compositor)
     }
 

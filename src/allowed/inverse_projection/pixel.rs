@@ -4,7 +4,7 @@ use super::judgment::{Held, Judge, Last};
 use super::outlines::{Area, Part};
 use super::place::Place;
 use super::sight::{Eye, Sight, Spread};
-use crate::allowed::pixel::{PixelRange, rounding};
+use crate::allowed::pixel::PixelRange;
 use crate::certainty::{Known, PaintRange};
 use crate::draw_list::Side;
 use crate::math;
@@ -54,6 +54,9 @@ const MOST_COMBINATIONS: usize = 16;
 
 /// A sample with so many open answers is told all combinations of them; one with more has a range of paints.
 const MOST_OPEN: usize = 3;
+
+/// How blends of 8-bit targets are rounded: half a code value each.
+const BLEND: f64 = 0.5 / 255.0;
 
 /// What has been found of a pixel.
 struct Findings<'p> {
@@ -227,7 +230,7 @@ impl Findings<'_> {
 
     fn add_samples(&mut self, samples: &[Sample], is_painted: bool) {
         // The ground, and what is drawn over it.
-        let slack = rounding(&self.painter.compositor) * if is_painted { 2.0 } else { 1.0 };
+        let slack = BLEND * if is_painted { 2.0 } else { 1.0 };
         let range = PixelRange::of_means(samples, &self.painter.compositor, slack);
         if !self.ranges.contains(&range) {
             self.ranges.push(range);
