@@ -376,3 +376,33 @@ fn a_layer_file_in_which_nothing_can_be_drawn_is_refused_with_what_it_holds() {
         assert!(said.contains("it.geojson") && said.contains(told), "{geometry}: {said}");
     }
 }
+
+#[test]
+fn a_pixel_is_asked_about_and_told_by_the_truth_and_techniques_without_further_files() {
+    let place = Place::new();
+    let output = place.render(&["-t", "truth", "-t", "static-decal", "-t", "clipmap", "--pick", "46,32"]);
+    assert_eq!(output.status.code(), Some(0));
+    let told = String::from_utf8(output.stdout).unwrap();
+    let lines: Vec<&str> = told.lines().collect();
+    let [pixel, truth, road, lake, ..] = lines[..] else { panic!("{told}") };
+    assert_eq!((pixel, truth), ("pixel 46,32", "truth"));
+    assert!(road.starts_with("  road: line of feature 0, covers 66.9"), "{told}");
+    assert!(road.ends_with("%, topmost at the middle"), "{told}");
+    assert_eq!(lake, "  lake: fill of feature 0, covers 100.00 % to 100.00 %");
+    assert!(
+        told.contains("static-decal\n  road: line of feature 0, topmost at the middle\n  lake: "),
+        "{told}"
+    );
+    assert!(told.ends_with("clipmap\n  cannot tell which features there are\n"), "{told}");
+    assert_eq!(place.names("out"), ["clipmap.png", "result.json", "static-decal.png", "truth.png"]);
+    let result = place.result("out");
+    assert_eq!(result["pick"]["pixel"], serde_json::json!([46, 32]));
+    let runs = result["pick"]["runs"].as_array().unwrap();
+    let topmost: Vec<Option<u64>> = runs.iter().map(|run| run["topmost"].as_u64()).collect();
+    assert_eq!(topmost, [Some(1), Some(1), None]);
+    assert_eq!(runs[1]["items"], serde_json::json!([{ "item": 1 }, { "item": 0 }]));
+    assert_eq!(runs[2]["items"], Value::Null);
+    assert_eq!(result["items"][1]["layer_name"], "road");
+    let refused = place.refused(&["--pick", "96,0"]);
+    assert!(refused.contains("there is no pixel 96,0 in a picture of 96 x 64"), "{refused}");
+}

@@ -314,6 +314,7 @@ fn what_a_globe_does_not_have_is_refused_with_the_reason() {
         ("layer.0.order=size".into(), "measured in the plan"),
         ("layer.0.outline={ color = \"red\", width_px = 2 }".into(), "do not depend on the view"),
         ("layer.0.outline.mode=inset".into(), "not cut to the polygon"),
+        ("layer.0.outline.dash=[9e3, 5e3]".into(), "dashes are measured in metres of the plan"),
         ("layer.0.fill.invert=true".into(), "left out of an inverted fill"),
         ("camera={ eye = [1e6, 0, 1e7], target = [0, 0, 0] }".into(), "eye_geo"),
         ("layer.0.features=[{ polygon = [[[0, 0], [9, 0], [9, 200]]] }]".into(), "not a place"),

@@ -1,7 +1,6 @@
 //! A draft as a scene file.
 
 use super::draft::{Draft, DraftLayer};
-use crate::parameter::Named;
 use crate::scene::{Camera, Cap, Color, Dash, Fill, Join, Line, OutlineMode, Projection, Rule, Shape, Width};
 use crate::space::Plan;
 use std::fmt::Write;
@@ -82,7 +81,8 @@ fn layer_text(layer: &DraftLayer) -> String {
             OutlineMode::Normal => "",
             OutlineMode::Offset => ", mode = \"offset\"",
         };
-        let dash = style.outline_dash.map_or(String::new(), |dash| cap(&outline.line) + &dashes(&dash));
+        let dash =
+            style.outline_dash.map_or(String::new(), |dash| cap(&outline.line).to_owned() + &dashes(&dash));
         format!("outline = {{ {}{mode}{dash} }}\n", stroke(&outline.line))
     }));
     text.extend(style.line.iter().map(|line| {
@@ -98,10 +98,11 @@ fn layer_text(layer: &DraftLayer) -> String {
     text
 }
 
-fn cap(line: &Line) -> String {
+fn cap(line: &Line) -> &'static str {
     match line.cap {
-        Cap::Butt => String::new(),
-        Cap::Square | Cap::Round => format!(", cap = \"{}\"", line.cap.word()),
+        Cap::Butt => "",
+        Cap::Square => ", cap = \"square\"",
+        Cap::Round => ", cap = \"round\"",
     }
 }
 
