@@ -32,7 +32,7 @@ pub(super) const CASES: &[Case] = &[
             &["technique.stencil-volume.far=clip", "technique.stencil-volume.method=z-fail"],
             "Without a matrix whose far plane is infinite, z-fail loses faces (Schneider & Klein 2007, 4.2.1).",
         )]),
-    Case::new(3, "The prism misses the terrain", &[Kind::StencilVolume], (|| prism(), misses))
+    Case::new(3, "The prism misses the terrain", &[Kind::StencilVolume], (prism, misses))
         .told("cesium#4161, #8436, #7092", "From straight above, heights change nothing."),
     Case::new(4, "An end point behind the eye", &[Kind::GeometryOverlay, Kind::DynamicLine], (|| behind(8.0), behind_the_eye))
         .told("cesium#13594", "The line is clipped, then stroked; it is never mirrored."),

@@ -13,6 +13,15 @@ use serde::Serialize;
 pub(super) const FILLS: &[Kind] =
     &[Kind::Clipmap, Kind::StencilVolume, Kind::InverseProjection, Kind::StaticDecal];
 
+/// Where edges meet.
+pub(super) const EDGE_NORMALS: &[Artifact] = &[Artifact::of(
+    Kind::InverseProjection,
+    "Codes A and B sum what the normals of the pixel's edges say: \"valid in most cases\", not where edges meet or cross (She 2016, 3.5 and Fig. 10).",
+)];
+/// Instead of normals.
+pub(super) const BY_WINDING: &[Variant] =
+    &[Variant::right(Kind::InverseProjection, &["technique.inverse-projection.point_in_polygon=winding"])];
+
 /// A hard case.
 #[derive(Debug, Clone, Copy)]
 pub struct Case {

@@ -29,7 +29,7 @@ pub(super) const CASES: &[Case] = &[
             &["technique.inverse-projection.silhouette=smear"],
             "A pixel's quadrilateral spans both ramps (She 2016, 3.2: neighbouring centres as corners).",
         )]),
-    Case::new(12, "Triangles against bilinear patches", &[Kind::GeometryOverlay, Kind::StaticDecal], (|| saddle(), diagonals))
+    Case::new(12, "Triangles against bilinear patches", &[Kind::GeometryOverlay, Kind::StaticDecal], (saddle, diagonals))
         .told("osgearth PR#275", "In the middle of a cell of heights 0, 10 / 10, 0 the surface is at 0 or at 10 m, by its diagonal, never at 5."),
     Case::new(13, "Seams between levels of detail", &[Kind::GeometryOverlay, Kind::Clipmap], (seams, once))
         .told("maplibre#4991, #7523", "A line of alpha 0.5 is composed once everywhere: no pixel is brighter than 0.5.")

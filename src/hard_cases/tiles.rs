@@ -1,6 +1,6 @@
 //! Cases 29 to 32: borders of tiles and cells, structures, shared edges, history.
 
-use super::case::{Case, FILLS};
+use super::case::{BY_WINDING, Case, EDGE_NORMALS, FILLS};
 use super::figure::Figure;
 use super::hand::{Hand, stage, worst};
 use super::picture::{Picture, STEP};
@@ -16,7 +16,9 @@ pub(super) const CASES: &[Case] = &[
     Case::new(30, "Structures drop or reorder", &Kind::ALL, (|| crowd(&|k| k, None), permuted))
         .told("cesium's lookup of 2026", "A long line among 2,000 segments in another sequence, drawn in the order of a column: the same picture."),
     Case::new(31, "Shared edges", FILLS, (board, owners))
-        .told("cesium#11291", "Squares and triangles of alpha 0.5 with corners on sample points: each sample has one owner, 0.5 everywhere."),
+        .told("cesium#11291", "Squares and triangles of alpha 0.5 with corners on sample points: each sample has one owner, 0.5 everywhere.")
+        .known(EDGE_NORMALS)
+        .trying(BY_WINDING),
     Case::new(32, "The picture depends on what was seen before", &Kind::ALL, (|| hills(None), history))
         .told("maplibre#8251", "Seen at once or after five zooms, by 1, 3 or 8 threads: the same picture."),
 ];
