@@ -162,7 +162,7 @@ fn the_pixels_of_a_page_are_the_worst_and_each_is_of_a_square_of_its_own() {
     let off = |account: &Account| account.techniques[0].error;
     let count = interesting.accounts.len();
     assert!(count > 3 && count <= 12, "{count}");
-    assert!(interesting.accounts.windows(2).all(|pair| off(&pair[0]) >= off(&pair[1])));
+    assert!(interesting.accounts.windows(2).all(|pair| off(&pair[0]) >= off(&pair[1]) - 1e-9));
     // The field's border is wrong all along column 48, the road's are right.
     assert!(interesting.accounts.iter().all(|account| account.pixel[0] == 48 && off(account) > 0.4));
     let mut squares: Vec<usize> =

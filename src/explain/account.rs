@@ -201,13 +201,13 @@ pub struct Presence {
 }
 
 /// A colour as `#rrggbb`, with its alpha where it is not opaque.
-pub fn hex(color: [f64; 4]) -> String {
+pub(super) fn hex(color: [f64; 4]) -> String {
     let [r, g, b, a] = crate::resolve::code_values(color);
     let alpha = if a == 255 { String::new() } else { format!("{a:02x}") };
     format!("#{r:02x}{g:02x}{b:02x}{alpha}")
 }
 
 /// Code values as a colour.
-pub fn color_of(code: [u8; 4]) -> [f64; 4] {
+pub(super) fn color_of(code: [u8; 4]) -> [f64; 4] {
     code.map(|v| f64::from(v) / 255.0)
 }

@@ -140,6 +140,6 @@ fn centre(bench: &Bench, near: &Near, seen: &Seen) -> Centre {
         depth: seen.hit.depth,
         pixel: bench.reach(seen).map(|reach| [reach.dx.to_array(), reach.dy.to_array()]),
         margins,
-        silhouette: silhouette(bench, near, seen),
+        silhouette: silhouette(near, seen),
     }
 }

@@ -4,6 +4,7 @@ use super::names::Names;
 use crate::canvas::Backdrop;
 use crate::footprint::Footprints;
 use crate::holding::Nearby;
+use crate::parallel;
 use crate::resolve::{Paint, Stack};
 use crate::space::{Plan, Screen, ViewFrame, World};
 use crate::stage::Stage;
@@ -11,9 +12,16 @@ use crate::terrain::{Mesh, SKY, SurfaceTriangle};
 use crate::truth::{Budget, PixelLook, SeenPiece, look};
 use crate::visibility::{FootprintPlane, Hit, PixelFootprint, hit};
 use glam::{DMat2, DVec2};
+use std::ops::Range;
 
 /// How well the pixels around the one in question need to be known: what they see, and no more.
 const GLANCE: Budget = Budget { width: 1.0, depth: 0, coverage: false };
+
+/// Surfaces that are no farther apart than this share of their view depth meet.
+const STEP: f64 = 1e-6;
+
+/// A step over a border, pixels.
+const OVER: f64 = 1e-5;
 
 /// A corner of a piece, and a point of its rim, are known to so much, pixels.
 const RIM: f64 = 1e-9;
@@ -48,6 +56,46 @@ pub(super) struct Near {
     pub(super) look: PixelLook,
     /// What it and its neighbours see; its own pieces come first.
     pub(super) pieces: Vec<SeenPiece>,
+    /// Each of these pixels, and which of the pieces are its own.
+    ranges: Vec<([usize; 2], Range<usize>)>,
+    /// Where surfaces do not meet that are seen side by side.
+    pub(super) silhouettes: Vec<Step>,
+}
+
+/// A border of what is seen, with what is on its two sides.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Step {
+    /// Its ends on the screen.
+    pub(super) ends: [Screen; 2],
+    /// Across it.
+    pub(super) across: DVec2,
+    /// What is seen against that direction, and along it: triangle and view depth; `None`: the sky.
+    pub(super) sides: [Option<(u32, f64)>; 2],
+}
+
+impl Near {
+    fn of(pixel: [usize; 2], look: PixelLook, around: &[[usize; 2]], glances: Vec<PixelLook>) -> Self {
+        let mut near =
+            Self { pixel, pieces: look.pieces.clone(), look, ranges: Vec::new(), silhouettes: Vec::new() };
+        near.ranges.push((pixel, 0..near.pieces.len()));
+        for (pixel, glance) in around.iter().zip(glances) {
+            let first = near.pieces.len();
+            near.pieces.extend(glance.pieces);
+            near.ranges.push((*pixel, first..near.pieces.len()));
+        }
+        near
+    }
+
+    /// The piece that a point of the screen lies in.
+    fn piece_at(&self, at: Screen) -> Option<&SeenPiece> {
+        let is_in = |pixel: [usize; 2]| {
+            let [x, y] = pixel.map(|v| v as f64);
+            (x - RIM..=x + 1.0 + RIM).contains(&at.x) && (y - RIM..=y + 1.0 + RIM).contains(&at.y)
+        };
+        let mut pieces =
+            self.ranges.iter().filter(|(pixel, _)| is_in(*pixel)).flat_map(|(_, range)| range.clone());
+        pieces.find(|k| holds(&self.pieces[*k].corners, at)).map(|k| &self.pieces[k])
+    }
 }
 
 impl<'a> Bench<'a> {
@@ -70,11 +118,42 @@ impl<'a> Bench<'a> {
         let glances = look(self.stage, at, self.footprints, (&around.concat(), GLANCE));
         let mut glances = glances.into_iter();
         let nears = looks.into_iter().zip(pixels).zip(around).map(|((look, pixel), around)| {
-            let neighbours = glances.by_ref().take(around.len()).flat_map(|glance| glance.pieces);
-            let pieces = look.pieces.iter().cloned().chain(neighbours).collect();
-            Near { pixel: *pixel, look, pieces }
+            let glances = glances.by_ref().take(around.len()).collect();
+            Near::of(*pixel, look, &around, glances)
         });
-        nears.collect()
+        let mut nears: Vec<Near> = nears.collect();
+        parallel::for_each(&mut nears, |near| near.silhouettes = self.silhouettes(near));
+        nears
+    }
+
+    /// The borders of pieces beyond which another surface begins, as told by their middles.
+    fn silhouettes(&self, near: &Near) -> Vec<Step> {
+        let ends = |piece: &SeenPiece| {
+            let corners = piece.corners.clone();
+            (0..corners.len()).map(move |k| [corners[k], corners[(k + 1) % corners.len()]])
+        };
+        let sides = near.pieces.iter().flat_map(ends);
+        sides.filter_map(|ends| self.step_between(near, ends)).collect()
+    }
+
+    /// A border of a piece, if what is seen on its sides does not meet.
+    fn step_between(&self, near: &Near, ends: [Screen; 2]) -> Option<Step> {
+        let along = ends[1] - ends[0];
+        let across = along.perp().try_normalize()?;
+        let middle = ends[0] + along * 0.5;
+        let [first, second] = [-OVER, OVER].map(|side| {
+            let at = middle + across * side;
+            let triangle = near.piece_at(at)?.triangle;
+            let depth = self.on_triangle(triangle, at).map(|seen| seen.hit.depth);
+            (depth.is_some() || triangle == SKY).then(|| depth.map(|depth| (triangle, depth)))
+        });
+        let sides = [first?, second?];
+        let is_step = match sides {
+            [Some((a, here)), Some((b, beyond))] => a != b && (here - beyond).abs() > STEP * here,
+            [None, None] => false,
+            _ => true,
+        };
+        is_step.then_some(Step { ends, across, sides })
     }
 
     /// The pixels of the picture around a pixel.
@@ -87,8 +166,7 @@ impl<'a> Bench<'a> {
 
     /// What a point of the screen sees; `None`: the sky, or a point that is not near.
     pub(super) fn seen(&self, near: &Near, at: Screen) -> Option<Seen> {
-        let piece = near.pieces.iter().find(|piece| holds(&piece.corners, at))?;
-        self.on_triangle(piece.triangle, at)
+        self.on_triangle(near.piece_at(at)?.triangle, at)
     }
 
     /// Where a point of the screen meets a triangle's plane; `None`: there is no triangle.
@@ -99,11 +177,6 @@ impl<'a> Bench<'a> {
         let surface = self.mesh.surface_triangle(triangle)?;
         let hit = hit(self.view, &self.view.ray(at), &surface);
         hit.plan.is_finite().then_some(Seen { triangle, at, hit, surface })
-    }
-
-    /// Whether a pixel near sees the sky at a point, as far as is known.
-    pub(super) fn is_sky(near: &Near, at: Screen) -> bool {
-        near.pieces.iter().any(|piece| piece.triangle == SKY && holds(&piece.corners, at))
     }
 
     /// Where a plan point is seen near a pixel; where none of the pieces there has it, on the plane that the pixel's centre sees.
@@ -160,7 +233,7 @@ impl<'a> Bench<'a> {
     /// The paint that a point of the screen sees; `None`: that is not known.
     pub(super) fn spot(&self, near: &Near, at: Screen, room: &mut Nearby) -> Option<Paint> {
         let Some(seen) = self.seen(near, at) else {
-            return Self::is_sky(near, at).then_some(self.backdrop.sky);
+            return near.piece_at(at).is_some_and(|piece| piece.triangle == SKY).then_some(self.backdrop.sky);
         };
         let mut stack = Stack::on(self.ground(&seen));
         self.items_at(&seen, seen.hit.plan, room).iter().for_each(|item| self.draw(&mut stack, *item));

@@ -1,6 +1,6 @@
 //! How near a decision was: how far a sample lies from where the answer would be another, and which machines may find another.
 
-use super::bench::{Bench, Near, Seen};
+use super::bench::{Bench, Near, Seen, Step};
 use crate::footprint::{HalfPlane, Primitive};
 use crate::holding::Nearby;
 use crate::math;
@@ -11,9 +11,6 @@ use serde::Serialize;
 
 /// Borders farther away than this are not looked for, pixels.
 const REACH: f64 = 1.5;
-
-/// Surfaces that are no farther apart than this share of their view depth meet.
-const STEP: f64 = 1e-6;
 
 /// A step over a border, pixels: the answer has to be another on its two sides.
 const OVER: f64 = 1e-5;
@@ -69,44 +66,26 @@ impl Silhouette {
 }
 
 /// The silhouette that is nearest to a sample.
-pub(super) fn silhouette(bench: &Bench, near: &Near, seen: &Seen) -> Option<Silhouette> {
-    let mut best: Option<(f64, Silhouette)> = None;
-    for piece in near.pieces.iter().filter(|piece| piece.triangle != seen.triangle) {
-        for (a, b) in piece.corners.iter().zip(piece.corners.iter().cycle().skip(1)) {
-            of_segment([*a - seen.at, *b - seen.at], &mut |offset, across| {
-                let length = offset.length();
-                if length <= REACH && best.as_ref().is_none_or(|(known, _)| length < *known) {
-                    best = step_at(bench, near, seen, (offset, across))
-                        .map(|step| (length, step))
-                        .or(best.take());
-                }
-            });
-        }
+pub(super) fn silhouette(near: &Near, seen: &Seen) -> Option<Silhouette> {
+    let mut best: Option<(f64, DVec2, &Step)> = None;
+    for step in &near.silhouettes {
+        of_segment(step.ends.map(|end| end - seen.at), &mut |offset, _| {
+            let length = offset.length();
+            if length <= REACH && best.is_none_or(|(known, ..)| length < known) {
+                best = Some((length, offset, step));
+            }
+        });
     }
-    best.map(|(_, silhouette)| silhouette)
-}
-
-/// The silhouette at a place beside a sample; `None`: what is seen on both sides of it meets there.
-fn step_at(bench: &Bench, near: &Near, seen: &Seen, (offset, across): (DVec2, DVec2)) -> Option<Silhouette> {
-    let at = seen.at + offset;
-    let [before, beyond] = [-OVER, OVER].map(|side| bench.seen(near, at + across * side));
-    let pixels = offset.length();
-    let silhouette = |triangle, deeper| Silhouette {
+    let (pixels, offset, step) = best?;
+    let [first, second] = step.sides;
+    let (here, beyond) = if offset.dot(step.across) < 0.0 { (second, first) } else { (first, second) };
+    Some(Silhouette {
         pixels,
         toward: toward(offset),
-        triangle,
-        deeper,
-        flipped_by: causes(pixels, 0.0, across.abs()),
-    };
-    match (before, beyond) {
-        (Some(before), Some(beyond)) => {
-            let deeper = beyond.hit.depth - before.hit.depth;
-            let is_step = before.triangle != beyond.triangle && deeper.abs() > STEP * before.hit.depth;
-            is_step.then(|| silhouette(Some(beyond.triangle), Some(deeper)))
-        }
-        (Some(_), None) => Bench::is_sky(near, at + across * OVER).then(|| silhouette(None, None)),
-        _ => None,
-    }
+        triangle: beyond.map(|(triangle, _)| triangle),
+        deeper: beyond.zip(here).map(|((_, beyond), (_, here))| beyond - here),
+        flipped_by: causes(pixels, 0.0, step.across.abs()),
+    })
 }
 
 /// A border near a sample.

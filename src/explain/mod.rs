@@ -20,11 +20,8 @@ mod search;
 mod techniques;
 mod text;
 
-pub use account::{
-    Account, ByTechnique, Centre, Covering, LeftOut, Presence, Ray, Right, Rung, Step, Tried, color_of, hex,
-};
+pub use account::{Account, ByTechnique, Centre, Covering, LeftOut, Presence, Ray, Right, Rung, Step, Tried};
 pub use asking::{Asking, pixel};
 pub use interesting::{Interesting, picture};
 pub use margin::{Margin, Silhouette};
-pub use names::Names;
 pub use scenery::{Piece, Scenery, Shape};

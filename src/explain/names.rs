@@ -8,7 +8,7 @@ const NAMING: [&str; 6] = ["name", "label", "title", "ref", "osm_id", "id"];
 
 /// The layers of a scene and what their features are called.
 #[derive(Debug)]
-pub struct Names<'a> {
+pub(super) struct Names<'a> {
     layers: Vec<&'a str>,
     /// The columns of attributes of each layer; may be empty.
     attributes: &'a [Vec<Column>],
@@ -16,12 +16,12 @@ pub struct Names<'a> {
 
 impl<'a> Names<'a> {
     /// Those of a scene; `attributes` are the columns of each of its layers, as far as they are known.
-    pub fn new(scene: &'a Scene, attributes: &'a [Vec<Column>]) -> Self {
+    pub(super) fn new(scene: &'a Scene, attributes: &'a [Vec<Column>]) -> Self {
         Self { layers: scene.layers.iter().map(|layer| layer.name.as_str()).collect(), attributes }
     }
 
     /// An item in words: `roads 12 "A1" (line)`.
-    pub fn of_item(&self, list: &DrawList, number: u32) -> String {
+    pub(super) fn of_item(&self, list: &DrawList, number: u32) -> String {
         let item = &list.items()[number as usize];
         let role = match list.style_of(number).role {
             Role::Fill if list.style_of(number).swath.is_some() => "stroke",
@@ -35,7 +35,7 @@ impl<'a> Names<'a> {
     }
 
     /// A feature in words: `roads 12 "A1"`.
-    pub fn of_feature(&self, item: &Item) -> String {
+    fn of_feature(&self, item: &Item) -> String {
         let layer = self.layers.get(item.layer as usize).unwrap_or(&"layer");
         if item.number == NO_FEATURE {
             return (*layer).to_owned();
@@ -47,12 +47,12 @@ impl<'a> Names<'a> {
     }
 
     /// The names of the layers.
-    pub fn layers(&self) -> &[&'a str] {
+    pub(super) fn layers(&self) -> &[&'a str] {
         &self.layers
     }
 
     /// The columns of a layer's attributes.
-    pub fn columns(&self, layer: usize) -> &'a [Column] {
+    pub(super) fn columns(&self, layer: usize) -> &'a [Column] {
         self.attributes.get(layer).map_or(&[], Vec::as_slice)
     }
 

@@ -72,7 +72,7 @@ fn told_step(bench: &Bench, near: &Near, step: &dyn technique::Step) -> Step {
         plan: step.place().map(|plan| bench.absolute(plan)),
         screen: seen.map(|seen| [seen.at.x, seen.at.y]),
         margins,
-        silhouette: seen.and_then(|seen| silhouette(bench, near, &seen)).filter(|edge| edge.pixels <= FAR),
+        silhouette: seen.and_then(|seen| silhouette(near, &seen)).filter(|edge| edge.pixels <= FAR),
     }
 }
 
