@@ -19,7 +19,7 @@ Examples:
 Writes DIR/NAME.png or DIR/NAME.svg of each panel (NAME-a, NAME-b, ... of several), DIR/figures.html (one page, readable without a network) and
 DIR/figures.json: all of them, or none when something fails. The same bits in every run, on every machine.
 
-Tables and what is measured in times: drapery report --tables=taibo, zechmeister, wartell.";
+Tables and what is measured in times: drapery report --tables=taibo, zechmeister, wartell, she.";
 
 #[derive(Debug, clap::Args)]
 #[command(after_long_help = EXAMPLES)]

@@ -5,7 +5,7 @@ use super::scene_input;
 use super::stop::{Outcome, Status, Stop};
 use super::truth_arguments::TruthArguments;
 use drapery::output::Batch;
-use drapery::report::tables::{taibo, wartell, zechmeister};
+use drapery::report::tables::{she, taibo, wartell, zechmeister};
 use drapery::report::{self, SceneReport};
 use drapery::scene_file::{DEFAULT_SCENE, SceneText};
 use drapery::{Opened, Result, parallel};
@@ -21,6 +21,7 @@ Examples:
   drapery report --tables --repeat 1                    Taibo's tables on 1.2 to 11 million segments, minutes
   drapery report --tables=zechmeister --repeat 1        Zechmeister's on studies like the thesis's, minutes
   drapery report --tables=wartell                       Wartell's on borders like the paper's, a minute
+  drapery report --tables=she                           She's on roads like the paper's, a minute
   drapery report --tables roads.toml -o tables          Taibo's for your own lines
 
 Measured are the truth, every technique that applies over the settings of its sweep (the scene's own among them), and plain
@@ -36,7 +37,9 @@ With --tables, a paper's own tables are measured instead, without a SCENE on dat
 tables.html, tables.csv and tables.json. taibo (the default): memory, generation and rendering of the clipmap's solutions (Taibo et al.
 2014, section 5). zechmeister: memory, update and render time of static decals and dynamic lines over what chapter 5 of Zechmeister
 2020 varies, and whether its Table 5.4 holds. wartell: Table 1 and the storage of section 3.3 of Wartell et al. 2003 beside the paper's figures,
-and geometry overlay over the mesh's screen error, borrowed quads, polygon offset and the tolerance of lines; a SCENE needs `terrain.lod`.";
+and geometry overlay over the mesh's screen error, borrowed quads, polygon offset and the tolerance of lines; a SCENE needs `terrain.lod`. she: \
+Tables 2 to 5 and Fig. 14 of She et al. 2016, frames of inverse projection over tiles, sizes of the picture, terrains and lines, and beside stencil \
+volumes; of a SCENE Tables 2 and 3 and Fig. 14.";
 
 #[derive(Debug, clap::Args)]
 #[command(after_long_help = EXAMPLES)]
@@ -44,7 +47,7 @@ pub(super) struct Arguments {
     /// The scene files, `-` for stdin; without one, a built-in generated scene.
     #[arg(value_name = "SCENE")]
     scenes: Vec<PathBuf>,
-    /// Measure a paper's own tables instead of speed against error: taibo (the default), zechmeister, wartell.
+    /// Measure a paper's own tables instead of speed against error: taibo (the default), zechmeister, wartell, she.
     #[arg(long, value_name = "PAPER", num_args = 0..=1, require_equals = true, default_missing_value = "taibo")]
     tables: Option<Paper>,
     /// Change every scene: a dotted path and a TOML value; may be repeated. No value removes the key.
@@ -72,6 +75,8 @@ enum Paper {
     Zechmeister,
     /// Wartell et al. 2003, Table 1 and section 3.3.
     Wartell,
+    /// She et al. 2016, Tables 2 to 5 and Fig. 14.
+    She,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Outcome {
@@ -80,6 +85,7 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
         Some(Paper::Taibo) => run_taibo(arguments),
         Some(Paper::Zechmeister) => run_zechmeister(arguments),
         Some(Paper::Wartell) => run_wartell(arguments),
+        Some(Paper::She) => run_she(arguments),
     }
 }
 
@@ -143,6 +149,29 @@ fn run_wartell(arguments: &Arguments) -> Outcome {
     Ok(Status::Passed)
 }
 
+/// Measures She's tables.
+fn run_she(arguments: &Arguments) -> Outcome {
+    let study = |study: &she::Study| {
+        let changes = study.changes.iter().map(|change| (*change).to_owned());
+        let changes: Vec<String> = changes.chain(arguments.overrides.iter().cloned()).collect();
+        scene_input::built_in(she::SCENE, &changes)
+    };
+    let texts = match arguments.scenes.is_empty() {
+        true => she::STUDIES.iter().map(study).collect::<std::result::Result<_, Stop>>()?,
+        false => texts(arguments, &[])?,
+    };
+    let batch = Batch::into(&arguments.output)?;
+    let bar = Bar::new();
+    let measure = |scene| she::measure(scene, arguments.repeat, &bar);
+    let tables = she::Tables::of(of_each(arguments, &texts, &bar, measure)?, arguments.repeat);
+    tables.write(batch)?;
+    for set in &tables.data_sets {
+        bar.say(&told_of_frames(set));
+    }
+    bar.say(&format!("{}", arguments.output.join("tables.html").display()));
+    Ok(Status::Passed)
+}
+
 /// The scenes that are asked for, or the built-in ones.
 fn texts(arguments: &Arguments, built_in: &[&str]) -> std::result::Result<Vec<SceneText>, Stop> {
     let overrides = &arguments.overrides;
@@ -184,6 +213,15 @@ fn told(scene: &SceneReport) -> String {
             run.error_on_features.rmse,
             run.label()
         ));
+    }
+    text
+}
+
+/// A data set's frames in some lines, for people.
+fn told_of_frames(set: &she::DataSet) -> String {
+    let mut text = format!("{}: {} triangles, {} vertices", set.scene.name, set.triangles, set.vertices);
+    for row in &set.rows {
+        text.push_str(&format!("\n  {:<8} {:<34} {:>9.1} ms", row.table, row.setting, row.frame_ms.median));
     }
     text
 }

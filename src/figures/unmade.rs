@@ -45,7 +45,7 @@ pub const UNMADE: &[Unmade] = &[
         paper: Paper::She,
         number: "Fig. 14, Tables 2 to 6",
         what: "frame rates",
-        why: "times of one machine: `drapery report` measures stencil volumes, inverse projection and supersampling over n x n samples on any scene",
+        why: "times are measured by `drapery report --tables=she`; Table 6 tells the data of a map, she-15 is on generated land",
     },
     Unmade {
         paper: Paper::Zechmeister,

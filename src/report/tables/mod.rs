@@ -6,6 +6,7 @@
 mod change;
 mod files;
 mod grouped;
+pub mod she;
 pub mod taibo;
 pub mod wartell;
 pub mod zechmeister;
