@@ -22,6 +22,9 @@ pub(super) const EDGE_NORMALS: &[Artifact] = &[Artifact::of(
 pub(super) const BY_WINDING: &[Variant] =
     &[Variant::right(Kind::InverseProjection, &["technique.inverse-projection.point_in_polygon=winding"])];
 
+/// Draws a case by whoever is asked, and says what was found.
+pub(super) type Measure = fn(&Hand) -> Result<Vec<Figure>>;
+
 /// A hard case.
 #[derive(Debug, Clone, Copy)]
 pub struct Case {
@@ -44,7 +47,7 @@ pub struct Case {
     /// The scene that is shown of it.
     pub(super) shown: fn() -> Setup,
     /// Draws it and says what was found.
-    pub(super) measure: fn(&Hand) -> Result<Vec<Figure>>,
+    pub(super) measure: Measure,
 }
 
 /// How a technique on a machine did.
@@ -96,7 +99,7 @@ impl Case {
         number: u32,
         title: &'static str,
         concerns: &'static [Kind],
-        (shown, measure): (fn() -> Setup, fn(&Hand) -> Result<Vec<Figure>>),
+        (shown, measure): (fn() -> Setup, Measure),
     ) -> Self {
         Self {
             number,

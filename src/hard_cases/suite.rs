@@ -22,6 +22,9 @@ pub struct Plan {
     pub is_quick: bool,
 }
 
+/// A picture, and by whom.
+pub type Shown = (&'static str, Buffer<[u8; 4]>);
+
 /// A case and how all did.
 #[derive(Debug)]
 pub struct CaseResult {
@@ -30,7 +33,7 @@ pub struct CaseResult {
     /// A row a technique, machine and setting; the truth first.
     pub rows: Vec<Row>,
     /// Its scene by the truth and by each technique that draws it.
-    pub pictures: Vec<(&'static str, Buffer<[u8; 4]>)>,
+    pub pictures: Vec<Shown>,
 }
 
 /// The suite.
@@ -137,7 +140,7 @@ fn excused(row: Row, says: Option<&str>) -> Row {
 }
 
 /// The case's scene by the truth and the techniques that draw it, in exact mathematics.
-fn pictures(case: &Case, truths: &Truths) -> Result<Vec<(&'static str, Buffer<[u8; 4]>)>> {
+fn pictures(case: &Case, truths: &Truths) -> Result<Vec<Shown>> {
     let setup: Setup = (case.shown)();
     let mut pictures = vec![(truth::NAME, certified(&setup, &[])?.image())];
     for kind in case.concerns {
