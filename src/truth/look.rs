@@ -1,41 +1,16 @@
 //! Single pixels looked at closely: what each sees, piece by piece, beside its right colour.
 
+use super::Budget;
+use super::outcome::PixelLook;
 use super::seen::SeenPlan;
 use super::setting::Setting;
 use super::tile::seen_in_pixel;
-use super::{Budget, Centre, PixelCoverage};
 use crate::draw_list::DrawList;
 use crate::footprint::{Footprints, PixelSize};
 use crate::parallel;
 use crate::space::{Screen, ViewFrame};
 use crate::stage::Stage;
 use crate::terrain::Mesh;
-
-/// A convex piece of a pixel that sees one triangle, or the sky.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SeenPiece {
-    /// The triangle's number; [`SKY`](crate::terrain::SKY): none.
-    pub triangle: u32,
-    /// Its corners on the screen, in order.
-    pub corners: Vec<Screen>,
-}
-
-/// A pixel looked at closely.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PixelLook {
-    /// Lower bounds of its right colour: RGBA, straight alpha, encoded values 0..=1.
-    pub low: [f64; 4],
-    /// Upper bounds.
-    pub high: [f64; 4],
-    /// An estimate between the two.
-    pub estimate: [f64; 4],
-    /// What each item covers of it, hidden ones too; nothing where the budget does not ask for it.
-    pub coverage: PixelCoverage,
-    /// What its centre sees; `None`: the sky.
-    pub centre: Option<Centre>,
-    /// What it sees; none where it sees thousands of triangles.
-    pub pieces: Vec<SeenPiece>,
-}
 
 /// The footprints of a list near what a window of a view sees; all that the window's pixels see may lie in others is left out.
 pub fn footprints_seen<'l>(

@@ -42,8 +42,8 @@ mod tile_rays;
 mod touched;
 mod visible;
 
-pub use look::{PixelLook, SeenPiece, footprints_seen, look};
-pub use outcome::{Outcome, Sample};
+pub use look::{footprints_seen, look};
+pub use outcome::{Outcome, PixelLook, Sample, SeenPiece};
 pub use probe::{Probe, probe, probe_around};
 pub use touched::Touched;
 

@@ -1,8 +1,9 @@
-//! What a sample may see and be held by, when it may lie anywhere in a small square.
+//! What a sample may see and be held by, when it may lie anywhere in a small square; and what a whole pixel sees.
 
+use super::{Centre, PixelCoverage};
 use crate::certainty::{Known, PaintRange};
 use crate::math;
-use crate::space::PlanBox;
+use crate::space::{PlanBox, Screen};
 use crate::terrain::SKY;
 
 /// One thing that a sample may see, with what may hold it there.
@@ -63,4 +64,30 @@ impl Sample {
         let first = paints.next().unwrap_or(PaintRange::ANY);
         paints.fold(first, |all, paint| all.hull(&paint))
     }
+}
+
+/// A convex piece of a pixel that sees one triangle, or the sky.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SeenPiece {
+    /// The triangle's number; [`SKY`]: none.
+    pub triangle: u32,
+    /// Its corners on the screen, in order.
+    pub corners: Vec<Screen>,
+}
+
+/// A pixel looked at closely.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PixelLook {
+    /// Lower bounds of its right colour: RGBA, straight alpha, encoded values 0..=1.
+    pub low: [f64; 4],
+    /// Upper bounds.
+    pub high: [f64; 4],
+    /// An estimate between the two.
+    pub estimate: [f64; 4],
+    /// What each item covers of it, hidden ones too; nothing where the budget does not ask for it.
+    pub coverage: PixelCoverage,
+    /// What its centre sees; `None`: the sky.
+    pub centre: Option<Centre>,
+    /// What it sees; none where it sees thousands of triangles.
+    pub pieces: Vec<SeenPiece>,
 }

@@ -2,8 +2,7 @@
 
 use super::facet::{Facet, Hit};
 use super::knowledge::Pixel;
-use super::look::{PixelLook, SeenPiece};
-use super::outcome::Sample;
+use super::outcome::{PixelLook, Sample, SeenPiece};
 use super::polygon::{self, Pieces};
 use super::refine::Refinery;
 use super::setting::Setting;
