@@ -1,4 +1,4 @@
-//! Boxes of the plan around what is seen, and what comes near them.
+//! Boxes of the plan around what is seen, what comes near them, and what convex pieces hold.
 
 use crate::space::{Plan, PlanBox};
 use glam::DVec2;
@@ -25,4 +25,38 @@ pub(super) fn comes_near([from, to]: [Plan; 2], reach: f64, plan: &PlanBox) -> b
     // The slack is far above the roundings of these few operations.
     away <= (across + reach * normal.length()) * (1.0 + 1e-9)
         + 1e-12 * normal.length() * (middle - from).length()
+}
+
+/// The corners of a box.
+pub(super) fn corners_of(plan: &PlanBox) -> [Plan; 4] {
+    let PlanBox { min, max } = *plan;
+    [min, Plan::new(max.x, min.y), max, Plan::new(min.x, max.y)]
+}
+
+/// How much of something a convex piece holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Held {
+    None,
+    Some,
+    All,
+}
+
+/// How much of a convex polygon a piece holds.
+pub(super) fn held(ring: &[Plan], plan: &[Plan]) -> Held {
+    let turn: f64 = (2..ring.len()).map(|k| (ring[k - 1] - ring[0]).perp_dot(ring[k] - ring[0])).sum();
+    let mut all = turn != 0.0;
+    for (k, from) in ring.iter().enumerate() {
+        let side = ring[(k + 1) % ring.len()] - *from;
+        let values = plan.iter().map(|p| turn.signum() * side.perp_dot(*p - *from));
+        let (mut is_apart, mut is_in) = (true, true);
+        for value in values {
+            is_apart &= value <= 0.0;
+            is_in &= value >= 0.0;
+        }
+        if is_apart && side != DVec2::ZERO {
+            return Held::None;
+        }
+        all &= is_in;
+    }
+    if all { Held::All } else { Held::Some }
 }

@@ -96,6 +96,17 @@ impl Facet {
         a + ((b - a) * (of_b / all) + (c - a) * (of_c / all))
     }
 
+    /// The smallest way in the plan of a pixel's way on the screen, metres, around a point.
+    pub(super) fn finest_at(&self, middle: DVec2) -> f64 {
+        const STEP: f64 = 0.25;
+        let at = self.plan_at(middle);
+        let [dx, dy] = [DVec2::X, DVec2::Y].map(|axis| (self.plan_at(middle + axis * STEP) - at) / STEP);
+        // The smaller singular value of the map: its determinant over the larger one.
+        let (sum, det) = (dx.length_squared() + dy.length_squared(), dx.perp_dot(dy).abs());
+        let root = math::max(sum * sum - 4.0 * det * det, 0.0).sqrt();
+        det / (0.5 * (sum + root)).sqrt()
+    }
+
     /// How far east (axis 0) or north (axis 1) of a line of the plan a point (x, y, 1) of the screen lies, up to a positive factor.
     pub(super) fn beyond(&self, axis: usize, at: f64) -> DVec3 {
         let of = self.plan.map(|p| if axis == 0 { p.x - at } else { p.y - at });

@@ -1,23 +1,23 @@
 //! What items do to one fragment: N, P or F of each, and of those that are P what their edges cut.
 
-use super::boxes::with_hem;
+use super::boxes::{Held, held, with_hem};
 use super::coverage::{Class, Coverage, Inside, Membership};
 use super::facet::Facet;
 use super::features::Edge;
-use super::look::{Look, Looks};
+use super::look::{Look, Looks, even_half};
 use super::near::{Local, Near};
 use super::pieces::{self, HalfWidth, Pieces, stroke_pieces};
 use crate::math;
 use crate::predicate::orient2d;
 use crate::resolve::{Compositor, Paint, Stack};
-use crate::scene::Width;
-use crate::space::{Lens, Plan, PlanBox, ViewFrame};
+use crate::scene::{Line, Width};
+use crate::space::{Plan, PlanBox, ViewFrame};
 use crate::terrain::Mesh;
 use glam::DVec2;
 use std::ops::Range;
 
 /// How far a chord of a round part may be off, in pixels.
-const SAGITTA: f64 = 1.0 / 512.0;
+pub(super) const SAGITTA: f64 = 1.0 / 512.0;
 
 /// How far a width in pixels may be off in a fragment in which it is taken as linear, in pixels.
 const BEND: f64 = 1.0 / 256.0;
@@ -44,19 +44,6 @@ impl Place<'_> {
             weight = 0.618_033_988_749_895 * weight + 0.3;
         }
         sum / all
-    }
-
-    /// The smallest way in the plan of a pixel's way on the screen, metres.
-    fn finest(&self) -> f64 {
-        const STEP: f64 = 0.25;
-        let middle = self.inside();
-        let at = self.facet.plan_at(middle);
-        let [dx, dy] =
-            [DVec2::X, DVec2::Y].map(|axis| (self.facet.plan_at(middle + axis * STEP) - at) / STEP);
-        // The smaller singular value of the map: its determinant over the larger one.
-        let (sum, det) = (dx.length_squared() + dy.length_squared(), dx.perp_dot(dy).abs());
-        let root = math::max(sum * sum - 4.0 * det * det, 0.0).sqrt();
-        det / (0.5 * (sum + root)).sqrt()
     }
 }
 
@@ -94,7 +81,7 @@ pub(super) struct Lists {
     /// Where each piece's corners end.
     rings: Vec<usize>,
     corners: Vec<Plan>,
-    pieces: Pieces,
+    pub(super) pieces: Pieces,
     cover: Coverage,
     projected: Vec<DVec2>,
     /// The ground and the paint of the plain fragment before, of the same block.
@@ -103,6 +90,25 @@ pub(super) struct Lists {
     pub(super) wants_sets: bool,
     /// The items of each set that was found, with its share, if they are to be told.
     pub(super) sets: Vec<(Vec<u32>, f64)>,
+}
+
+impl Lists {
+    /// Adds a piece that cuts a fragment to those from the `first` on; where it holds all of the fragment, takes these away and returns true.
+    fn add_ring(&mut self, ring: &[Plan], plan: &[Plan], first: usize) -> bool {
+        match held(ring, plan) {
+            Held::None => false,
+            Held::Some => {
+                self.corners.extend_from_slice(ring);
+                self.rings.push(self.corners.len());
+                false
+            }
+            Held::All => {
+                self.rings.truncate(first);
+                self.corners.truncate(self.rings.last().copied().unwrap_or(0));
+                true
+            }
+        }
+    }
 }
 
 /// Paints fragments over the ground.
@@ -168,7 +174,6 @@ impl Items<'_> {
         let touching = with_hem(&bounds);
         let inside = place.facet.plan_at(place.inside());
         let inside = if place.plan.len() == 1 { place.plan[0] } else { inside };
-        let mut finest = None;
         for (local, of) in near.items.iter().enumerate().rev() {
             let look = self.looks.of(of.item);
             let edges = lists.edges.len();
@@ -182,8 +187,8 @@ impl Items<'_> {
             }
             let rings = lists.rings.len();
             if look.line.is_some() {
-                let finest = *finest.get_or_insert_with(|| place.finest());
-                if !self.add_pieces((near, of, look), place, (&bounds, finest), lists)? {
+                let finest = || place.facet.finest_at(place.inside());
+                if !self.add_pieces((near, of, look), place, (&bounds, &finest), lists)? {
                     lists.edges.truncate(edges);
                     continue;
                 }
@@ -205,35 +210,36 @@ impl Items<'_> {
         &self,
         (near, of, look): (&Near, &Local, &Look),
         place: &Place,
-        (bounds, finest): (&PlanBox, f64),
+        (bounds, finest): (&PlanBox, &dyn Fn() -> f64),
         lists: &mut Lists,
     ) -> Option<bool> {
         let Some(line) = &look.line else { return Some(false) };
-        let (first, first_corner) = (lists.rings.len(), lists.corners.len());
+        if of.is_held {
+            return Some(true);
+        }
+        let first = lists.rings.len();
+        for (ring, around) in near.pieces(of) {
+            if around.meets(bounds) && lists.add_ring(ring, place.plan, first) {
+                return Some(true);
+            }
+        }
         let mut strokes = near.strokes(of).iter().filter(|stroked| stroked.meets(bounds)).peekable();
         if strokes.peek().is_none() {
-            return Some(false);
+            return Some(lists.rings.len() > first);
         }
-        let (half, bend) = self.half_width(&line.width, place);
+        let (half, bend) = self.half_width(line, place);
+        let finest = finest();
         let around = pieces::Near { plan: *bounds, sagitta: SAGITTA * finest };
         for stroked in strokes {
             lists.pieces.clear();
             if !stroke_pieces(&stroked.segment, line, &half, &around, &mut lists.pieces) {
                 return None;
             }
-            for ring in lists.pieces.rings() {
-                match held(ring, place.plan) {
-                    Held::All => {
-                        lists.rings.truncate(first);
-                        lists.corners.truncate(first_corner);
-                        return Some(true);
-                    }
-                    Held::Some => {
-                        lists.corners.extend_from_slice(ring);
-                        lists.rings.push(lists.corners.len());
-                    }
-                    Held::None => {}
-                }
+            let pieces = std::mem::take(&mut lists.pieces);
+            let is_held = pieces.rings().any(|ring| lists.add_ring(ring, place.plan, first));
+            lists.pieces = pieces;
+            if is_held {
+                return Some(true);
             }
         }
         let is_cut = lists.rings.len() > first;
@@ -242,14 +248,14 @@ impl Items<'_> {
 
     /// Half a stroke's width near a place, and how far it is off: of one in pixels the tangent of how it grows with the distance from the eye
     /// (Zechmeister 2020, eq. 4.1).
-    fn half_width(&self, width: &Width, place: &Place) -> (HalfWidth, f64) {
+    fn half_width(&self, line: &Line, place: &Place) -> (HalfWidth, f64) {
         let at = if let [at] = place.plan { *at } else { place.facet.plan_at(place.inside()) };
         let even = |half: f64| (HalfWidth { at, half, gradient: DVec2::ZERO }, 0.0);
-        let (width, pixel) = match (width, self.view.lens()) {
-            (Width::Metres(width), _) => return even(width / 2.0),
-            (Width::Pixels(width), Lens::Parallel { pixel }) => return even(0.5 * width * pixel),
-            (Width::Pixels(width), Lens::Central { pixel }) => (width, pixel),
-        };
+        if let Some(half) = even_half(line, self.view.lens()) {
+            return even(half);
+        }
+        let Width::Pixels(width) = line.width else { return even(0.0) };
+        let pixel = self.view.lens().pixel();
         let triangle = self.mesh.surface_triangle(place.facet.id);
         let Some((triangle, [east, north])) = triangle.and_then(|of| Some((of, of.world_from_plan()?)))
         else {
@@ -365,33 +371,6 @@ fn cuts(edge: &Edge, plan: &[Plan], bounds: &PlanBox) -> bool {
     let mut sides = plan.iter().map(|p| orient2d(edge.from, edge.to, *p));
     let Some(first) = sides.find(|side| *side != 0.0) else { return false };
     sides.any(|side| side * first < 0.0)
-}
-
-/// How much of a fragment a convex piece holds.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Held {
-    None,
-    Some,
-    All,
-}
-
-fn held(ring: &[Plan], plan: &[Plan]) -> Held {
-    let turn: f64 = (2..ring.len()).map(|k| (ring[k - 1] - ring[0]).perp_dot(ring[k] - ring[0])).sum();
-    let mut all = turn != 0.0;
-    for (k, from) in ring.iter().enumerate() {
-        let side = ring[(k + 1) % ring.len()] - *from;
-        let values = plan.iter().map(|p| turn.signum() * side.perp_dot(*p - *from));
-        let (mut is_apart, mut is_in) = (true, true);
-        for value in values {
-            is_apart &= value <= 0.0;
-            is_in &= value >= 0.0;
-        }
-        if is_apart && side != DVec2::ZERO {
-            return Held::None;
-        }
-        all &= is_in;
-    }
-    if all { Held::All } else { Held::Some }
 }
 
 /// Adds the picture of a convex polygon or an edge of the plan, counted from the pixel's corner, as far as it lies clearly before the eye.

@@ -2,7 +2,8 @@
 
 use crate::draw_list::{DrawList, Side};
 use crate::resolve::{Compositor, Paint};
-use crate::scene::{BlendMode, Group, Line, Rule};
+use crate::scene::{BlendMode, Group, Line, Rule, Width};
+use crate::space::Lens;
 
 /// Which side of a border counts.
 #[derive(Debug, Clone, Copy)]
@@ -59,5 +60,14 @@ impl<'s> Looks<'s> {
     #[inline]
     pub(super) fn of(&self, item: u32) -> &Look {
         &self.of_styles[self.list.items()[item as usize].style as usize]
+    }
+}
+
+/// Half a stroke's width, metres, where it is the same in all of the plan.
+pub(super) fn even_half(line: &Line, lens: Lens) -> Option<f64> {
+    match (line.width, lens) {
+        (Width::Metres(width), _) => Some(width / 2.0),
+        (Width::Pixels(width), Lens::Parallel { pixel }) => Some(0.5 * width * pixel),
+        (Width::Pixels(_), Lens::Central { .. }) => None,
     }
 }

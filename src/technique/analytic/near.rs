@@ -3,10 +3,13 @@
 //! An item that covers nothing of the box (N) is left out. One with edges or segments near is P, with the winding number of its area's border
 //! at one place; one that covers all of it (F) hides what lies below, if it is opaque.
 
-use super::boxes::odd_place;
+use super::boxes::{Held, corners_of, held, odd_place};
 use super::features::{Edge, Features, Stroked, crossing};
-use super::look::Looks;
-use crate::space::{Plan, PlanBox};
+use super::look::{Looks, even_half};
+use super::pieces::{self, HalfWidth, Pieces, stroke_pieces};
+use crate::scene::Line;
+use crate::space::{Lens, Plan, PlanBox};
+use glam::DVec2;
 use std::ops::Range;
 
 /// An item near a box.
@@ -17,17 +20,47 @@ pub(super) struct Local {
     turns: i32,
     edges: Range<u32>,
     strokes: Range<u32>,
+    /// The pieces of its stroke, where they are made for all of the box; it has no segments then.
+    pieces: Range<u32>,
+    /// Whether its stroke covers all of the box.
+    pub(super) is_held: bool,
+}
+
+impl Local {
+    /// Whether it covers all of the box.
+    fn is_plain(&self) -> bool {
+        self.edges.is_empty() && self.strokes.is_empty() && self.pieces.is_empty()
+    }
 }
 
 /// The items that may cover some of a box of the plan, in draw order.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Near {
+    plan: PlanBox,
     /// Where winding numbers are known: a place in the box.
     at: Plan,
     pub(super) items: Vec<Local>,
     edges: Vec<Edge>,
     strokes: Vec<Stroked>,
+    /// Where each piece's corners end, and the box around them.
+    pieces: Vec<(u32, PlanBox)>,
+    corners: Vec<Plan>,
     is_plain: bool,
+}
+
+impl Default for Near {
+    fn default() -> Self {
+        Self {
+            plan: PlanBox::EMPTY,
+            at: Plan::default(),
+            items: Vec::new(),
+            edges: Vec::new(),
+            strokes: Vec::new(),
+            pieces: Vec::new(),
+            corners: Vec::new(),
+            is_plain: true,
+        }
+    }
 }
 
 impl Near {
@@ -52,7 +85,7 @@ impl Near {
             let strokes = range_of(&self.strokes, item, |stroked| stroked.item);
             let own = range_of(&turns, item, |(item, _)| *item);
             let turns = turns[own.start as usize..own.end as usize].iter().map(|(_, turn)| turn).sum();
-            self.keep(looks, Local { item, turns, edges, strokes });
+            self.keep(looks, Local { item, turns, edges, strokes, pieces: 0..0, is_held: false });
         }
     }
 
@@ -67,13 +100,79 @@ impl Near {
             let near = self.strokes(local).iter().filter(|stroked| stroked.meets(plan));
             out.strokes.extend(near);
             let (edges, strokes) = (edges..out.edges.len() as u32, strokes..out.strokes.len() as u32);
-            out.keep(looks, Local { item: local.item, turns, edges, strokes });
+            out.keep(looks, Local { item: local.item, turns, edges, strokes, pieces: 0..0, is_held: false });
         }
-        out.is_plain = out.items.iter().all(|local| local.edges.is_empty() && local.strokes.is_empty());
+        out.is_plain = out.items.iter().all(Local::is_plain);
+    }
+
+    /// Whether an item has a stroke near.
+    pub(super) fn has_strokes(&self) -> bool {
+        !self.strokes.is_empty()
+    }
+
+    /// Makes the pieces of strokes that are as wide everywhere in the box; `sagitta`: how far a chord may be off, metres.
+    pub(super) fn make_pieces(&mut self, looks: &Looks, lens: Lens, sagitta: f64, room: &mut Pieces) {
+        let around = pieces::Near { plan: self.plan, sagitta };
+        for local in std::mem::take(&mut self.items) {
+            let look = looks.of(local.item);
+            let half = look.line.as_ref().and_then(|line| even_half(line, lens));
+            let Some((line, half)) = look.line.as_ref().zip(half) else {
+                self.items.push(local);
+                continue;
+            };
+            let half = HalfWidth { at: self.plan.min, half, gradient: DVec2::ZERO };
+            let Some(local) = self.with_pieces(local, (line, &half), &around, room) else { continue };
+            if local.is_held && local.edges.is_empty() && look.is_opaque {
+                self.items.clear();
+            }
+            self.items.push(local);
+        }
+        self.is_plain = self.items.iter().all(Local::is_plain);
+    }
+
+    /// An item with the pieces of its stroke in place of its segments; `None`: it covers nothing of the box.
+    fn with_pieces(
+        &mut self,
+        local: Local,
+        (line, half): (&Line, &HalfWidth),
+        around: &pieces::Near,
+        room: &mut Pieces,
+    ) -> Option<Local> {
+        let corners = corners_of(&self.plan);
+        let first = self.pieces.len() as u32;
+        for k in local.strokes.clone() {
+            room.clear();
+            stroke_pieces(&self.strokes[k as usize].segment, line, half, around, room);
+            for ring in room.rings() {
+                match held(ring, &corners) {
+                    Held::None => {}
+                    Held::All => return Some(Local { strokes: 0..0, is_held: true, ..local }),
+                    Held::Some => {
+                        self.corners.extend_from_slice(ring);
+                        let bounds = PlanBox::around(ring.iter().copied());
+                        self.pieces.push((self.corners.len() as u32, bounds));
+                    }
+                }
+            }
+        }
+        let pieces = first..self.pieces.len() as u32;
+        (!pieces.is_empty()).then_some(Local { strokes: 0..0, pieces, ..local })
+    }
+
+    /// The pieces of an item's stroke that are made for all of the box, each with the box around it.
+    pub(super) fn pieces(&self, of: &Local) -> impl Iterator<Item = (&[Plan], &PlanBox)> {
+        let mut from = of.pieces.start.checked_sub(1).map_or(0, |before| self.pieces[before as usize].0);
+        self.pieces[of.pieces.start as usize..of.pieces.end as usize].iter().map(move |(to, bounds)| {
+            let ring = &self.corners[from as usize..*to as usize];
+            from = *to;
+            (ring, bounds)
+        })
     }
 
     fn clear(&mut self, plan: &PlanBox) {
-        self.at = odd_place(plan);
+        (self.plan, self.at) = (*plan, odd_place(plan));
+        self.pieces.clear();
+        self.corners.clear();
         self.items.clear();
         self.edges.clear();
         self.strokes.clear();

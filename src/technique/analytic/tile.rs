@@ -6,7 +6,7 @@ use super::coverage::Class;
 use super::facet::Facet;
 use super::features::Features;
 use super::gather;
-use super::items::{Items, Lists, Painted, Place};
+use super::items::{Items, Lists, Painted, Place, SAGITTA};
 use super::look::Looks;
 use super::near::Near;
 use super::settings::Settings;
@@ -91,8 +91,7 @@ impl<'a> Painter<'a> {
         let samples = self.see(place, room);
         let mut last = self.backdrop.no_ground();
         for (k, block) in blocks(place).enumerate() {
-            room.tile.narrow(self.looks, &room.boxes[k], &mut room.block);
-            room.lists.plain = None;
+            self.look_near(k, &block, room);
             for (x, y) in pixels_of(&block) {
                 pixels[y * width + x] =
                     self.pixel((place, [x, y]), samples.as_ref(), room, &mut last, &mut ());
@@ -106,8 +105,10 @@ impl<'a> Painter<'a> {
         let mut room = Room::default();
         let samples = self.see(place, &mut room);
         room.lists.wants_sets = true;
-        let block = blocks(place).position(|block| pixels_of(&block).any(|(x, y)| [x, y] == at));
-        room.tile.narrow(self.looks, &room.boxes[block.unwrap_or(0)], &mut room.block);
+        let mut blocks = blocks(place).enumerate();
+        if let Some((k, block)) = blocks.find(|(_, block)| pixels_of(block).any(|(x, y)| [x, y] == at)) {
+            self.look_near(k, &block, &mut room);
+        }
         self.pixel((place, at), samples.as_ref(), &mut room, &mut self.backdrop.no_ground(), record).paint
     }
 
@@ -188,6 +189,33 @@ impl<'a> Painter<'a> {
         let (w, h) = (0.5 * pixel * self.view.width() as f64, 0.5 * pixel * self.view.height() as f64);
         let farthest = math::min(depth * (1.0 + w * w + h * h).sqrt(), all());
         0.5 * pixel * (1.0 + 1e-6) * farthest
+    }
+
+    /// Finds what is near a block of a tile.
+    fn look_near(&self, number: usize, block: &TilePlace, room: &mut Room) {
+        let Room { sheet, tile, block: near, lists, .. } = room;
+        tile.narrow(self.looks, &room.boxes[number], near);
+        lists.plain = None;
+        if near.has_strokes() {
+            let sagitta = SAGITTA * self.finest(block, sheet);
+            near.make_pieces(self.looks, self.view.lens(), sagitta, &mut lists.pieces);
+        }
+    }
+
+    /// About the least metres that a pixel of a block has in the plan.
+    fn finest(&self, block: &TilePlace, sheet: &Sheet) -> f64 {
+        let TilePlace { corner: [x, y], size: [width, height] } = *block;
+        let places = |from: usize, count: usize| [from, from + count / 2, from + count - 1];
+        let mut least = f64::INFINITY;
+        for at in places(y, height).into_iter().flat_map(|y| places(x, width).map(|x| [x, y])) {
+            let middle = DVec2::new(at[0] as f64 + 0.5, at[1] as f64 + 0.5);
+            let whole = sheet.whole(at).map(Fragment::whole);
+            for fragment in sheet.fragments(at).iter().chain(&whole) {
+                least = math::min(sheet.facets[fragment.facet as usize].finest_at(middle), least);
+            }
+        }
+        // Half of it for the pixels in between; what samples alone see is not known.
+        if least < f64::INFINITY { 0.5 * least } else { 0.01 * self.mesh.resolution() }
     }
 
     fn items(&self) -> Items<'_> {
