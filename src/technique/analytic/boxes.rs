@@ -19,12 +19,12 @@ pub(super) fn with_hem(plan: &PlanBox) -> PlanBox {
 #[inline]
 pub(super) fn comes_near([from, to]: [Plan; 2], reach: f64, plan: &PlanBox) -> bool {
     let (normal, half) = ((to - from).perp(), (plan.max - plan.min) * 0.5);
-    let middle = plan.min + half;
-    let away = normal.dot(middle - from).abs();
-    let across = normal.x.abs() * half.x + normal.y.abs() * half.y;
+    let to_middle = plan.min + half - from;
+    let (across, size) = (normal.x.abs() * half.x + normal.y.abs() * half.y, normal.abs().element_sum());
+    let wide = if reach > 0.0 { reach * normal.length() } else { 0.0 };
     // The slack is far above the roundings of these few operations.
-    away <= (across + reach * normal.length()) * (1.0 + 1e-9)
-        + 1e-12 * normal.length() * (middle - from).length()
+    normal.dot(to_middle).abs()
+        <= (across + wide) * (1.0 + 1e-9) + 1e-12 * size * to_middle.abs().element_sum()
 }
 
 /// The corners of a box.

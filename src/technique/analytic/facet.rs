@@ -6,46 +6,97 @@
 
 use super::convex::Side;
 use crate::math;
-use crate::space::{Lens, Plan, ViewFrame};
+use crate::space::{Lens, Plan, PlanBox, ViewFrame};
 use crate::terrain::SurfaceTriangle;
 use glam::{DVec2, DVec3};
 
 /// A triangle seen from less than this from its edge covers nothing: the determinant's share of its terms.
 const EDGE_ON: f64 = 1e-15;
 
+/// Triangles that reach over no more pixels are bounded by their corners, not by what is seen of them.
+const SMALL: f64 = 2.0;
+
 /// A triangle of the terrain in screen coordinates that are counted from a tile's corner.
 #[derive(Debug, Clone)]
 pub(super) struct Facet {
     /// Its number.
     pub(super) id: u32,
-    /// Its sides, lines of the screen.
-    sides: [Side; 3],
     /// How near it is: the larger, the nearer. Of a central lens 1 / depth, of a parallel one -depth; linear in the screen.
     pub(super) key: Side,
-    /// The columns and rows that it may reach: x from, y from, x to, y to.
-    pub(super) reach: [f64; 4],
-    /// What keeps it beyond the near plane and before the far one, where it reaches over them.
-    planes: [Option<Side>; 2],
     /// Weights of the corners from (x, y, 1), up to a factor.
     weights: [DVec3; 3],
-    /// Homogeneous coordinates of the first corner, and how they grow east and north.
-    from_plan: [DVec3; 3],
     plan: [Plan; 3],
     is_central: bool,
+    /// Whether it reaches over hardly more than a pixel.
+    pub(super) is_small: bool,
+}
+
+/// Where a triangle lies on the screen.
+#[derive(Debug, Clone)]
+pub(super) struct Outline {
+    /// Its sides, lines of the screen.
+    sides: [Side; 3],
+    /// What keeps it beyond the near plane and before the far one, where it reaches over them.
+    planes: [Option<Side>; 2],
+    /// The columns and rows that it may reach: x from, y from, x to, y to.
+    pub(super) reach: [f64; 4],
+}
+
+impl Outline {
+    /// The lines of the screen that bound it.
+    pub(super) fn bounds(&self) -> impl Iterator<Item = &Side> + Clone {
+        self.sides.iter().chain(self.planes.iter().flatten())
+    }
+}
+
+/// Homogeneous screen coordinates from plan points of a triangle's plane.
+#[derive(Debug, Clone)]
+pub(super) struct FromPlan {
+    corner: Plan,
+    /// Those of the corner, and what they grow by along the plan's axes.
+    rows: [DVec3; 3],
+}
+
+impl FromPlan {
+    /// Of a triangle, with the screen counted from `origin`.
+    pub(super) fn new(view: &ViewFrame, origin: DVec2, triangle: &SurfaceTriangle) -> Self {
+        let ([a, b, c], plan) = (corners(view, origin, triangle), triangle.plan());
+        let (along, other) = (plan[1] - plan[0], plan[2] - plan[0]);
+        let area = along.perp_dot(other);
+        let (u, v) = (b - a, c - a);
+        let rows = [a, (u * other.y - v * along.y) / area, (v * along.x - u * other.x) / area];
+        Self { corner: plan[0], rows }
+    }
+
+    /// The homogeneous coordinates of a plan point.
+    #[inline]
+    pub(super) fn at(&self, at: Plan) -> DVec3 {
+        let from = at - self.corner;
+        self.rows[0] + self.rows[1] * from.x + self.rows[2] * from.y
+    }
+
+    /// Whether what turns left in the plan turns the other way on the screen, y down.
+    pub(super) fn is_mirrored(&self) -> bool {
+        let [first, east, north] = self.rows;
+        first.dot(east.cross(north)) < 0.0
+    }
 }
 
 impl Facet {
-    /// A triangle in a view, with the screen counted from `origin`; `None`: it is seen edge-on.
-    pub(super) fn new(view: &ViewFrame, origin: DVec2, id: u32, triangle: &SurfaceTriangle) -> Option<Self> {
-        let corners = triangle.world.map(|corner| {
-            let h = view.homogeneous(corner - view.eye()) + view.homogeneous_eye();
-            DVec3::new(h.x - origin.x * h.z, h.y - origin.y * h.z, h.z)
-        });
+    /// A triangle in a view, with the screen counted from `origin`, and where it lies; `None`: it is seen edge-on.
+    pub(super) fn new(
+        view: &ViewFrame,
+        origin: DVec2,
+        id: u32,
+        triangle: &SurfaceTriangle,
+    ) -> Option<(Self, Outline)> {
+        let corners = corners(view, origin, triangle);
         let depths = triangle.world.map(|corner| view.depth(corner));
         let [a, b, c] = corners;
         let normals = [b.cross(c), c.cross(a), a.cross(b)];
         let det = a.dot(normals[0]);
-        if det.is_nan() || det.abs() <= EDGE_ON * a.length() * b.length() * c.length() {
+        let size = a.length_squared() * b.length_squared() * c.length_squared();
+        if det.is_nan() || det * det <= EDGE_ON * EDGE_ON * size {
             return None;
         }
         let weights = normals.map(|normal| normal / det);
@@ -55,18 +106,14 @@ impl Facet {
             false => -(weights[0] * depths[0] + weights[1] * depths[1] + weights[2] * depths[2]),
         };
         let key = line(key);
-        let plan = triangle.plan();
-        Some(Self {
-            id,
+        let outline = Outline {
             sides: weights.map(unit),
-            key,
-            reach: reach(view, &corners, &depths, is_central),
             planes: planes(view, key, &depths, is_central),
-            weights,
-            from_plan: from_plan(&corners, &plan),
-            plan,
-            is_central,
-        })
+            reach: reach(view, &corners, &depths, is_central),
+        };
+        let [x0, y0, x1, y1] = outline.reach;
+        let is_small = x1 - x0 <= SMALL && y1 - y0 <= SMALL;
+        Some((Self { id, key, weights, plan: triangle.plan(), is_central, is_small }, outline))
     }
 
     /// The greatest key in a square of the screen around a point.
@@ -81,19 +128,19 @@ impl Facet {
         self.key.at(middle) - half * self.key.normal.abs().element_sum()
     }
 
-    /// The lines of the screen that bound it.
-    pub(super) fn bounds(&self) -> impl Iterator<Item = &Side> + Clone {
-        self.sides.iter().chain(self.planes.iter().flatten())
-    }
-
     /// The plan point of a point of the screen.
     #[inline]
     pub(super) fn plan_at(&self, at: DVec2) -> Plan {
         let h = at.extend(1.0);
         let [of_a, of_b, of_c] = self.weights.map(|row| row.dot(h));
         let [a, b, c] = self.plan;
-        let all = of_a + of_b + of_c;
-        a + ((b - a) * (of_b / all) + (c - a) * (of_c / all))
+        let share = 1.0 / (of_a + of_b + of_c);
+        a + ((b - a) * (of_b * share) + (c - a) * (of_c * share))
+    }
+
+    /// The box around it in the plan.
+    pub(super) fn plan_box(&self) -> PlanBox {
+        PlanBox::around(self.plan)
     }
 
     /// The smallest way in the plan of a pixel's way on the screen, metres, around a point.
@@ -113,22 +160,10 @@ impl Facet {
         self.weights[0] * of[0] + self.weights[1] * of[1] + self.weights[2] * of[2]
     }
 
-    /// Homogeneous coordinates of a plan point of the triangle's plane.
-    #[inline]
-    pub(super) fn homogeneous(&self, at: Plan) -> DVec3 {
-        let from = at - self.plan[0];
-        self.from_plan[0] + self.from_plan[1] * from.x + self.from_plan[2] * from.y
-    }
-
-    /// Whether plan points have a place on the plane; they have none where the corners' lie on a line.
+    /// Whether plan points have a place on its plane; they have none where the corners' lie on a line.
     pub(super) fn has_plan(&self) -> bool {
-        self.from_plan.iter().all(|row| row.is_finite())
-    }
-
-    /// Whether what turns left in the plan turns the other way on the screen, y down.
-    pub(super) fn is_mirrored(&self) -> bool {
-        let [first, east, north] = self.from_plan;
-        first.dot(east.cross(north)) < 0.0
+        let [a, b, c] = self.plan;
+        (b - a).perp_dot(c - a) != 0.0
     }
 
     /// The least w that plan points at some points of the screen have.
@@ -139,6 +174,14 @@ impl Facet {
         let nearest = polygon.iter().map(|p| self.key.at(*p)).fold(0.0, |most, key| math::max(key, most));
         1.0 / nearest
     }
+}
+
+/// The homogeneous coordinates of a triangle's corners, counted from `origin`.
+fn corners(view: &ViewFrame, origin: DVec2, triangle: &SurfaceTriangle) -> [DVec3; 3] {
+    triangle.world.map(|corner| {
+        let h = view.homogeneous(corner - view.eye()) + view.homogeneous_eye();
+        DVec3::new(h.x - origin.x * h.z, h.y - origin.y * h.z, h.z)
+    })
 }
 
 /// A row that is multiplied with (x, y, 1), as a line.
@@ -173,14 +216,6 @@ fn planes(view: &ViewFrame, key: Side, depths: &[f64; 3], is_central: bool) -> [
     [nearer.then_some(beyond_near), farther.then_some(before_far)]
 }
 
-/// The first corner's homogeneous coordinates, and what they grow by along the plan's axes.
-fn from_plan([a, b, c]: &[DVec3; 3], plan: &[Plan; 3]) -> [DVec3; 3] {
-    let (along, other) = (plan[1] - plan[0], plan[2] - plan[0]);
-    let area = along.perp_dot(other);
-    let (u, v) = (*b - *a, *c - *a);
-    [*a, (u * other.y - v * along.y) / area, (v * along.x - u * other.x) / area]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -210,17 +245,18 @@ mod tests {
         ]);
         let origin = DVec2::new(64.0, 128.0);
         for view in views() {
-            let facet = Facet::new(&view, origin, 7, &triangle).unwrap();
+            let (facet, _) = Facet::new(&view, origin, 7, &triangle).unwrap();
+            let from_plan = FromPlan::new(&view, origin, &triangle);
             for at in [DVec2::new(100.5, 200.25), DVec2::new(256.0, 112.0)] {
                 let screen = Screen::new(at.x + origin.x, at.y + origin.y);
                 let seen = hit(&view, &view.ray(screen), &triangle);
                 assert!((facet.plan_at(at) - seen.plan).length() < 1e-9);
                 let key = if facet.is_central { 1.0 / seen.depth } else { -seen.depth };
                 assert!((facet.key.at(at) - key).abs() < 1e-12 * (1.0 + key.abs()));
-                let back = facet.homogeneous(seen.plan);
+                let back = from_plan.at(seen.plan);
                 assert!((back.truncate() / back.z - at).length() < 1e-9);
             }
-            assert!(facet.is_mirrored(), "north is up, y is down");
+            assert!(from_plan.is_mirrored(), "north is up, y is down");
         }
     }
 

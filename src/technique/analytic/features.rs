@@ -47,12 +47,18 @@ pub(super) struct Edge {
     pub(super) item: u32,
     pub(super) from: Plan,
     pub(super) to: Plan,
+    bounds: PlanBox,
 }
 
 impl Edge {
+    fn new(item: u32, from: Plan, to: Plan) -> Self {
+        Self { item, from, to, bounds: PlanBox::around([from, to]) }
+    }
+
     /// Whether it may meet a box.
+    #[inline]
     pub(super) fn meets(&self, plan: &PlanBox) -> bool {
-        PlanBox::around([self.from, self.to]).meets(plan) && comes_near([self.from, self.to], 0.0, plan)
+        self.bounds.meets(plan) && comes_near([self.from, self.to], 0.0, plan)
     }
 }
 
@@ -112,6 +118,11 @@ impl<'s> Features<'s> {
         }
     }
 
+    /// Whether there are strokes whose width is in pixels.
+    pub(super) fn has_dynamic(&self) -> bool {
+        !self.dynamic.runs.is_empty()
+    }
+
     /// Bytes held.
     pub(super) fn bytes(&self) -> usize {
         let of = |runs: &Runs| size_of_val(&runs.runs[..]) + runs.tree.bytes();
@@ -121,7 +132,7 @@ impl<'s> Features<'s> {
     /// Calls `visit` with the edges that meet a box, in draw order.
     pub(super) fn edges_near(&self, plan: &PlanBox, mut visit: impl FnMut(Edge)) {
         let near = self.areas.near(plan).flat_map(|run| edges(self.list, run));
-        near.filter(|edge| PlanBox::around([edge.from, edge.to]).meets(plan)).for_each(&mut visit);
+        near.filter(|edge| edge.bounds.meets(plan)).for_each(&mut visit);
     }
 
     /// Calls `visit` with the segments whose strokes may meet a box, each list in draw order; `most` is half of how wide a stroke is at most
@@ -129,7 +140,7 @@ impl<'s> Features<'s> {
     pub(super) fn strokes_near(&self, plan: &PlanBox, most: f64, mut visit: impl FnMut(Stroked)) {
         let near = self.strokes.near(plan).flat_map(|run| segments(self.list, run));
         near.filter(|stroked| stroked.bounds.meets(plan)).for_each(&mut visit);
-        if self.dynamic.runs.is_empty() {
+        if !self.has_dynamic() {
             return;
         }
         let widest = self.list.styles().iter().filter_map(|style| match style.stroke?.width {
@@ -161,6 +172,9 @@ impl<'s> Features<'s> {
 /// What is added to the winding number by going straight from one point to another over an edge.
 #[inline]
 pub(super) fn crossing(edge: &Edge, from: Plan, to: Plan) -> i32 {
+    if !edge.bounds.meets(&PlanBox::around([from, to])) {
+        return 0;
+    }
     let is_left = |p: Plan| orient2d(edge.from, edge.to, p) >= 0.0;
     let (was, is) = (is_left(from), is_left(to));
     if was == is {
@@ -190,7 +204,7 @@ fn edges<'a>(list: &'a DrawList, run: &'a Run) -> impl Iterator<Item = Edge> + '
     let chain = &list.border(&list.items()[run.item as usize])[run.chain as usize];
     let first = (chain.first + run.first) as usize;
     let vertices = &list.vertices()[first..=first + run.count as usize];
-    vertices.windows(2).map(|ends| Edge { item: run.item, from: ends[0], to: ends[1] })
+    vertices.windows(2).map(|ends| Edge::new(run.item, ends[0], ends[1]))
 }
 
 /// The segments of a run of a stroke.

@@ -2,7 +2,7 @@
 
 use super::boxes::{Held, held, with_hem};
 use super::coverage::{Class, Coverage, Inside, Membership};
-use super::facet::Facet;
+use super::facet::{Facet, FromPlan};
 use super::features::Edge;
 use super::look::{Look, Looks, even_half};
 use super::near::{Local, Near};
@@ -118,6 +118,8 @@ pub(super) struct Items<'a> {
     pub(super) mesh: &'a Mesh,
     pub(super) looks: &'a Looks<'a>,
     pub(super) compositor: Compositor,
+    /// Where the tile begins, from whose corner the screen is counted.
+    pub(super) origin: DVec2,
     /// The most parts of edges in a fragment.
     pub(super) crowd: usize,
 }
@@ -172,8 +174,10 @@ impl Items<'_> {
         lists.corners.clear();
         let bounds = PlanBox::around(place.plan.iter().copied());
         let touching = with_hem(&bounds);
-        let inside = place.facet.plan_at(place.inside());
-        let inside = if place.plan.len() == 1 { place.plan[0] } else { inside };
+        let inside = match place.plan {
+            [at] => *at,
+            _ => place.facet.plan_at(place.inside()),
+        };
         for (local, of) in near.items.iter().enumerate().rev() {
             let look = self.looks.of(of.item);
             let edges = lists.edges.len();
@@ -300,7 +304,10 @@ impl Items<'_> {
         lists.projected.extend(place.screen.iter().map(|p| *p - place.pixel));
         cover.begin(&lists.projected);
         let least = 0.5 * place.facet.least_w(place.screen);
-        let is_mirrored = place.facet.is_mirrored();
+        let triangle = self.mesh.surface_triangle(place.facet.id)?;
+        let from_plan = FromPlan::new(self.view, self.origin, &triangle);
+        let is_mirrored = from_plan.is_mirrored();
+        let map = (&from_plan, place.pixel);
         let partial = lists.entries.iter().filter(|entry| entry.is_partial());
         for entry in partial.clone() {
             let area = self.looks.of(near.items[entry.local].item).area.filter(|_| !entry.edges.is_empty());
@@ -308,7 +315,7 @@ impl Items<'_> {
             let number = cover.item(Membership { area, has_stroke: !entry.rings.is_empty() })?;
             for edge in &lists.edges[entry.edges.clone()] {
                 lists.projected.clear();
-                project(place, &[edge.from, edge.to], least, &mut lists.projected);
+                project(map, &[edge.from, edge.to], least, &mut lists.projected);
                 if let [from, to] = lists.projected[..] {
                     let (from, to) = if is_mirrored { (to, from) } else { (from, to) };
                     cover.edge(number, from, to);
@@ -317,7 +324,7 @@ impl Items<'_> {
             for ring in entry.rings.clone() {
                 let first = ring.checked_sub(1).map_or(0, |before| lists.rings[before]);
                 lists.projected.clear();
-                project(place, &lists.corners[first..lists.rings[ring]], least, &mut lists.projected);
+                project(map, &lists.corners[first..lists.rings[ring]], least, &mut lists.projected);
                 if lists.projected.len() > 2 {
                     cover.piece(number, &lists.projected);
                 }
@@ -374,18 +381,18 @@ fn cuts(edge: &Edge, plan: &[Plan], bounds: &PlanBox) -> bool {
 }
 
 /// Adds the picture of a convex polygon or an edge of the plan, counted from the pixel's corner, as far as it lies clearly before the eye.
-fn project(place: &Place, points: &[Plan], least: f64, out: &mut Vec<DVec2>) {
+fn project((from_plan, pixel): (&FromPlan, DVec2), points: &[Plan], least: f64, out: &mut Vec<DVec2>) {
     let is_closed = points.len() > 2;
-    let mut before = is_closed.then(|| place.facet.homogeneous(points[points.len() - 1]));
+    let mut before = is_closed.then(|| from_plan.at(points[points.len() - 1]));
     for p in points {
-        let h = place.facet.homogeneous(*p);
+        let h = from_plan.at(*p);
         if let Some(was) = before.filter(|was| (was.z < least) != (h.z < least)) {
             let share = (least - was.z) / (h.z - was.z);
             let at = was + (h - was) * share;
-            out.push(at.truncate() / least - place.pixel);
+            out.push(at.truncate() / least - pixel);
         }
         if h.z >= least {
-            out.push(h.truncate() / h.z - place.pixel);
+            out.push(h.truncate() / h.z - pixel);
         }
         before = Some(h);
     }

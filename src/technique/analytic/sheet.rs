@@ -4,13 +4,13 @@
 //! covers. A pixel that is covered wholly hides what is farther than all of its fragments.
 
 use super::convex::{NOTHING, Side, are_apart, area, common, cut, without};
-use super::facet::Facet;
+use super::facet::{Facet, Outline};
 use crate::math;
 use glam::DVec2;
 use std::ops::Range;
 
 /// Pixels a side of a tile.
-pub(super) const TILE: usize = 64;
+pub(super) const TILE: usize = 32;
 
 /// Pixels a side of a block.
 pub(super) const BLOCK: usize = 8;
@@ -165,12 +165,12 @@ impl Sheet {
     }
 
     /// Adds a triangle to all pixels that it covers.
-    pub(super) fn add(&mut self, facet: Facet) {
-        let Some([columns, rows]) = self.within(facet.reach) else { return };
+    pub(super) fn add(&mut self, (facet, outline): (Facet, Outline)) {
+        let Some([columns, rows]) = self.within(outline.reach) else { return };
         let (number, mut is_seen) = (self.facets.len() as u32, false);
         for y in rows.start / BLOCK..rows.end.div_ceil(BLOCK) {
             for x in columns.start / BLOCK..columns.end.div_ceil(BLOCK) {
-                is_seen |= self.add_to_block(&facet, number, [x, y], [&columns, &rows]);
+                is_seen |= self.add_to_block((&facet, &outline), number, [x, y], [&columns, &rows]);
             }
         }
         if is_seen {
@@ -181,7 +181,7 @@ impl Sheet {
     /// Adds a triangle to the pixels of a block that lie in some columns and rows; returns whether a part of it is seen there (so far).
     fn add_to_block(
         &mut self,
-        facet: &Facet,
+        (facet, outline): (&Facet, &Outline),
         number: u32,
         at: [usize; 2],
         [columns, rows]: [&Range<usize>; 2],
@@ -189,13 +189,13 @@ impl Sheet {
         const HALF: f64 = BLOCK as f64 / 2.0;
         let middle = DVec2::new(at[0] as f64, at[1] as f64) * BLOCK as f64 + HALF;
         let is_apart = |side: &Side| side.at(middle) <= -HALF * side.normal.abs().element_sum();
-        if facet.nearest_in(middle, HALF) <= self.farthest_of(at) || facet.bounds().any(is_apart) {
+        if facet.nearest_in(middle, HALF) <= self.farthest_of(at) || outline.bounds().any(is_apart) {
             return false;
         }
         let block = at[1] * BLOCKS + at[0];
         let holds = |side: &Side| side.at(middle) >= HALF * side.normal.abs().element_sum();
         let is_empty = self.whole[block].is_none() && self.is_empty[block];
-        if is_empty && facet.bounds().all(holds) {
+        if is_empty && outline.bounds().all(holds) {
             self.whole[block] = Some(number);
             self.is_empty[block] = false;
             self.farthest[block] = facet.farthest_in(middle, HALF);
@@ -209,7 +209,7 @@ impl Sheet {
         let mut is_seen = false;
         for y in rows {
             for x in columns.clone() {
-                is_seen |= self.add_to_pixel(facet, number, [x, y]);
+                is_seen |= self.add_to_pixel((facet, outline), number, [x, y]);
             }
         }
         self.is_empty[block] &= !is_seen;
@@ -232,14 +232,14 @@ impl Sheet {
     }
 
     /// Adds a triangle to a pixel; returns whether a part of it is seen there (so far).
-    fn add_to_pixel(&mut self, facet: &Facet, number: u32, at: [usize; 2]) -> bool {
+    fn add_to_pixel(&mut self, (facet, outline): (&Facet, &Outline), number: u32, at: [usize; 2]) -> bool {
         let middle = DVec2::new(at[0] as f64 + 0.5, at[1] as f64 + 0.5);
         let pixel = at[1] * TILE + at[0];
         let seen = &self.pixels[pixel];
         if seen.is_crowded || facet.nearest_in(middle, 0.5) <= seen.farthest {
             return false;
         }
-        let mut sides = facet.bounds().map(|side| {
+        let mut sides = outline.bounds().map(|side| {
             let reach = 0.5 * side.normal.abs().element_sum();
             (side, side.at(middle), reach)
         });

@@ -45,6 +45,8 @@ pub(super) struct Room {
     plan: Vec<Plan>,
     /// What each block sees of the plan.
     boxes: Vec<PlanBox>,
+    /// The tile's corner.
+    origin: DVec2,
 }
 
 /// A finished pixel.
@@ -117,6 +119,7 @@ impl<'a> Painter<'a> {
         let is_sampled = self.settings.fragments == 0 || self.settings.crowd == 0;
         let budget = if is_sampled { 0 } else { self.settings.fragments as usize };
         room.sheet.reset(place.size, budget);
+        room.origin = DVec2::new(place.corner[0] as f64, place.corner[1] as f64);
         if budget > 0 {
             gather::see(self.view, self.mesh, place, &mut room.sheet);
         }
@@ -147,9 +150,16 @@ impl<'a> Painter<'a> {
             plan = PlanBox::around(square(block.corner, BLOCK).map(|p| facet.plan_at(p)));
             return with_hem(&plan);
         }
+        let mut before = None;
         for (x, y) in pixels_of(block) {
             for fragment in sheet.fragments([x, y]) {
                 let facet = &sheet.facets[fragment.facet as usize];
+                if facet.is_small {
+                    if before.replace(fragment.facet) != Some(fragment.facet) {
+                        plan.include_box(&facet.plan_box());
+                    }
+                    continue;
+                }
                 let points = sheet.corners(fragment, [x, y], &mut corners).iter().map(|p| facet.plan_at(*p));
                 points.filter(|p| p.is_finite()).for_each(|p| plan.include(p));
             }
@@ -164,6 +174,9 @@ impl<'a> Painter<'a> {
     /// Half the width in the plan that a stroke of one pixel has at most where a tile sees the terrain.
     fn widest(&self, place: &TilePlace, is_sampled: bool, room: &Room) -> f64 {
         let Lens::Central { pixel } = self.view.lens() else { return 0.5 * self.view.lens().pixel() };
+        if !self.features.has_dynamic() {
+            return 0.0;
+        }
         let all = || self.mesh.farthest_from(self.view.eye());
         if is_sampled {
             return 0.5 * pixel * all();
@@ -218,8 +231,9 @@ impl<'a> Painter<'a> {
         if least < f64::INFINITY { 0.5 * least } else { 0.01 * self.mesh.resolution() }
     }
 
-    fn items(&self) -> Items<'_> {
+    fn items(&self, origin: DVec2) -> Items<'_> {
         Items {
+            origin,
             view: self.view,
             mesh: self.mesh,
             looks: self.looks,
@@ -261,7 +275,8 @@ impl<'a> Painter<'a> {
         last: &mut LastGround,
         record: &mut R,
     ) -> Result<Pixel, Fallback> {
-        let Room { sheet, block, lists, plan, .. } = room;
+        let Room { sheet, block, lists, plan, origin, .. } = room;
+        let items = self.items(*origin);
         let mut pixel = Pixel { paint: Paint::CLEAR, class: 0, edges: 0, fragments: 0, fallback: 0 };
         let whole = sheet.whole(at).map(Fragment::whole);
         let mut covered = 0.0;
@@ -272,7 +287,8 @@ impl<'a> Painter<'a> {
             covered += fragment.area;
             pixel.fragments += 1;
             let mut add = |part: &[DVec2], record: &mut R| {
-                let (area, painted) = self.part((facet, part, at), block, (lists, plan), last, record)?;
+                let (area, painted) =
+                    self.part(&items, (facet, part, at), block, (lists, plan), last, record)?;
                 pixel.paint = pixel.paint.plus(painted.paint.times(area));
                 pixel.class = pixel.class.max(class_of(painted.class));
                 pixel.edges += painted.edges as u32;
@@ -300,6 +316,7 @@ impl<'a> Painter<'a> {
     /// A part of a pixel over which the ground has one paint: its area, and what it shows.
     fn part<R: Record<Step>>(
         &self,
+        items: &Items,
         (facet, corners, [x, y]): (&Facet, &[DVec2], [usize; 2]),
         near: &Near,
         (lists, plan): (&mut Lists, &mut Vec<Plan>),
@@ -317,12 +334,12 @@ impl<'a> Painter<'a> {
             ground,
         });
         let painted = if near.is_plain() {
-            self.items().paint_plain(near, ground, lists)
+            items.paint_plain(near, ground, lists)
         } else {
             plan.clear();
             plan.extend(screen.iter().map(|p| facet.plan_at(*p)));
             let pixel = DVec2::new(x as f64, y as f64);
-            self.items().paint(&Place { facet, screen, plan, pixel }, near, ground, lists)?
+            items.paint(&Place { facet, screen, plan, pixel }, near, ground, lists)?
         };
         record.step(|| Step::Edges { edges: painted.edges, class: painted.class });
         for (items, share) in &lists.sets {
@@ -339,7 +356,8 @@ impl<'a> Painter<'a> {
         room: &mut Room,
         last: &mut LastGround,
     ) -> Paint {
-        let Room { sheet, block, lists, .. } = room;
+        let Room { sheet, block, lists, origin, .. } = room;
+        let items = self.items(*origin);
         let n = self.settings.samples as usize;
         crate::canvas::mean(n, |column, row| {
             let middle = |k: usize, of: usize| of as f64 + (k as f64 + 0.5) / n as f64;
@@ -351,7 +369,7 @@ impl<'a> Painter<'a> {
             let Some((facet, screen, plan)) = sample else { return self.backdrop.sky };
             let ground = self.backdrop.paint_at(last, facet.id, || plan);
             let place = Place { facet: &facet, screen: &[screen], plan: &[plan], pixel: screen };
-            self.items().paint(&place, block, ground, lists).map_or(ground, |painted| painted.paint)
+            items.paint(&place, block, ground, lists).map_or(ground, |painted| painted.paint)
         })
     }
 
@@ -368,7 +386,7 @@ impl<'a> Painter<'a> {
             return None;
         }
         let origin = DVec2::new(place.corner[0] as f64, place.corner[1] as f64);
-        let facet = Facet::new(self.view, origin, id, &self.mesh.surface_triangle(id)?)?;
+        let (facet, _) = Facet::new(self.view, origin, id, &self.mesh.surface_triangle(id)?)?;
         Some((std::borrow::Cow::Owned(facet), screen, seen.plan(column, row)))
     }
 }
