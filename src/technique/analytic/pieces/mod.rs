@@ -64,9 +64,10 @@ impl Near {
         self.plan.min + (self.plan.max - self.plan.min) * 0.5
     }
 
-    /// Half of its box's diagonal, and a little more.
+    /// Half of its box's diagonal, and a little more; of a place that is a point, as little as nobody sees.
     fn radius(&self) -> f64 {
-        0.5 * (self.plan.max - self.plan.min).length() * (1.0 + 1e-6)
+        let half = 0.5 * (self.plan.max - self.plan.min).length() * (1.0 + 1e-6);
+        math::max(half, self.sagitta)
     }
 }
 

@@ -188,7 +188,7 @@ proptest! {
         path in prop::collection::vec(plan_point(), 2..5),
         (of, is_closed) in (style(), any::<bool>()),
         (half, gradient) in (0.05..3.0, [-0.3..0.3, -0.3..0.3]),
-        (middle, size) in ([-5.0..5.0, -5.0..5.0], 0.01..2.0),
+        (middle, size) in ([-5.0..5.0, -5.0..5.0], prop_oneof![Just(0.0), 0.01..2.0]),
         shares in prop::collection::vec([-1.0..1.0, -1.0..1.0], 8),
     ) {
         let is_dynamic = matches!(of.width, Width::Pixels(_));
