@@ -236,6 +236,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "canvas",
             "truth",
             "sampling",
+            "holding",
             "footprint",
             "visibility",
             "resolve",
