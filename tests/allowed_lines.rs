@@ -255,7 +255,7 @@ fn what_machines_draw_of_fills_overlaid_is_allowed_and_what_bugs_draw_is_not() {
     let bugs = [
         ("no hole", ", [[-90, -100], [20, -110], [0, 20]]", ""),
         ("opacity", "#3388ff\", opacity = 0.5", "#3388ff\", opacity = 0.48"),
-        ("a vertex moved", "[120, 60]", "[123, 60]"),
+        ("a vertex moved", "[120, 60]", "[150, 60]"),
         ("another rule", "opacity = 0.5 }", "opacity = 0.5, rule = \"nonzero\" }"),
         ("a polygon missing", ", { polygon = [[0, -60], [220, 10], [210, -100], [30, 110]] }", ""),
     ];

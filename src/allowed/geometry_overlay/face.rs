@@ -1,7 +1,7 @@
 //! What a fill's piece on the mesh may cover of a pixel's centre, when its corners may stray.
 //!
 //! Input: the piece's corners in space and the mesh's triangle that it lies on. Output: [`ScreenFace`]. Refuses: nothing. A machine moves the corners that pieces
-//! share alike, so that a fill moves as one: where all places near a centre lie in its pieces, one of them covers it, and once; but what is so thin that it may turn over
+//! share alike, so that a fill moves as one: where all places near a centre lie in its pieces that face one way, one of them covers it, and once; but what is so thin that it may turn over
 //! is drawn on the other side, too, and what it turns over twice.
 
 use super::convex::{area_of, cut};
@@ -18,6 +18,8 @@ pub(super) struct ScreenFace {
     /// The mesh's triangle.
     triangle: [World; 3],
     doubt: f64,
+    /// Between which depths its corners lie.
+    corners: Range,
 }
 
 /// What of a piece lies near a pixel's centre.
@@ -27,6 +29,8 @@ pub(super) struct Near {
     pub(super) share: f64,
     /// Whether some of the piece there may turn over.
     pub(super) may_turn: bool,
+    /// Whether its corners run with the clock on the screen: of a surface that folds there two sheets face one way, and one the other.
+    pub(super) is_clockwise: bool,
 }
 
 /// What single precision does to a place on the screen, as a share of its coordinates.
@@ -46,18 +50,28 @@ impl ScreenFace {
                 world = cut(&world, |p| (depths.depth_of(p) - plane) * sign);
             }
         }
-        let placed: Option<Vec<DVec2>> =
-            world.iter().map(|p| depths.on_screen(*p).map(|(at, _)| at.to_vec())).collect();
-        let polygon = placed.filter(|all| all.len() > 2)?;
+        let placed: Option<Vec<_>> = world.iter().map(|p| depths.on_screen(*p)).collect();
+        let placed = placed.filter(|all| all.len() > 2)?;
+        let polygon: Vec<DVec2> = placed.iter().map(|(at, _)| at.to_vec()).collect();
+        let [low, high] =
+            placed.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], (_, depth)| {
+                [math::min(low, *depth), math::max(high, *depth)]
+            });
         let farthest = polygon.iter().map(|p| math::max(p.x.abs(), p.y.abs())).fold(0.0, math::max);
         let doubt = world.iter().map(|p| depths.doubt(*p)).fold(0.0, math::max);
-        Some(Self { polygon, stray: shift + SHARE * farthest, triangle, doubt })
+        let corners = [low - doubt, high + doubt];
+        Some(Self { polygon, stray: shift + SHARE * farthest, triangle, doubt, corners })
     }
 
     /// Calls `visit` with the pixels of a picture near whose centres it lies, and with what is near.
     pub(super) fn for_each_centre(&self, size: [usize; 2], visit: &mut dyn FnMut([usize; 2], Near)) {
         let reach = self.stray * std::f64::consts::SQRT_2;
         let thin = self.thin(2.0 * reach);
+        let fan = self
+            .polygon
+            .windows(2)
+            .map(|pair| (pair[0] - self.polygon[0]).perp_dot(pair[1] - self.polygon[0]));
+        let is_clockwise = fan.sum::<f64>() > 0.0;
         let range = |axis: usize| {
             let of = self.polygon.iter().map(|p| p[axis]);
             let (low, high) = of.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
@@ -74,18 +88,22 @@ impl ScreenFace {
                 for side in [DVec2::X, DVec2::NEG_X, DVec2::Y, DVec2::NEG_Y] {
                     near = cut(&near, |p| reach - p.dot(side));
                 }
-                let may_turn = thin.iter().any(|ends| distance(centre, *ends) <= 2.0 * reach);
+                // It is as high as twice the reach at most, and strays by that once.
+                let may_turn = thin.iter().any(|ends| distance(centre, *ends) <= 3.0 * reach);
                 if !near.is_empty() || may_turn {
-                    visit([x, y], Near { share: area_of(&near) / (4.0 * reach * reach), may_turn });
+                    let share = area_of(&near) / (4.0 * reach * reach);
+                    visit([x, y], Near { share, may_turn, is_clockwise });
                 }
             }
         }
     }
 
-    /// The longest sides of triangles of three of its corners in a row that are no higher than this.
+    /// The longest sides of triangles of three of its corners that are no higher than this: whichever triangles a program makes of it.
     fn thin(&self, height: f64) -> Vec<[DVec2; 2]> {
         let count = self.polygon.len();
-        let triangles = (0..count).map(|k| [0, 1, 2].map(|step| self.polygon[(k + step) % count]));
+        let pairs = (0..count).flat_map(|i| (i + 1..count).map(move |j| [i, j]));
+        let triples = pairs.flat_map(|[i, j]| (j + 1..count).map(move |k| [i, j, k]));
+        let triangles = triples.map(|corners| corners.map(|k| self.polygon[k]));
         let longest = |[a, b, c]: [DVec2; 3]| {
             let sides = [[a, b], [b, c], [c, a]];
             let length = |ends: &[DVec2; 2]| (ends[1] - ends[0]).length();
@@ -98,8 +116,16 @@ impl ScreenFace {
         triangles.filter_map(longest).collect()
     }
 
-    /// Between which depths its fragment at a pixel's centre lies.
-    pub(super) fn depth_at(&self, depths: &Depths, frame: &ViewFrame, [x, y]: [usize; 2]) -> Range {
+    /// Between which depths its fragment at a pixel's centre lies: what may turn over has any depth of its corners, others that of the mesh.
+    pub(super) fn depth_at(
+        &self,
+        (depths, frame): (&Depths, &ViewFrame),
+        [x, y]: [usize; 2],
+        may_turn: bool,
+    ) -> Range {
+        if may_turn {
+            return self.corners;
+        }
         let [a, b, c] = self.triangle;
         let normal = (b - a).cross(c - a);
         let mut all = [f64::INFINITY, f64::NEG_INFINITY];
@@ -135,7 +161,13 @@ mod tests {
     fn near_a_centre_a_face_has_all_some_or_nothing() {
         let polygon =
             vec![DVec2::new(0.5, 0.5), DVec2::new(4.0, 0.5), DVec2::new(4.0, 3.0), DVec2::new(0.5, 3.0)];
-        let face = ScreenFace { polygon, stray: 0.01, triangle: [World::default(); 3], doubt: 0.0 };
+        let face = ScreenFace {
+            polygon,
+            stray: 0.01,
+            triangle: [World::default(); 3],
+            doubt: 0.0,
+            corners: [0.0; 2],
+        };
         let mut shares = std::collections::BTreeMap::new();
         face.for_each_centre([8, 8], &mut |pixel, near| {
             assert!(!near.may_turn);
@@ -149,7 +181,13 @@ mod tests {
     #[test]
     fn what_is_next_to_a_line_may_turn_over_along_it() {
         let polygon = [[0.5, 0.5], [6.5, 0.5], [3.0, 0.51]].map(DVec2::from).to_vec();
-        let face = ScreenFace { polygon, stray: 0.01, triangle: [World::default(); 3], doubt: 0.0 };
+        let face = ScreenFace {
+            polygon,
+            stray: 0.01,
+            triangle: [World::default(); 3],
+            doubt: 0.0,
+            corners: [0.0; 2],
+        };
         let mut turning = Vec::new();
         face.for_each_centre([8, 8], &mut |pixel, near| turning.extend(near.may_turn.then_some(pixel)));
         assert_eq!(turning, [0, 1, 2, 3, 4, 5, 6].map(|x| [x, 0]));

@@ -225,7 +225,7 @@ impl Overlay<'_> {
                 continue;
             };
             face.for_each_centre(size, &mut |pixel, near| {
-                let depth = face.depth_at(self.depths, frame, pixel);
+                let depth = face.depth_at((self.depths, frame), pixel, near.may_turn);
                 let (item, kind) = (piece.item, Kind::Face(near));
                 let fragment = Fragment { item, strip: 0, segment: 0, goes_on: false, depth, kind };
                 out.push((pixel[1] * size[0] + pixel[0], fragment));
@@ -322,7 +322,7 @@ impl Overlay<'_> {
             _ => Known::Open,
         };
         let of_item = |of: &[Fragment]| -> Laid {
-            let (mut share, mut faces, mut turns) = ([0.0; 2], [0.0; 2], false);
+            let (mut share, mut faces, mut turns) = ([0.0; 2], [[0.0; 2]; 2], false);
             let mut aliased: Vec<(u32, Diamond, u32, bool, Crossing)> = Vec::new();
             for one in of {
                 match (one.kind, passes(one.depth)) {
@@ -332,8 +332,9 @@ impl Overlay<'_> {
                         share[1] += most;
                     }
                     (Kind::Face(near), passes) => {
-                        faces[0] += if passes == Known::In { near.share } else { 0.0 };
-                        faces[1] += near.share;
+                        let sheets = &mut faces[usize::from(near.is_clockwise)];
+                        sheets[0] += if passes == Known::In { near.share } else { 0.0 };
+                        sheets[1] += near.share;
                         // Over itself and what it was beside.
                         turns |= near.may_turn;
                     }
@@ -346,7 +347,8 @@ impl Overlay<'_> {
             }
             if matches!(of[0].kind, Kind::Face(_)) {
                 // What has all places near the centre covers it.
-                let [least, most] = [(faces[0] + NEXT_TO_ALL).floor(), (faces[1] - NEXT_TO_ALL).ceil()];
+                let least: f64 = faces.iter().map(|sheets| (sheets[0] + NEXT_TO_ALL).floor()).sum();
+                let most: f64 = faces.iter().map(|sheets| (sheets[1] - NEXT_TO_ALL).ceil()).sum();
                 let [least, most] = [least as u32, most as u32 + if turns { 2 } else { 0 }];
                 return Laid { item: of[0].item, least, most, share: [1.0; 2] };
             }
