@@ -8,7 +8,7 @@ use drapery::scene_file::{Override, SceneFile};
 use drapery::stage::Stage;
 use drapery::technique::Kind;
 use drawing::{frame_of, scene, stage};
-use judged::{MACHINES, allowed_of, best, outside, wide};
+use judged::{MACHINES, allowed_of, best, outside, outside_of_stage, wide};
 use std::path::{Path, PathBuf};
 
 const HILLS: &str = r#"kind = "fbm", seed = 3, posts = [65, 65], cell_m = 10.0, height_m = 120.0"#;
@@ -88,6 +88,19 @@ fn machines_may_paint_the_sky_where_volumes_cross_the_far_plane_all_of_it_or_not
     let (painted_of, bare_of) = ("8-bit-vertices-painted-sky", "8-bit-vertices");
     assert_eq!([outside(painted_of, &painted), outside(bare_of, &bare)], [0, 0]);
     assert!(outside(painted_of, &bare) > 20 && outside(bare_of, &painted) > 20, "one is not the other");
+}
+
+#[test]
+fn buffers_of_several_samples_a_pixel_are_judged_sample_by_sample() {
+    let keys = ["technique.stencil-volume.samples=2", "image.width=24", "image.height=16"];
+    let all = allowed_of(Kind::StencilVolume, &stage(&hills(), &keys));
+    let single = [&keys[..], &["device.subpixel_bits=8", "device.precision=\"f32\""]].concat();
+    let frame = frame_of(Kind::StencilVolume, &stage(&hills(), &single), &["depth"]);
+    assert_eq!(frame.planes[0].width, 2 * 24);
+    assert_eq!(outside_of_stage(&all, &frame, "depth"), 0);
+    let beside = [&keys[..], &["camera.eye=[44, -420, 260]"]].concat();
+    let frame = frame_of(Kind::StencilVolume, &stage(&hills(), &beside), &["depth"]);
+    assert!(outside_of_stage(&all, &frame, "depth") > 100);
 }
 
 #[test]

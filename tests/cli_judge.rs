@@ -124,8 +124,12 @@ fn the_first_buffer_that_differs_is_named() {
         let output = called_in(folder.path(), &["bundle", "frames", "--json", "-"]);
         serde_json::from_str(&judged(&output, status)).unwrap()
     };
+    // A table that nobody judges by may be what it likes.
+    std::fs::write(frames.join("clipmap.strips.npy"), "no rows").unwrap();
     let found = json(0);
     assert_eq!(found["first_stage"], "depth");
+    let strict = json_of_frames(folder.path(), &["--strict"]);
+    assert_eq!((&strict["verdict"], &strict["failure"]["name"]), (&json!("fail"), &json!("stage")));
     assert_eq!(
         found["stages"][0],
         json!({ "buffer": "depth", "found": "differs", "pixels": 1, "first": { "x": 1, "y": 1 } })
@@ -139,6 +143,11 @@ fn the_first_buffer_that_differs_is_named() {
     assert_eq!(json(0)["stages"][1]["found"], "another-size");
     std::fs::remove_file(frames.join("clipmap.triangle.npy")).unwrap();
     assert_eq!(json(0)["stages"][1], json!({ "buffer": "triangle", "found": "not-given" }));
+}
+
+fn json_of_frames(folder: &std::path::Path, more: &[&str]) -> Value {
+    let output = called_in(folder, &[&["bundle", "frames", "--json", "-"], more].concat());
+    serde_json::from_str(&judged(&output, 1)).unwrap()
 }
 
 #[test]

@@ -99,7 +99,7 @@ fn every_technique_draws_dashes_as_lines_of_their_own() {
             stage(&scene(HILLS, OBLIQUE, &layer(features, &style)), &[change])
         };
         let (dashed, written) = (by(BENT, ", dash = [10, 5]"), by(BENT_DASHES, ""));
-        let [of_dashed, of_written] = [&dashed, &written].map(|stage| truth_of(stage));
+        let [of_dashed, of_written] = [&dashed, &written].map(truth_of);
         assert_eq!((&of_dashed.low, &of_dashed.high), (&of_written.low, &of_written.high), "{style}");
         for kind in kinds_for(&written) {
             let [one, other] = [&dashed, &written].map(|stage| frame_of(kind, stage, &[]).image);

@@ -111,7 +111,9 @@ fn drawn(panel: &Panel, scene: &str) -> Picture {
         }
         Heat(kind) => {
             let image = Image::from_rgba8(&frame(kind, &[]).image).unwrap();
-            Difference::of(&measure::expected(&truth_of(&stage)).unwrap(), &image).unwrap().heat_map(0.0)
+            Difference::of(&measure::expected(&truth_of(&stage)).unwrap(), &image)
+                .unwrap()
+                .heat_map(1.0 / 255.0)
         }
     }
 }

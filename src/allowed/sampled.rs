@@ -23,14 +23,19 @@ pub(super) struct Sampling {
     /// How many shifts' worth of depth a comparison of two surfaces may be off: see [`Probe::depths_of_shifts`].
     pub(super) depths_of_shifts: f64,
     pub(super) blending: Blending,
+    /// So many samples along each axis of a pixel the technique's buffers have; 1: its centre's.
+    pub(super) samples_of_buffers: usize,
 }
 
-/// What a pixel may be by each guess, and what its centre may see by the last.
+/// What a pixel may be by each guess, and what the samples of its buffers may see by the last.
 #[derive(Debug, Clone, Default)]
 struct Judged {
     ranges: Vec<PixelRange>,
-    centre: Seen,
+    seen: Vec<Seen>,
 }
+
+/// Of pictures with more samples in their buffers it is not told what these may be: they would take gigabytes.
+const MOST_SAMPLES: usize = 1 << 22;
 
 impl Sampling {
     /// The pictures by guesses, which are looked at together; the last one is the widest.
@@ -54,6 +59,14 @@ impl Sampling {
         };
         let painting = guesses.iter().rfind(|guess| guess.paints_sky);
         let far = painting.map(|guess| FarPlane::new(view, self.strokes, guess));
+        let (per_shift, n) = (of.spots.len(), self.samples_of_buffers);
+        let has_stages = n == 1 || view.frame.width() * view.frame.height() * n * n <= MOST_SAMPLES;
+        // By the widest shift; the centre is the last.
+        let buffered = |samples: &'_ [Sample]| match n {
+            1 => samples[samples.len() - 1..].to_vec(),
+            _ if has_stages => samples[samples.len() - per_shift..][..count].to_vec(),
+            _ => Vec::new(),
+        };
         let judge = |pixel: [usize; 2], samples: &[Sample]| {
             let range = |guess: &Guess| {
                 let shift = guess.envelope.shift();
@@ -70,13 +83,13 @@ impl Sampling {
             };
             Judged {
                 ranges: guesses.iter().map(range).collect(),
-                centre: samples.last().map(|sample| Seen::of(sample, &along)).unwrap_or_default(),
+                seen: buffered(samples).iter().map(|sample| Seen::of(sample, &along)).collect(),
             }
         };
         let judged: Buffer<Judged> = probe(stage, view.frame, &of, &judge, view.progress);
         let (width, height) = (judged.width(), judged.height());
-        let (ranges, centres): (Vec<Vec<PixelRange>>, _) =
-            judged.into_values().into_iter().map(|of| (of.ranges, of.centre)).unzip();
+        let (ranges, seen): (Vec<Vec<PixelRange>>, Vec<Vec<Seen>>) =
+            judged.into_values().into_iter().map(|of| (of.ranges, of.seen)).unzip();
         let mut by_guess: Vec<Vec<PixelRange>> =
             guesses.iter().map(|_| Vec::with_capacity(ranges.len())).collect();
         for of_pixel in ranges {
@@ -89,13 +102,21 @@ impl Sampling {
             hypotheses: hypotheses
                 .map(|(guess, picture)| picture::hypothesis(guess.name.clone(), picture))
                 .collect(),
-            stages: stages(&Buffer::from_values(width, height, centres)),
+            stages: if has_stages { stages(&by_sample(&seen, width, n)) } else { Vec::new() },
             features: pictures
                 .last()
                 .map(|picture| picture::feature_runs(picture, &stage.draw_list))
                 .unwrap_or_default(),
         }
     }
+}
+
+/// What samples may see, n x n of each pixel in rows from the top, as one buffer of them.
+fn by_sample(seen: &[Vec<Seen>], width: usize, n: usize) -> Buffer<Seen> {
+    let height = seen.len() / width.max(1);
+    let rows = (0..height * n).flat_map(|y| (0..width * n).map(move |x| (x, y)));
+    let of = |(x, y): (usize, usize)| seen[y / n * width + x / n][y % n * n + x % n].clone();
+    Buffer::from_values(width * n, height * n, rows.map(of).collect())
 }
 
 /// What pictures may be by several guesses.

@@ -28,7 +28,7 @@ pub(super) fn sampling(settings: &Settings, list: &DrawList) -> Result<Sampling>
     let strokes = strokes(settings, false);
     let spots = SamplePattern::of(settings.samples).map_or_else(Vec::new, SamplePattern::places);
     // A plan point is that of the terrain's depth along the pixel's ray, or interpolated.
-    Ok(Sampling { spots, strokes, depths_of_shifts: 1.0, blending: Blending::Shader })
+    Ok(Sampling { spots, strokes, depths_of_shifts: 1.0, blending: Blending::Shader, samples_of_buffers: 1 })
 }
 
 /// The strokes of the static decals among dynamic lines, whose samples are pixels' centres: those whose widths are in metres.

@@ -27,11 +27,12 @@ pub(super) fn sampling(settings: &Settings) -> Result<Sampling> {
         ))
         .help("leave the setting out, or judge the picture by a tolerance"));
     }
-    let spots = SamplePattern::Grid(settings.samples as usize).places();
+    let samples_of_buffers = settings.samples as usize;
+    let spots = SamplePattern::Grid(samples_of_buffers).places();
     let strokes = match settings.joins {
         VolumeJoins::None => Strokes::Rectangles,
         VolumeJoins::Style => Strokes::Polygons,
     };
     // A wall's depth is that of a place within a shift, and the terrain's that of another within a shift: two apart, and one from here.
-    Ok(Sampling { spots, strokes, depths_of_shifts: 3.0, blending: Blending::Target })
+    Ok(Sampling { spots, strokes, depths_of_shifts: 3.0, blending: Blending::Target, samples_of_buffers })
 }

@@ -25,13 +25,13 @@ impl Submitted {
         Self { path, picture, buffers: BTreeMap::new(), ignored: None }
     }
 
-    /// Reads a picture, or of a folder the picture `T.png` (or `.exr`, `.npy`) and the buffers `T.NAME.npy`.
+    /// Reads a picture, or of a folder the picture `T.png` (or `.exr`, `.npy`) and those of the buffers `T.NAME.npy` that are judged.
     ///
     /// # Errors
     /// When one is missing or cannot be read.
-    pub fn read(path: &Path, technique: &str) -> Result<Self> {
+    pub fn read(path: &Path, technique: &str, is_judged: &dyn Fn(&str) -> bool) -> Result<Self> {
         let picture = Self::picture_in(path, technique)?;
-        let buffers = if path.is_dir() { buffers(path, technique)? } else { BTreeMap::new() };
+        let buffers = if path.is_dir() { buffers(path, technique, is_judged)? } else { BTreeMap::new() };
         Ok(Self { picture: Image::read(&picture)?, path: picture, buffers, ignored: None })
     }
 
@@ -52,7 +52,11 @@ impl Submitted {
     }
 }
 
-fn buffers(folder: &Path, technique: &str) -> Result<BTreeMap<String, Image>> {
+fn buffers(
+    folder: &Path,
+    technique: &str,
+    is_judged: &dyn Fn(&str) -> bool,
+) -> Result<BTreeMap<String, Image>> {
     let refuse = |error| Error::io("this folder cannot be read", error).in_file(folder);
     let mut buffers = BTreeMap::new();
     for entry in std::fs::read_dir(folder).map_err(refuse)? {
@@ -60,7 +64,7 @@ fn buffers(folder: &Path, technique: &str) -> Result<BTreeMap<String, Image>> {
         let file = path.file_name().and_then(|name| name.to_str());
         let inner =
             file.and_then(|file| file.strip_prefix(technique)?.strip_prefix('.')?.strip_suffix(".npy"));
-        if let Some(name) = inner {
+        if let Some(name) = inner.filter(|name| is_judged(name)) {
             let read = std::fs::read(&path).map_err(|error| Error::io("this buffer cannot be read", error));
             let plane = read.and_then(|bytes| Array::of(&bytes)?.plane());
             buffers.insert(name.to_owned(), plane.map_err(|error| error.in_file(&path))?);

@@ -184,7 +184,7 @@ mod tests {
         assert_eq!(straight.len(), 7);
         for (k, (one, other)) in (0..).zip(straight.iter().zip(&with_a_vertex)) {
             let (from, to) = (15.0 * f64::from(k), 15.0 * f64::from(k) + 10.0);
-            assert_eq!(*one, plan(&[(from, 0.0), (f64::min(to, 100.0), 0.0)]));
+            assert_eq!(*one, plan(&[(from, 0.0), (min(to, 100.0), 0.0)]));
             let ends = [other[0], other[other.len() - 1]];
             assert!((ends[0] - one[0]).length() < 1e-12 && (ends[1] - one[1]).length() < 1e-12, "{other:?}");
             assert_eq!(other.len(), if from < 37.3 && 37.3 < to { 3 } else { 2 });

@@ -21,7 +21,8 @@ impl Dash {
     /// The lengths of a pattern, and how far into it a stroke begins; `None` unless there is an even count of lengths, [`Self::MOST`] at most, all
     /// between the shortest and the longest, and the offset is finite.
     pub fn new(lengths: &[f64], offset: f64) -> Option<Self> {
-        let is_pattern = !lengths.is_empty() && lengths.len() % 2 == 0 && lengths.len() <= Self::MOST;
+        let is_pattern =
+            !lengths.is_empty() && lengths.len().is_multiple_of(2) && lengths.len() <= Self::MOST;
         let is_length = |length: &f64| Self::SHORTEST < *length && *length < Self::LONGEST;
         if !is_pattern || !lengths.iter().all(is_length) || !offset.is_finite() {
             return None;

@@ -1,7 +1,7 @@
 //! The program that draws bundles, and what the judge says of it.
 
 use super::folder::Folder;
-use drapery::compare::{Gates, Judge, Judgement, Submitted};
+use drapery::compare::{Gates, Judge, Judgement};
 use drapery::output::Batch;
 use drapery::reduce::{Draft, Failing, SCENE_FILE};
 use drapery::technique::Kind;
@@ -70,7 +70,7 @@ impl Client {
             return Ok(Drawing::Broken(error));
         }
         let judged = Judge::read(&bundle).and_then(|judge| {
-            let frame = Submitted::read(&frames, judge.technique())?;
+            let frame = judge.frame(&frames)?;
             Ok(failing(&judge.judge(&frame, Gates::default())))
         });
         Ok(judged.map_or_else(Drawing::Broken, Drawing::Judged))

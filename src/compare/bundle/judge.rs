@@ -81,7 +81,8 @@ impl Judge {
     /// # Errors
     /// When it is missing or cannot be read.
     pub fn frame(&self, path: &Path) -> Result<Submitted> {
-        Submitted::read(path, &self.technique)
+        let is_judged = |name: &str| self.allowed.stages.iter().any(|stage| stage.buffer == name);
+        Submitted::read(path, &self.technique, &is_judged)
     }
 
     /// Judges a frame.
