@@ -1,7 +1,7 @@
 //! The hard cases whose answers are exact: pictures that have to be equal, and closed forms. `drapery hard-cases` is the whole of it.
 #![cfg(feature = "render")]
 
-use drapery::hard_cases::{CaseResult, Plan, Row, Suite, Verdict, cases, run};
+use drapery::hard_cases::{CaseResult, Curve, Plan, Row, Suite, Verdict, cases, run};
 
 /// Cases in exact mathematics.
 fn drawn(numbers: &[u32]) -> Vec<CaseResult> {
@@ -138,4 +138,27 @@ fn the_page_and_the_json_have_every_row() {
     assert_eq!(page.matches("<img").count(), suite.cases[0].pictures.len());
     assert!(!page.contains("http://") && !page.contains("https://"));
     assert_eq!(suite.text().lines().filter(|line| line.contains(" pass ")).count(), rows);
+}
+
+#[test]
+fn curves_are_plotted_a_technique_each_with_a_place_for_zero() {
+    let curve = |technique, machine, points: &[[f64; 2]]| Curve {
+        over: "offset, m",
+        error: "largest difference",
+        technique,
+        machine,
+        points: points.to_vec(),
+    };
+    let curves = vec![
+        curve("clipmap", "f64", &[[0.0, 0.0], [10.0, 0.0], [100.0, 0.0]]),
+        curve("clipmap", "f32", &[[0.0, 0.0], [10.0, 0.0], [100.0, 0.01]]),
+        curve("static-decal", "f64", &[[100.0, 0.001]]),
+    ];
+    let suite = Suite { cases: Vec::new(), curves };
+    let page = suite.page().unwrap();
+    assert_eq!(page.matches("role=\"img\"").count(), 2);
+    // Zero lies on the axis's end, the largest value at the other.
+    assert!(page.contains("M46.0 150.0L68.9 150.0L290.0 150.0"), "{page}");
+    assert!(page.contains("M46.0 150.0L68.9 150.0L290.0 22.0"), "{page}");
+    assert!(suite.json().unwrap().contains("\"stability\""));
 }
