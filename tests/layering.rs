@@ -300,6 +300,8 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "truth",
             "source",
             "scene_file",
+            // What a geodesic is.
+            "crs",
             "stage",
             "scene",
             "space",

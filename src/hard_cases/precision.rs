@@ -6,8 +6,10 @@ use super::figure::Figure;
 use super::hand::{Hand, worst};
 use super::picture::{STEP, differing, differing_by, farthest, wrong_inside};
 use super::setup::{Setup, points, polygon, stroke, towards};
+use crate::crs::{Crs, CurveKind, Geodesy};
 use crate::error::Result;
 use crate::technique::Kind;
+use glam::DVec2;
 
 pub(super) const CASES: &[Case] = &[
     Case::new(17, "Jitter of single precision", &Kind::ALL, (|| far_away(EARTH, None), jitter))
@@ -56,16 +58,28 @@ fn jitter(hand: &Hand) -> Result<Vec<Figure>> {
     Ok(figures)
 }
 
-/// The middle of a box's northern edge along a geodesic, in the middle of 64 rows of 200 km.
-fn geodesic() -> Setup {
+/// The middle of a box's northern edge, in the middle of 64 rows of 200 km.
+fn box_of(northern: &str) -> Setup {
     let camera = "eye_geo = [-100, 41.770, 400000], target_geo = [-100, 41.770, 0], projection = \"orthographic\", height_m = 200000.0";
-    let layers = polygon("[-120, 30], [-80, 30], [-80, 40], [-120, 40]", "") + "edges = \"geodesic\"\n";
-    let coarse = Setup::globe(camera, &layers);
+    let coarse = Setup::globe(camera, &polygon(&format!("[-120, 30], [-80, 30], {northern}"), ""));
     Setup {
         text: coarse.text.replace("posts = [73, 37], cell_deg = 5", "posts = [361, 181], cell_deg = 1"),
         ..coarse
     }
 }
+
+/// The edge as a geodesic, a vertex each quarter of a degree or so; along the parallel where there is no ellipsoid.
+fn geodesic() -> Setup {
+    let Ok(ground) = Crs::parse("EPSG:4326").and_then(|crs| Geodesy::of(&crs)) else {
+        return box_of(PARALLEL);
+    };
+    let way = ground.curve(CurveKind::Geodesic, DVec2::new(-120.0, 40.0), DVec2::new(-80.0, 40.0));
+    let places: Vec<[f64; 2]> = (0..=160).rev().map(|k| way.at(f64::from(k) / 160.0).to_array()).collect();
+    box_of(&points(&places))
+}
+
+/// The edge in two vertices.
+const PARALLEL: &str = "[-80, 40], [-120, 40]";
 
 fn edge_model(hand: &Hand) -> Result<Vec<Figure>> {
     let drawn = hand.draw(&geodesic(), &[])?;
@@ -74,7 +88,7 @@ fn edge_model(hand: &Hand) -> Result<Vec<Figure>> {
         Some(Kind::GeometryOverlay) => drawn.middle()[1],
         _ => 64.0 - drawn.column(32),
     };
-    let straight = hand.draw(&geodesic(), &["layer.0.edges=projected"])?;
+    let straight = hand.draw(&box_of(PARALLEL), &[])?;
     Ok(vec![
         // A row is 3.1 km; cells of a degree stray by less than one.
         Figure::at_most(1.0, "rows from 41.770 degrees", (row - 32.0).abs()),
