@@ -9,6 +9,7 @@ mod clippings;
 mod curves;
 mod drawing;
 mod figure;
+mod files;
 mod made;
 mod ours;
 mod page;
@@ -27,7 +28,8 @@ mod ways;
 mod zechmeister;
 
 pub use figure::{Content, Figure, Panel, Paper, Scale};
-pub use made::{PAGE, hash, write};
+pub use files::{PAGE, write};
+pub use made::hash;
 pub use unmade::{UNMADE, Unmade};
 
 use crate::error::{Error, Result};

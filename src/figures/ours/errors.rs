@@ -18,9 +18,9 @@ pub(super) const TECHNIQUES: Figure = Figure {
     paper: Paper::Ours,
     number: "",
     title: "Every technique, and where it is wrong",
-    caption: "One scene by each technique that draws it with its default settings, beside its distance from the truth: black lies in the certified interval, blue is off by at \
+    caption: "One scene, without shading, by each technique that draws it with its default settings, beside its distance from the truth: black lies in the certified interval, blue is off by at \
               most a step of an 8-bit code, yellow to pink by more.",
-    look_for: "which borders each one misses: samples that are too few, textures that are too coarse, corners that are drawn in another way, the ground's own edges.",
+    look_for: "which borders each one misses: samples that are too few, textures that are too coarse, corners that are drawn in another way; geometry overlay fills nothing.",
     draw: techniques,
 };
 
@@ -29,7 +29,8 @@ fn certified(shot: &Shot) -> Result<Certified> {
 }
 
 fn techniques(scale: Scale) -> Result<Vec<Panel>> {
-    let shot = Shot::scaled(VALLEY, &[], scale)?;
+    // The ground's own shading has borders too, which all have in common.
+    let shot = Shot::scaled(VALLEY, &["terrain.shade="], scale)?;
     let truth = certified(&shot)?;
     let mut panels = Vec::new();
     for kind in applicable(&shot.stage, &Unwatched)? {
@@ -53,16 +54,22 @@ pub(super) const SAMPLES: Figure = Figure {
     number: "",
     title: "Error against samples",
     caption: "The root mean square of the distance from the truth, over the samples a pixel: plain supersampling, and the techniques that take samples.",
-    look_for: "twice as many samples both ways halve the error of supersampling and little more; techniques stop getting better where what they simplify weighs more than their samples, \
-               or code values are too coarse.",
+    look_for: "stencil volumes and static decals are supersampling in another way. Inverse projection with the paper's corners stops getting better at once: its half-pixel shift weighs more than \
+               its samples. With true corners it goes on until silhouettes and code values weigh more.",
     draw: samples,
 };
 
-/// The techniques that take n x n samples, the setting, and what it can be.
-const SAMPLED: [(Kind, &str, &[usize]); 3] = [
-    (Kind::StencilVolume, "technique.stencil-volume.samples", &[1, 2, 3, 4, 6, 8]),
-    (Kind::InverseProjection, "technique.inverse-projection.samples", &[1, 2, 3, 4, 6, 8]),
-    (Kind::StaticDecal, "technique.static-decal.samples", &[1, 3, 4, 6, 8]),
+/// The techniques that take n x n samples, the setting, further ones, and which n are tried.
+const SAMPLED: [(Kind, &str, &[&str], &[usize]); 4] = [
+    (Kind::StencilVolume, "technique.stencil-volume.samples", &[], &[1, 2, 3, 4, 6, 8]),
+    (Kind::InverseProjection, "technique.inverse-projection.samples", &[], &[1, 2, 3, 4, 6, 8]),
+    (
+        Kind::InverseProjection,
+        "technique.inverse-projection.samples",
+        &["technique.inverse-projection.corners=\"true\""],
+        &[1, 2, 3, 4, 6, 8],
+    ),
+    (Kind::StaticDecal, "technique.static-decal.samples", &[], &[1, 3, 4, 6, 8]),
 ];
 
 fn samples(scale: Scale) -> Result<Vec<Panel>> {
@@ -77,17 +84,18 @@ fn samples(scale: Scale) -> Result<Vec<Panel>> {
         points.push([(n * n) as f64, truth.difference(&image(&sampled.colors)?)?.metrics(0.0).rmse]);
     }
     all.push(Curve { name: "supersampling".into(), points });
-    for (kind, setting, counts) in SAMPLED {
+    for (kind, setting, further, counts) in SAMPLED {
         let mut points = Vec::new();
         for n in counts {
             // Static decals say how many samples a pixel has, the others how many both ways.
             let value = if kind == Kind::StaticDecal { n * n } else { *n };
             let set = format!("{setting}={value}");
-            let changes = [&flat[..], &[set.as_str()]].concat();
+            let changes = [&flat[..], further, &[set.as_str()]].concat();
             let picture: Buffer<[u8; 4]> = Shot::scaled(ROADS, &changes, scale)?.by(kind)?;
             points.push([(n * n) as f64, truth.metrics(&picture)?.rmse]);
         }
-        all.push(Curve { name: kind.name().into(), points });
+        let words = if further.is_empty() { "" } else { ", true corners" };
+        all.push(Curve { name: format!("{}{words}", kind.name()), points });
     }
     let across = Axis { title: "samples a pixel", decades: [0, 3] };
     let up = Axis { title: "root mean square error", decades: [-4, -1] };

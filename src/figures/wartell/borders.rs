@@ -15,8 +15,8 @@ pub(super) const FIGURE_3: Figure = Figure {
     paper: Paper::Wartell,
     number: "Fig. 3",
     title: "What is left of a line's BLG tree",
-    caption: "A border within large triangles, drawn by its BLG trees cut at tolerances of 0, 1, 4 and 12 pixels. (The paper shows how such a tree is made; here is what it \
-              does.)",
+    caption: "A border within large triangles, drawn by its BLG trees cut at tolerances of 0, 1, 4 and 12 pixels. The paper shows how such a tree is made, these \
+              pictures what it does.",
     look_for: "the points that are left are those farthest from the chords.",
     draw: figure_3,
 };
