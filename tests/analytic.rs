@@ -4,6 +4,8 @@
 mod drawing;
 
 use drapery::buffer::Values;
+use drapery::scene_file::SceneFile;
+use drapery::stage::Stage;
 use drapery::technique::{Frame, Kind};
 use drapery::truth::Truth;
 use drawing::{scene, stage, truth_of};
@@ -31,40 +33,35 @@ fn beyond(truth: &Truth, frame: &Frame) -> (f64, usize) {
     for (k, own) in color.chunks(4).enumerate().filter(|(k, _)| fallback[*k] == 0) {
         for c in 0..4 {
             let off = (lo[k][c] - own[c]).max(own[c] - hi[k][c]);
-            if off > 1e-3 && std::env::var("SHOW").is_ok() {
-                eprintln!(
-                    "pixel {} {}: {} of {}..{}",
-                    k % truth.low.width(),
-                    k / truth.low.width(),
-                    own[c],
-                    lo[k][c],
-                    hi[k][c]
-                );
-            }
             worst = worst.max(off);
         }
     }
     (worst, fallback.iter().filter(|why| **why != 0).count())
 }
 
+/// No pixel is sampled, and none is farther from the truth than a tolerance.
 #[track_caller]
-fn is_right(text: &str, changes: &[&str], tolerance: f64, most_sampled: usize) {
-    let stage = stage(text, changes);
-    let frame = drawing::frame_of(Kind::Analytic, &stage, &["color", "fallback"]);
-    let (worst, sampled) = beyond(&truth_of(&stage), &frame);
-    assert!(worst <= tolerance, "{worst} {changes:?}");
-    assert!(sampled <= most_sampled, "{sampled} {changes:?}");
+fn is_right(text: &str, changes: &[&str], tolerance: f64) {
+    is_right_on(&stage(text, changes), tolerance);
+}
+
+#[track_caller]
+fn is_right_on(stage: &Stage, tolerance: f64) {
+    let frame = drawing::frame_of(Kind::Analytic, stage, &["color", "fallback"]);
+    let (worst, sampled) = beyond(&truth_of(stage), &frame);
+    assert!(worst <= tolerance, "{worst}");
+    assert_eq!(sampled, 0);
 }
 
 #[test]
 fn bare_ground_and_sky_are_exact() {
-    is_right(&scene(HILLS, CAMERA, ""), &[], 1e-9, 0);
+    is_right(&scene(HILLS, CAMERA, ""), &[], 1e-9);
 }
 
 #[test]
 fn fills_are_exact() {
     let layer = "[[layer]]\nfill = { color = \"#ff0000\" }\nfeatures = [{ polygon = [[-100, -100], [90, -80], [20, 10], [80, 100], [-90, 70]] }]\n";
-    is_right(&scene(HILLS, CAMERA, layer), &[], 1e-9, 0);
+    is_right(&scene(HILLS, CAMERA, layer), &[], 1e-9);
 }
 
 const PARCELS: &str = "[[layer]]\nfill = { color = \"#ff0000\", opacity = 0.6 }\nfeatures = [{ polygon = [[-100, -100], [90, -80], [20, 10], [80, 100], [-90, 70]] }, { polygon = [[20, 10], [80, 100], [140, 20]] }]\n\
@@ -73,27 +70,27 @@ const PARCELS: &str = "[[layer]]\nfill = { color = \"#ff0000\", opacity = 0.6 }\
 #[test]
 fn translucent_fills_and_layers_are_exact_in_both_spaces() {
     for space in ["space=encoded", "space=linear", "mode=additive"] {
-        is_right(&scene(HILLS, CAMERA, PARCELS), &[&format!("compositing.{space}")], 1e-9, 0);
+        is_right(&scene(HILLS, CAMERA, PARCELS), &[&format!("compositing.{space}")], 1e-9);
     }
 }
 
 #[test]
 fn parallel_rays_see_the_same() {
     let camera = "eye = [0, -260, 160], target = [0, 0, 20], projection = \"orthographic\", height_m = 260";
-    is_right(&scene(HILLS, camera, PARCELS), &[], 1e-9, 0);
+    is_right(&scene(HILLS, camera, PARCELS), &[], 1e-9);
 }
 
 #[test]
 fn an_image_on_the_ground_and_a_hillshade_are_exact() {
-    is_right(&scene(HILLS, CAMERA, PARCELS), &["terrain.shade=hillshade"], 1e-9, 0);
+    is_right(&scene(HILLS, CAMERA, PARCELS), &["terrain.shade=hillshade"], 1e-9);
 }
 
 #[test]
 fn near_and_far_planes_cut_exactly() {
-    is_right(&scene(HILLS, CAMERA, PARCELS), &["camera.near_m=200", "camera.far_m=330"], 1e-9, 0);
+    is_right(&scene(HILLS, CAMERA, PARCELS), &["camera.near_m=200", "camera.far_m=330"], 1e-9);
     // Among the hills, with triangles behind the eye.
     let inside = "eye = [10, -20, 45], target = [0, 60, 30], fov_y_deg = 70";
-    is_right(&scene(HILLS, inside, PARCELS), &["camera.near_m=0.5"], 1e-9, 0);
+    is_right(&scene(HILLS, inside, PARCELS), &["camera.near_m=0.5"], 1e-9);
 }
 
 const STROKES: &str = "[[layer]]\nline = { color = \"#ff0000\", width_m = 12, JOIN, opacity = 0.7 }\n\
@@ -112,7 +109,7 @@ fn strokes_with_every_join_cap_and_mode_are_right() {
         let join = format!("join = \"{join}\"");
         let text = STROKES.replace("OJOIN", &join).replace("JOIN", &format!("{join}, cap = \"{cap}\""));
         let text = text.replace("MODE", mode);
-        is_right(&scene(HILLS, CAMERA, &text), &[], tolerance, 0);
+        is_right(&scene(HILLS, CAMERA, &text), &[], tolerance);
     }
 }
 
@@ -125,54 +122,79 @@ fn dynamic_widths_are_right() {
         .replace(", OJOIN", "")
         .replace(", JOIN", "")
         .replace("MODE", "normal");
-    is_right(&scene(HILLS, CAMERA, &text), &[], 2.0 / 255.0, 0);
+    is_right(&scene(HILLS, CAMERA, &text), &[], 2.0 / 255.0);
     let camera = "eye = [0, -260, 160], target = [0, 0, 20], projection = \"orthographic\", height_m = 260";
-    is_right(&scene(HILLS, camera, &text), &[], 1.0 / 255.0, 0);
+    is_right(&scene(HILLS, camera, &text), &[], 1.0 / 255.0);
 }
 
 #[test]
 fn inverted_fills_are_exact() {
     let text = "[[layer]]\nfill = { color = \"#ff0000\", opacity = 0.5, invert = true }\nfeatures = [{ polygon = [[-100, -100], [90, -80], [20, 10], [80, 100], [-90, 70]] }, { polygon = [[-20, -10], [80, 100], [140, 20]] }]\n";
-    is_right(&scene(HILLS, CAMERA, text), &[], 1e-9, 0);
+    is_right(&scene(HILLS, CAMERA, text), &[], 1e-9);
+}
+
+/// A scene of the goldens.
+fn golden(name: &str) -> Stage {
+    let path = std::path::Path::new("golden").join(name);
+    let file = SceneFile::read(&path, &[]).unwrap();
+    let (scene, surface) = drapery::source::load::load(&file, &|_| {}).unwrap();
+    Stage::new(scene, surface).unwrap()
 }
 
 #[test]
-#[ignore]
-fn debug() {
-    let only = std::env::var("ONLY").unwrap_or_default();
-    let mut files: Vec<_> =
-        walk("golden".into()).into_iter().filter(|f| f.to_string_lossy().contains(&only)).collect();
-    files.sort();
-    for file in files {
-        let scene = drapery::scene_file::SceneFile::read(&file, &[]).unwrap();
-        let Ok((scene, surface)) = drapery::source::load::load(&scene, &|_| {}) else {
-            eprintln!("{file:?}: not loaded");
-            continue;
-        };
-        let stage = drapery::stage::Stage::new(scene, surface).unwrap();
-        let frame = drawing::frame_of(Kind::Analytic, &stage, &["color", "fallback"]);
-        let (worst, sampled) = beyond(&truth_of(&stage), &frame);
-        eprintln!(
-            "{} {}: worst {worst:.2e} sampled {sampled} of {}",
-            if worst > 1e-6 { "BAD" } else { "ok " },
-            file.display(),
-            frame.image.values().len()
-        );
+fn scattered_points_and_holes_are_exact() {
+    is_right_on(&golden("terrain/tin.toml"), 1e-9);
+    is_right_on(&golden("terrain/holes.toml"), 1e-9);
+}
+
+#[test]
+fn an_image_is_cut_at_its_texels() {
+    is_right_on(&golden("terrain/imagery.toml"), 1e-9);
+}
+
+#[test]
+fn a_level_of_detail_and_a_globe_are_exact() {
+    is_right_on(&golden("lod/error.toml"), 1e-9);
+    is_right_on(&golden("globe/region.toml"), 1e-9);
+}
+
+#[test]
+fn without_any_budget_all_pixels_are_samples_and_the_same_as_plain_supersampling() {
+    let text = STROKES
+        .replace("OJOIN", "join = \"miter\"")
+        .replace("JOIN", "join = \"bevel\"")
+        .replace("MODE", "inset");
+    for none in ["technique.analytic.fragments=0", "technique.analytic.crowd=0"] {
+        let stage = stage(&scene(HILLS, CAMERA, &text), &[none, "technique.analytic.samples=3"]);
+        let frame = drawing::frame_of(Kind::Analytic, &stage, &["color"]);
+        assert_eq!(drawing::count(&frame, "sampled_pixels"), 96 * 64);
+        let sampled = drapery::sampling::sample(&stage, &stage.view().unwrap(), 3, &|_| {});
+        let off = doubles(&frame, "color")
+            .into_iter()
+            .zip(sampled.colors.values().as_flattened())
+            .map(|(a, b)| (a - b).abs());
+        assert!(off.fold(0.0, f64::max) < 1e-9);
     }
 }
 
-fn walk(dir: std::path::PathBuf) -> Vec<std::path::PathBuf> {
-    let mut all = Vec::new();
-    for entry in std::fs::read_dir(dir).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            all.extend(walk(path));
-        } else if path.extension().is_some_and(|e| e == "toml")
-            && !path.ends_with("manifest.toml")
-            && !path.to_string_lossy().contains(".golden.")
-        {
-            all.push(path);
-        }
-    }
-    all
+#[test]
+fn a_crowd_of_edges_is_sampled_and_counted() {
+    // A star of 400 points around a pixel.
+    let star: Vec<String> = (0..400)
+        .map(|k| {
+            let (radius, angle) =
+                (if k % 2 == 0 { 20.0 } else { 120.0 }, f64::from(k) * 0.015_707_963_267_948_967);
+            format!("[{}, {}]", radius * drapery::math::cos(angle), radius * drapery::math::sin(angle))
+        })
+        .collect();
+    let layer = format!(
+        "[[layer]]\nfill = {{ color = \"#ff0000\" }}\nfeatures = [{{ polygon = [{}] }}]\n",
+        star.join(", ")
+    );
+    let stage = stage(&scene(HILLS, CAMERA, &layer), &["technique.analytic.crowd=6"]);
+    let frame = drawing::frame_of(Kind::Analytic, &stage, &["color", "fallback"]);
+    let (worst, sampled) = beyond(&truth_of(&stage), &frame);
+    assert!(worst < 1e-9, "{worst}");
+    assert!(sampled > 10, "{sampled}");
+    assert_eq!(drawing::count(&frame, "crowded_by_edges"), sampled as u64);
 }

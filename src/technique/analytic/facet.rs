@@ -4,7 +4,7 @@
 //! them are linear in it, up to a factor (Olano & Greer 1997, "Triangle scan conversion using 2D homogeneous coordinates"). So a straight
 //! line of the plan is one of the screen, and no corner needs to lie before the eye.
 
-use super::convex::Side;
+use super::convex::{Side, cut};
 use crate::math;
 use crate::space::{Lens, Plan, PlanBox, ViewFrame};
 use crate::terrain::SurfaceTriangle;
@@ -12,6 +12,9 @@ use glam::{DVec2, DVec3};
 
 /// A triangle seen from less than this from its edge covers nothing: the determinant's share of its terms.
 const EDGE_ON: f64 = 1e-15;
+
+/// Keys that differ by less than this share are equal.
+const SAME_KEY: f64 = 1e-12;
 
 /// Triangles that reach over no more pixels are bounded by their corners, not by what is seen of them.
 const SMALL: f64 = 2.0;
@@ -214,6 +217,33 @@ fn planes(view: &ViewFrame, key: Side, depths: &[f64; 3], is_central: bool) -> [
     let beyond_near = Side { normal: -key.normal, offset: key_of(view.near()) - key.offset };
     let before_far = Side { normal: key.normal, offset: key.offset - key_of(view.far()) };
     [nearer.then_some(beyond_near), farther.then_some(before_far)]
+}
+
+/// What of a polygon that two triangles cover the first is nearer in, and what of it the second.
+pub(super) fn split_by_key(new: &Facet, old: &Facet, polygon: &[DVec2]) -> [Vec<DVec2>; 2] {
+    let (mut most, mut least) = (f64::NEG_INFINITY, f64::INFINITY);
+    let mut size = 0.0;
+    for p in polygon {
+        let (of_new, of_old) = (new.key.at(*p), old.key.at(*p));
+        let difference = of_new - of_old;
+        (most, least) = (math::max(difference, most), math::min(difference, least));
+        size = math::max(of_new.abs() + of_old.abs(), size);
+    }
+    let same = SAME_KEY * size;
+    let new_wins_ties = new.id < old.id;
+    if least >= -same && (most > same || new_wins_ties) {
+        return [polygon.to_vec(), Vec::new()];
+    }
+    if most <= same {
+        return [Vec::new(), polygon.to_vec()];
+    }
+    // They pass through one another.
+    let difference =
+        Side { normal: new.key.normal - old.key.normal, offset: new.key.offset - old.key.offset };
+    let (mut nearer, mut farther) = (Vec::new(), Vec::new());
+    cut(polygon, &difference, &mut nearer);
+    cut(polygon, &difference.turned(), &mut farther);
+    [nearer, farther]
 }
 
 #[cfg(test)]

@@ -21,6 +21,7 @@ mod items;
 mod look;
 mod near;
 mod pieces;
+mod samples;
 mod settings;
 mod sheet;
 mod step;

@@ -4,7 +4,7 @@
 //! covers. A pixel that is covered wholly hides what is farther than all of its fragments.
 
 use super::convex::{NOTHING, Side, are_apart, area, common, cut, without};
-use super::facet::{Facet, Outline};
+use super::facet::{Facet, Outline, split_by_key};
 use crate::math;
 use glam::DVec2;
 use std::ops::Range;
@@ -20,9 +20,6 @@ const BLOCKS: usize = TILE / BLOCK;
 
 /// A pixel is covered wholly where no more of it than this is left.
 pub(super) const FULL: f64 = 1.0 - 1e-8;
-
-/// Keys that differ by less than this share are equal.
-const SAME_KEY: f64 = 1e-12;
 
 /// A part of a triangle that a pixel sees.
 #[derive(Debug, Clone)]
@@ -383,31 +380,4 @@ fn block_of(pixel: usize) -> usize {
 pub(super) fn square([x, y]: [usize; 2], side: usize) -> [DVec2; 4] {
     let (from, to) = (DVec2::new(x as f64, y as f64), DVec2::new((x + side) as f64, (y + side) as f64));
     [from, DVec2::new(to.x, from.y), to, DVec2::new(from.x, to.y)]
-}
-
-/// What of a polygon that two triangles cover the first is nearer in, and what of it the second.
-fn split_by_key(new: &Facet, old: &Facet, polygon: &[DVec2]) -> [Vec<DVec2>; 2] {
-    let (mut most, mut least) = (f64::NEG_INFINITY, f64::INFINITY);
-    let mut size = 0.0;
-    for p in polygon {
-        let (of_new, of_old) = (new.key.at(*p), old.key.at(*p));
-        let difference = of_new - of_old;
-        (most, least) = (math::max(difference, most), math::min(difference, least));
-        size = math::max(of_new.abs() + of_old.abs(), size);
-    }
-    let same = SAME_KEY * size;
-    let new_wins_ties = new.id < old.id;
-    if least >= -same && (most > same || new_wins_ties) {
-        return [polygon.to_vec(), Vec::new()];
-    }
-    if most <= same {
-        return [Vec::new(), polygon.to_vec()];
-    }
-    // They pass through one another.
-    let difference =
-        Side { normal: new.key.normal - old.key.normal, offset: new.key.offset - old.key.offset };
-    let (mut nearer, mut farther) = (Vec::new(), Vec::new());
-    cut(polygon, &difference, &mut nearer);
-    cut(polygon, &difference.turned(), &mut farther);
-    [nearer, farther]
 }

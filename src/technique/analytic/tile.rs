@@ -1,7 +1,7 @@
 //! A tile of the picture: what its pixels see, which items are near its blocks, each pixel's paint.
 
 use super::boxes::with_hem;
-use super::convex::{area, holds, middle};
+use super::convex::{area, middle};
 use super::coverage::Class;
 use super::facet::Facet;
 use super::features::Features;
@@ -9,6 +9,7 @@ use super::gather;
 use super::items::{Items, Lists, Painted, Place, SAGITTA};
 use super::look::Looks;
 use super::near::Near;
+use super::samples::{fragment_at, seen_sample};
 use super::settings::Settings;
 use super::sheet::{BLOCK, FULL, Fragment, Sheet, square};
 use super::step::{Fallback, Step};
@@ -19,7 +20,7 @@ use crate::raster::Lattice;
 use crate::resolve::Paint;
 use crate::scene::Device;
 use crate::space::{Lens, Plan, PlanBox, ViewFrame};
-use crate::terrain::{Mesh, SKY};
+use crate::terrain::Mesh;
 use crate::tiling::TilePlace;
 use glam::DVec2;
 
@@ -81,9 +82,6 @@ fn class_of(class: Class) -> u8 {
     }
 }
 
-/// What a sample sees: a triangle, a point of the screen and of the plan; `None`: the sky.
-type Sample<'a> = Option<(std::borrow::Cow<'a, Facet>, DVec2, Plan)>;
-
 impl<'a> Painter<'a> {
     /// The pixels of a tile, row by row from the top.
     pub(super) fn tile(&self, place: &TilePlace, room: &mut Room) -> Vec<Pixel> {
@@ -95,8 +93,7 @@ impl<'a> Painter<'a> {
         for (k, block) in blocks(place).enumerate() {
             self.look_near(k, &block, room);
             for (x, y) in pixels_of(&block) {
-                pixels[y * width + x] =
-                    self.pixel((place, [x, y]), samples.as_ref(), room, &mut last, &mut ());
+                pixels[y * width + x] = self.pixel([x, y], samples.as_ref(), room, &mut last, &mut ());
             }
         }
         pixels
@@ -111,7 +108,7 @@ impl<'a> Painter<'a> {
         if let Some((k, block)) = blocks.find(|(_, block)| pixels_of(block).any(|(x, y)| [x, y] == at)) {
             self.look_near(k, &block, &mut room);
         }
-        self.pixel((place, at), samples.as_ref(), &mut room, &mut self.backdrop.no_ground(), record).paint
+        self.pixel(at, samples.as_ref(), &mut room, &mut self.backdrop.no_ground(), record).paint
     }
 
     /// Finds what the pixels of a tile see: fragments, and the samples of all if some have too many; then what is near them.
@@ -245,7 +242,7 @@ impl<'a> Painter<'a> {
     /// A pixel of a tile whose block has been looked at.
     fn pixel<R: Record<Step>>(
         &self,
-        (place, at): (&TilePlace, [usize; 2]),
+        at: [usize; 2],
         samples: Option<&GBuffer>,
         room: &mut Room,
         last: &mut LastGround,
@@ -259,7 +256,7 @@ impl<'a> Painter<'a> {
                 Err(why) => why,
             }
         };
-        let paint = self.sampled((place, at), samples, room, last);
+        let paint = self.sampled(at, samples, room, last);
         let n = self.settings.samples as usize;
         record.step(|| Step::Sampled { why, samples: n * n });
         record.step(|| Step::Mean(paint));
@@ -351,7 +348,7 @@ impl<'a> Painter<'a> {
     /// A pixel by samples in the middles of equal squares.
     fn sampled(
         &self,
-        (place, at): (&TilePlace, [usize; 2]),
+        at: [usize; 2],
         samples: Option<&GBuffer>,
         room: &mut Room,
         last: &mut LastGround,
@@ -359,44 +356,22 @@ impl<'a> Painter<'a> {
         let Room { sheet, block, lists, origin, .. } = room;
         let items = self.items(*origin);
         let n = self.settings.samples as usize;
+        let samples = samples.filter(|_| sheet.is_crowded(at));
         crate::canvas::mean(n, |column, row| {
-            let middle = |k: usize, of: usize| of as f64 + (k as f64 + 0.5) / n as f64;
-            let screen = DVec2::new(middle(column, at[0]), middle(row, at[1]));
-            let sample = match samples.filter(|_| sheet.is_crowded(at)) {
-                Some(seen) => self.seen_sample(place, seen, [at[0] * n + column, at[1] * n + row], screen),
+            let place = [column, row].map(|k| (k as f64 + 0.5) / n as f64);
+            let screen = DVec2::new(at[0] as f64 + place[0], at[1] as f64 + place[1]);
+            let sample = match samples {
+                Some(seen) => {
+                    seen_sample((self.view, self.mesh), *origin, seen, [at[0] * n + column, at[1] * n + row])
+                }
                 None => fragment_at(sheet, at, screen),
             };
-            let Some((facet, screen, plan)) = sample else { return self.backdrop.sky };
+            let Some((facet, plan)) = sample else { return self.backdrop.sky };
             let ground = self.backdrop.paint_at(last, facet.id, || plan);
             let place = Place { facet: &facet, screen: &[screen], plan: &[plan], pixel: screen };
             items.paint(&place, block, ground, lists).map_or(ground, |painted| painted.paint)
         })
     }
-
-    /// What a sample sees that has been looked for.
-    fn seen_sample<'s>(
-        &self,
-        place: &TilePlace,
-        seen: &GBuffer,
-        [column, row]: [usize; 2],
-        screen: DVec2,
-    ) -> Sample<'s> {
-        let id = seen.triangle(column, row);
-        if id == SKY {
-            return None;
-        }
-        let origin = DVec2::new(place.corner[0] as f64, place.corner[1] as f64);
-        let (facet, _) = Facet::new(self.view, origin, id, &self.mesh.surface_triangle(id)?)?;
-        Some((std::borrow::Cow::Owned(facet), screen, seen.plan(column, row)))
-    }
-}
-
-/// What a sample of a pixel sees by the pixel's fragments.
-fn fragment_at<'s>(sheet: &'s Sheet, at: [usize; 2], screen: DVec2) -> Sample<'s> {
-    let held = |fragment: &&Fragment| holds(sheet.corners(fragment, at, &mut [DVec2::ZERO; 4]), screen);
-    let held = sheet.fragments(at).iter().find(held).map(|fragment| fragment.facet);
-    let facet = &sheet.facets[held.or_else(|| sheet.whole(at))? as usize];
-    Some((std::borrow::Cow::Borrowed(facet), screen, facet.plan_at(screen)))
 }
 
 /// The blocks of a tile, counted from its corner.
