@@ -3,9 +3,11 @@
 use super::envelope::Envelope;
 use super::model::{Guess, View};
 use super::sampled::Pictures;
-use super::{clipmap, dynamic_line, geometry_overlay, inverse_projection, static_decal, stencil_volume};
+use super::{
+    analytic, clipmap, dynamic_line, geometry_overlay, inverse_projection, static_decal, stencil_volume,
+};
 use crate::compare::{FeatureRun, Hypothesis, Stage};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::scene::Device;
 use crate::space::ViewFrame;
 use crate::technique::Kind;
@@ -27,10 +29,7 @@ pub(super) fn pictures(kind: Kind, view: &View, guesses: &[Guess]) -> Result<Pic
         Kind::GeometryOverlay => {
             by_guess(view, guesses, |view, guess| Ok((geometry_overlay::picture(view, guess)?, None)))?
         }
-        Kind::Analytic => {
-            return Err(Error::unsupported("nobody knows what analytic's picture may be on other machines")
-                .help("judge it by the truth's intervals, or by its picture and a tolerance"));
-        }
+        Kind::Analytic => analytic::pictures(&settings.get(), view, guesses),
     };
     all.hypotheses.iter_mut().zip(guesses).for_each(|(hypothesis, guess)| hypothesis.says = guess.says());
     Ok(all)

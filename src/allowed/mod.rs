@@ -6,6 +6,7 @@
 //! ([`crate::truth::probe`]) over the technique's footprints. Refuses: techniques without a model, machines with absolute positions.
 
 mod alternatives;
+mod analytic;
 mod by_kind;
 mod clipmap;
 mod composition;
@@ -18,6 +19,7 @@ mod inverse_projection;
 mod model;
 mod picture;
 mod pixel;
+mod polygon;
 mod sampled;
 mod stages;
 mod static_decal;

@@ -4,8 +4,8 @@
 //! share alike, so that a fill moves as one: where all places near a centre lie in its pieces that face one way, one of them covers it, and once; but what is so thin that it may turn over
 //! is drawn on the other side, too, and what it turns over twice.
 
-use super::convex::{area_of, cut};
 use super::depth::{Depths, Range};
+use crate::allowed::polygon::{area_of, cut};
 use crate::math;
 use crate::space::{Screen, ViewFrame, World};
 use glam::DVec2;

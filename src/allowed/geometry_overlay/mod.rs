@@ -3,7 +3,6 @@
 //! Input: a view, a guess. Output: the picture and its stages. The points on the mesh are the technique's own, which a bundle hands out; what they cover is decided here.
 //! Refuses: imagery on the ground (a machine may read it at places that are moved with the mesh), stipples of anti-aliased lines, anti-aliased fills.
 
-mod convex;
 mod depth;
 mod diamond;
 mod face;

@@ -1,7 +1,7 @@
 //! How much of a pixel the rectangle around a segment covers (OpenGL 2.1, 3.4.2), when the segment's ends may stray.
 
-use super::convex::{area_of, cut};
 use super::screen_line::ScreenLine;
+use crate::allowed::polygon::{area_of, cut};
 use crate::math;
 use crate::space::Plan;
 use glam::DVec2;

@@ -1,5 +1,6 @@
 //! Convex polygons cut by what is linear: on the screen, in space.
 
+use crate::math;
 use glam::DVec2;
 use std::ops::{Add, Mul, Sub};
 
@@ -28,4 +29,19 @@ pub(super) fn area_of(polygon: &[DVec2]) -> f64 {
     let Some(first) = polygon.first() else { return 0.0 };
     let twice: f64 = polygon.windows(2).map(|pair| (pair[0] - *first).perp_dot(pair[1] - *first)).sum();
     twice.abs() / 2.0
+}
+
+/// The part of a convex polygon, or of a segment, in the rectangle between two corners.
+pub(super) fn clipped(polygon: &[DVec2], [low, high]: [DVec2; 2]) -> Vec<DVec2> {
+    let west = cut(polygon, |p| p.x - low.x);
+    let both = cut(&west, |p| high.x - p.x);
+    let south = cut(&both, |p| p.y - low.y);
+    cut(&south, |p| high.y - p.y)
+}
+
+/// The largest distance between two of some points.
+pub(super) fn diameter(points: &[DVec2]) -> f64 {
+    let pairs =
+        points.iter().enumerate().flat_map(|(k, a)| points[..k].iter().map(move |b| (*a - *b).length()));
+    pairs.fold(0.0, math::max)
 }
