@@ -71,3 +71,20 @@ fn a_program_that_samples_all_pixels_is_judged_by_its_samples() {
     let exact = frame_of(Kind::Analytic, &stage_of(&SMALL), &[]).image;
     assert!(outside(&all.hypotheses[0], &exact) > 50);
 }
+
+#[test]
+fn pictures_over_any_ground_and_in_any_space_are_allowed() {
+    let all: [&[&str]; 5] = [
+        &["terrain.shade=hillshade"],
+        &["compositing.space=linear"],
+        &["image.background=#00000000"],
+        &["camera.near_m=300", "device.subpixel_bits=0"],
+        &["technique.analytic.crowd=3"],
+    ];
+    for changes in all {
+        let stage = stage(&lake(), &[&SMALL[..], &["image.width=24", "image.height=16"], changes].concat());
+        let allowed = allowed_of(Kind::Analytic, &stage);
+        let image = frame_of(Kind::Analytic, &stage, &[]).image;
+        assert_eq!(outside(&allowed.hypotheses[0], &image), 0, "{changes:?}");
+    }
+}
