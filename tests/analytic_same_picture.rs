@@ -25,7 +25,7 @@ fn colors(layers: &str, changes: &[&str]) -> Vec<f64> {
 #[track_caller]
 fn are_the_same(one: (&str, &[&str]), other: (&str, &[&str])) {
     let (one, other) = (colors(one.0, one.1), colors(other.0, other.1));
-    let off = one.iter().zip(&other).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let off = one.iter().zip(&other).map(|(a, b)| (a - b).abs()).fold(0.0, drapery::math::max);
     assert!(off < 1e-9, "{off}");
     assert!(one.chunks(4).any(|color| color[..2] != one[..2]), "nothing is drawn");
 }

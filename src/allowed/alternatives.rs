@@ -146,8 +146,8 @@ fn choices(kind: Kind, stage: &Stage) -> Vec<Choice> {
 fn guess(kind: Kind, (stage, frame): (&Stage, &ViewFrame)) -> Guess {
     let all = guesses(kind, &stage.scene.device, frame);
     let first = all[0].envelope;
-    let of_first = all.into_iter().filter(|guess| guess.envelope == first);
-    of_first.last().unwrap_or_else(|| Guess::of(first))
+    let mut of_first = all.into_iter().filter(|guess| guess.envelope == first);
+    of_first.next_back().unwrap_or_else(|| Guess::of(first))
 }
 
 /// What a picture would be.

@@ -8,7 +8,7 @@ settings! {
         /// How lines are rasterized.
         "Wartell et al. 3.2.1" lines: Lines = Lines::Gl;
         /// What of polygons is drawn.
-        polygons: Polygons = Polygons::Outlines;
+        "Wartell et al. 3.1" polygons: Polygons = Polygons::Outlines;
         /// How wide lines are.
         "Wartell et al. 3.1" widths: Widths = Widths::Style;
         /// Polygon offset of the mesh: how much of a triangle's depth slope it is moved back by.

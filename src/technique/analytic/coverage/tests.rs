@@ -125,7 +125,7 @@ fn deviation(fragment: &[DVec2], items: &[Item], cover: &Coverage) -> [f64; 2] {
     for (set, area) in cover.areas() {
         *off.entry(*set).or_insert(0.0) -= area;
     }
-    [off.values().fold(0.0, |most, v| v.abs().max(most)), (sum - whole).abs()]
+    [off.values().fold(0.0, |most, v| crate::math::max(v.abs(), most)), (sum - whole).abs()]
 }
 
 fn points(list: &[[f64; 2]]) -> Vec<DVec2> {

@@ -205,7 +205,7 @@ proptest! {
                 prop_assert_eq!(pieces.rings().any(|ring| holds(ring, p)), depth > 0.0, "{:?} {}", p, depth);
             }
             let is_near = |segment: &Segment| {
-                let most = half.of(p).max(0.0) + SAGITTA;
+                let most = math::max(half.of(p), 0.0) + SAGITTA;
                 segment_box(segment, &of, most).meets(&PlanBox { min: p, max: p })
             };
             prop_assert!(depth < 0.0 || segments.iter().any(is_near));
