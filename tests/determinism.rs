@@ -4,7 +4,7 @@
 //! then said in the commit. (Goldens hold those of all techniques.)
 #![cfg(feature = "render")]
 
-use drapery::buffer::Plane;
+use drapery::buffer::{Plane, PlaneKind};
 use drapery::scene::Surface;
 use drapery::scene_file::{Override, SceneFile};
 use drapery::stage::Stage;
@@ -146,14 +146,16 @@ fn the_truth_keeps_its_bits_when_the_scene_is_moved_along_the_ground_and_up() {
 
 #[test]
 fn every_buffer_has_the_bits_of_the_last_version_in_every_build() {
-    assert_eq!(
-        together(&hashes(Kind::InverseProjection, &mountains([0; 3], ""), 128, 2)),
-        "b22fb56bcaa84805"
-    );
-    assert_eq!(
-        together(&hashes(Kind::InverseProjection, &mountains([0; 3], IMITATED), 128, 2)),
-        "aad972aea60c1cd6"
-    );
+    let of = |more: &str| {
+        let mut all = hashes(Kind::InverseProjection, &mountains([0; 3], more), 128, 2);
+        // Which items touch pixels follows from what makes the picture.
+        let is_pick =
+            |line: &str| PlaneKind::PICKS.iter().any(|kind| line.split(' ').next() == Some(kind.name));
+        all.retain(|line| !is_pick(line));
+        together(&all)
+    };
+    assert_eq!(of(""), "b22fb56bcaa84805");
+    assert_eq!(of(IMITATED), "aad972aea60c1cd6");
 }
 
 /// A line in the coordinates of each projection, all about one place of Switzerland.

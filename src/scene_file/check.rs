@@ -66,7 +66,7 @@ impl Check<'_> {
                 self.each(items, &Shape::Number(Range::Finite), path)
             }
             (Shape::Pattern(most, range), Value::Array(items))
-                if matches!(items.len(), 1..) && items.len().is_multiple_of(2) && items.len() <= *most =>
+                if !items.is_empty() && items.len().is_multiple_of(2) && items.len() <= *most =>
             {
                 self.each(items, &Shape::Number(*range), path)
             }
