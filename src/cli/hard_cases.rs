@@ -16,6 +16,7 @@ Examples:
   drapery hard-cases -o hard-cases                and a page with pictures and the curves of numerical stability
   drapery hard-cases --only 4 --only 27           two of them
   drapery hard-cases --json cases.json
+  drapery hard-cases --stability -o stability     the curves alone
 
 Exit status: 0 every technique gives the known answer, or fails as its paper says, or refuses; 1 one does not; 2 the call is wrong.";
 
@@ -25,6 +26,9 @@ pub(super) struct Arguments {
     /// Only the case of this number; may be repeated.
     #[arg(long, value_name = "N")]
     only: Vec<u32>,
+    /// No case: the curves of numerical stability alone, for -o or --json.
+    #[arg(long, conflicts_with_all = ["only", "quick"])]
+    stability: bool,
     /// Exact mathematics alone: no machine is imitated.
     #[arg(long)]
     quick: bool,
@@ -60,9 +64,12 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
 
 /// Draws the cases; the curves where files are wanted, of the whole suite.
 fn suite(arguments: &Arguments, bar: &Bar) -> drapery::Result<Suite> {
-    bar.start("drawing the hard cases");
-    let plan = Plan { only: arguments.only.clone(), is_quick: arguments.quick };
-    let cases = hard_cases::run(&plan, &|share| bar.done(share))?;
+    let mut cases = Vec::new();
+    if !arguments.stability {
+        bar.start("drawing the hard cases");
+        let plan = Plan { only: arguments.only.clone(), is_quick: arguments.quick };
+        cases = hard_cases::run(&plan, &|share| bar.done(share))?;
+    }
     let wants_files = arguments.output.is_some() || arguments.json.is_some();
     if !wants_files || !arguments.only.is_empty() {
         return Ok(Suite { cases, curves: Vec::new() });

@@ -4,7 +4,7 @@ use super::hand::{Hand, Truths, Who};
 use super::machine::{MACHINES, Machine};
 use super::picture::{Picture, farthest, rmse};
 use super::setup::{Setup, lines, points, polygons, square, stroke, towards};
-use crate::error::{ErrorKind, Result};
+use crate::error::{Error, ErrorKind, Result};
 use crate::math;
 use crate::parallel;
 use crate::technique::Kind;
@@ -162,6 +162,9 @@ fn by_distance(hand: &Hand, distance: f64) -> Result<f64> {
 }
 
 fn by_overlaps(hand: &Hand, count: f64) -> Result<f64> {
+    if hand.kind() == Some(Kind::GeometryOverlay) {
+        return Err(Error::unsupported("geometry-overlay draws lines, and these are fills"));
+    }
     let opacity = 1.0 - math::pow(0.25, 1.0 / count);
     let square = square([0.3, 0.4], 30.0);
     let layer = match hand.kind() {
