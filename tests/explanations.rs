@@ -55,6 +55,7 @@ fn a_pixel_across_a_border_is_told_by_its_shares_and_its_margin() {
             .text()
             .contains("it is outside field 0 \"Acre\" (fill), whose border is 0.00300 px left of it")
     );
+    assert_eq!(account.centre.as_ref().unwrap().silhouette, None);
     let names: Vec<&str> = account.ladder.iter().map(|rung| rung.name.as_str()).collect();
     assert_eq!(names, ["ground"]);
     let shares: f64 = account.scenery.pieces.iter().map(|piece| piece.share).sum();

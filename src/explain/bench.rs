@@ -141,10 +141,10 @@ impl<'a> Bench<'a> {
         let along = ends[1] - ends[0];
         let across = along.perp().try_normalize()?;
         let middle = ends[0] + along * 0.5;
+        // Both depths are those of the middle itself: surfaces that meet there have the same, however flatly they are seen.
         let [first, second] = [-OVER, OVER].map(|side| {
-            let at = middle + across * side;
-            let triangle = near.piece_at(at)?.triangle;
-            let depth = self.on_triangle(triangle, at).map(|seen| seen.hit.depth);
+            let triangle = near.piece_at(middle + across * side)?.triangle;
+            let depth = self.on_triangle(triangle, middle).map(|seen| seen.hit.depth);
             (depth.is_some() || triangle == SKY).then(|| depth.map(|depth| (triangle, depth)))
         });
         let sides = [first?, second?];

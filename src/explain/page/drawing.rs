@@ -80,7 +80,7 @@ struct Frame {
 }
 
 /// What a pixel sees is drawn if it is not farther from where its centre looks than so many sizes of the pixel there.
-const FAR: f64 = 12.0;
+const FAR: f64 = 6.0;
 
 impl Frame {
     /// Around what a pixel sees near where its centre looks.
