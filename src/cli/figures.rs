@@ -78,7 +78,8 @@ fn list(figures: &[&Figure]) -> String {
     }
     let papers: Vec<_> = figures.iter().map(|figure| figure.paper).collect();
     for Unmade { paper, number, what, why } in UNMADE.iter().filter(|one| papers.contains(&one.paper)) {
-        let _ = writeln!(text, "not made: {} {number}, {what}: {why}", paper.name());
+        let whose = format!("{} {number}", paper.name());
+        let _ = writeln!(text, "not made: {}, {what}: {why}", whose.trim_end());
     }
     text
 }

@@ -3,7 +3,11 @@
 use super::absence::percent;
 use super::account::{Account, ByTechnique, Centre, Covering, Right, Step, color_of, hex};
 use super::margin::short;
+use std::collections::BTreeMap;
 use std::fmt::{self, Write};
+
+/// Of a pixel no more triangles are told one by one.
+const MOST_TRIANGLES: usize = 8;
 
 /// Shares of a pixel below this are not spoken of.
 const MATTERS: f64 = 5e-5;
@@ -55,18 +59,27 @@ impl Account {
             Some(centre) => write_centre(centre, to)?,
             None => writeln!(to, "its centre sees the sky")?,
         }
-        let own = self.scenery.pieces.iter().filter(|piece| piece.share > 0.0);
-        let pieces: Vec<String> = own
-            .map(|piece| {
-                let what = piece.triangle.map_or("the sky".into(), |id| format!("triangle {id}"));
-                format!("{what} {:.2} %", 100.0 * piece.share)
-            })
-            .collect();
-        writeln!(
-            to,
-            "it sees {}",
-            if pieces.is_empty() { "too many triangles to tell".into() } else { pieces.join(", ") }
-        )
+        writeln!(to, "it sees {}", self.seen())
+    }
+
+    /// What the pixel sees, the largest shares first.
+    fn seen(&self) -> String {
+        let mut shares: BTreeMap<Option<u32>, f64> = BTreeMap::new();
+        for piece in self.scenery.pieces.iter().filter(|piece| piece.share > 0.0) {
+            *shares.entry(piece.triangle).or_default() += piece.share;
+        }
+        let mut shares: Vec<(Option<u32>, f64)> = shares.into_iter().collect();
+        shares.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let told = shares.iter().take(MOST_TRIANGLES).map(|(triangle, share)| {
+            let what = triangle.map_or("the sky".into(), |id| format!("triangle {id}"));
+            format!("{what} {:.2} %", 100.0 * share)
+        });
+        let told = told.collect::<Vec<String>>().join(", ");
+        match shares.len() {
+            0 => "too many triangles to tell".into(),
+            count if count > MOST_TRIANGLES => format!("{told} and {} more", count - MOST_TRIANGLES),
+            _ => told,
+        }
     }
 }
 
@@ -74,7 +87,7 @@ fn write_centre(centre: &Centre, to: &mut String) -> fmt::Result {
     let Centre { triangle, plan: [x, y], world: [.., z], depth, .. } = centre;
     writeln!(
         to,
-        "its centre sees triangle {triangle} at plan ({x:.3}, {y:.3}), height {z:.3}, {depth:.3} m deep"
+        "its centre sees triangle {triangle} at plan ({x:.3}, {y:.3}), z {z:.3}, {depth:.3} m deep"
     )?;
     if let Some([dx, dy]) = centre.pixel {
         let length = |[x, y]: [f64; 2]| short((x * x + y * y).sqrt());

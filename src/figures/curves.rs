@@ -23,7 +23,7 @@ impl Axis {
     }
 }
 
-const SIZE: [f64; 2] = [760.0, 480.0];
+const SIZE: [f64; 2] = [820.0, 480.0];
 /// Left, top, right, bottom.
 const FIELD: [f64; 4] = [70.0, 20.0, 540.0, 430.0];
 /// Colours and dashes, so that colour is never all that tells curves apart.

@@ -33,7 +33,7 @@ pub use made::hash;
 pub use unmade::{UNMADE, Unmade};
 
 use crate::error::{Error, Result};
-use crate::scene_file::nearest_or_all;
+use crate::scene_file::nearest;
 
 /// Every figure, in the order of the page.
 pub fn all() -> impl Iterator<Item = &'static Figure> {
@@ -67,6 +67,7 @@ pub fn chosen(names: &[String]) -> Result<Vec<&'static Figure>> {
 fn unknown(name: &str) -> Error {
     let papers = Paper::ALL.iter().map(|paper| paper.name());
     let known: Vec<&str> = papers.chain(all().map(|figure| figure.name)).collect();
+    let near = nearest(name, &known).map(|near| format!("did you mean `{near}`? ")).unwrap_or_default();
     Error::usage(format!("there is no figure `{name}`"))
-        .help(format!("{}; `drapery figures --list` tells all", nearest_or_all(name, &known, "figures")))
+        .help(format!("{near}`drapery figures --list` tells which there are"))
 }

@@ -55,7 +55,7 @@ pub(super) const SAMPLES: Figure = Figure {
     title: "Error against samples",
     caption: "The root mean square of the distance from the truth, over the samples a pixel: plain supersampling, and the techniques that take samples.",
     look_for: "stencil volumes and static decals are supersampling in another way. Inverse projection with the paper's corners stops getting better at once: its half-pixel shift weighs more than \
-               its samples. With true corners it goes on until silhouettes and code values weigh more.",
+               its samples. With true corners it gets further, and stops where its other simplifications weigh more.",
     draw: samples,
 };
 

@@ -72,7 +72,7 @@ const fn study(
 }
 
 /// The experiments.
-pub const STUDIES: [Study; 8] = [
+pub const STUDIES: [Study; 9] = [
     Study { name: "base", changes: &[], tables: &[Table::Blocks, Table::Window], paper_fps: None },
     study(
         "468 triangles",
@@ -98,6 +98,12 @@ pub const STUDIES: [Study; 8] = [
         &["name=\"1,640 vertices\"", "layer.roads.generate.count=792"],
         &[Table::Vertices, Table::Methods],
         25.4,
+    ),
+    study(
+        "2,601 vertices",
+        &["name=\"2,601 vertices\"", "layer.roads.generate.count=1261"],
+        &[Table::Vertices],
+        21.3,
     ),
     study(
         "4,101 vertices",
