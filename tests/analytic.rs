@@ -4,6 +4,7 @@
 mod drawing;
 
 use drapery::buffer::Values;
+use drapery::math::max;
 use drapery::scene_file::SceneFile;
 use drapery::stage::Stage;
 use drapery::technique::{Frame, Kind};
@@ -32,8 +33,8 @@ fn beyond(truth: &Truth, frame: &Frame) -> (f64, usize) {
     let mut worst: f64 = 0.0;
     for (k, own) in color.chunks(4).enumerate().filter(|(k, _)| fallback[*k] == 0) {
         for c in 0..4 {
-            let off = (lo[k][c] - own[c]).max(own[c] - hi[k][c]);
-            worst = worst.max(off);
+            let off = max(lo[k][c] - own[c], own[c] - hi[k][c]);
+            worst = max(off, worst);
         }
     }
     (worst, fallback.iter().filter(|why| **why != 0).count())
@@ -173,7 +174,7 @@ fn without_any_budget_all_pixels_are_samples_and_the_same_as_plain_supersampling
             .into_iter()
             .zip(sampled.colors.values().as_flattened())
             .map(|(a, b)| (a - b).abs());
-        assert!(off.fold(0.0, f64::max) < 1e-9);
+        assert!(off.fold(0.0, max) < 1e-9);
     }
 }
 
