@@ -36,8 +36,7 @@ pub(super) fn add(at: Plan, sector: Sector, half: &HalfWidth, near: &Near, out: 
         return;
     }
     if matches!(sector, Sector::Whole) && distance + radius < least - near.sagitta {
-        let (min, max) = (near.plan.min, near.plan.max);
-        let around = near.plan.grown((max - min).max_element());
+        let around = near.plan.grown(2.0 * radius);
         let corners = [around.min, Plan::new(around.max.x, around.min.y), around.max];
         return out.add(corners.into_iter().chain([Plan::new(around.min.x, around.max.y)]), near);
     }
