@@ -11,7 +11,7 @@ use serde::Serialize;
 
 /// The techniques that draw footprints of metres, fills and strokes alike.
 pub(super) const FILLS: &[Kind] =
-    &[Kind::Clipmap, Kind::StencilVolume, Kind::InverseProjection, Kind::StaticDecal];
+    &[Kind::Clipmap, Kind::StencilVolume, Kind::InverseProjection, Kind::StaticDecal, Kind::Analytic];
 
 /// Where edges meet.
 pub(super) const EDGE_NORMALS: &[Artifact] = &[Artifact::of(
