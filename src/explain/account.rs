@@ -6,6 +6,9 @@ use crate::buffer::Buffer;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
+/// What rounding to a code value may take a right colour away from the truth, and a little more.
+pub(super) const ROUNDING: f64 = 0.501 / 255.0;
+
 /// The version of the JSON document.
 const SCHEMA: u32 = 1;
 

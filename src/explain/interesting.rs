@@ -1,6 +1,6 @@
 //! The pixels of a picture that are worth a look: where a technique is farthest from the truth, or the truth is wide.
 
-use super::account::{Account, Right, color_of};
+use super::account::{Account, ROUNDING, Right, color_of};
 use super::asking::{Asking, account, name_items};
 use super::bench::Bench;
 use super::close_up::close_up;
@@ -19,9 +19,6 @@ use crate::technique::{Explanation, FrameOptions};
 use crate::terrain::Mesh;
 use crate::truth::{self, Budget, Truth, footprints_seen};
 use crate::visibility::TILE;
-
-/// What rounding to a code value may take a right colour away from the truth, and a little more.
-const ROUNDING: f64 = 0.501 / 255.0;
 
 /// Samples a side of a pixel's close-up: of those that are seen one by one in a page of many.
 const CLOSE_UP: usize = 40;

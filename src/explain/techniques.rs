@@ -1,6 +1,6 @@
 //! What techniques did at pixels, with margins; and what other settings make of them.
 
-use super::account::{Account, ByTechnique, LeftOut, Right, Step, Tried, color_of};
+use super::account::{Account, ByTechnique, LeftOut, ROUNDING, Right, Step, Tried, color_of};
 use super::bench::{Bench, Near};
 use super::margin::{margins, silhouette};
 use crate::error::Result;
@@ -76,7 +76,8 @@ fn told_step(bench: &Bench, near: &Near, step: &dyn technique::Step) -> Step {
     }
 }
 
-/// Tries other settings of each technique that was asked, and keeps what they make of the pixel. Those that are refused are left out.
+/// Tries other settings of each technique that was asked and is off by more than rounding, and keeps what they make of the pixel. Those that are
+/// refused are left out.
 ///
 /// # Errors
 /// Internal errors only.
@@ -86,7 +87,8 @@ pub(super) fn try_others(
     view: &ViewFrame,
 ) -> Result<()> {
     let own = (stage.scene.technique.clone(), stage.scene.device);
-    for told in &mut account.techniques {
+    let off = account.techniques.iter_mut().filter(|told| told.error > ROUNDING);
+    for told in off {
         let Some(kind) = Kind::ALL.into_iter().find(|kind| kind.name() == told.technique) else { continue };
         for changes in kind.declaration().sweep.remedies {
             let changed = text.changed(changes)?;

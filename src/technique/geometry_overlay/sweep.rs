@@ -23,5 +23,8 @@ const OFFSET: Axis = &[
 const TOLERANCE: Axis =
     &[&["technique.geometry-overlay.tolerance_px=0.5"], &["technique.geometry-overlay.tolerance_px=2"]];
 
-const REMEDIES: Axis =
-    &[&["technique.geometry-overlay.lines=antialiased"], &["technique.geometry-overlay.offset_factor=4"]];
+const REMEDIES: Axis = &[
+    &["technique.geometry-overlay.polygons=filled"],
+    &["technique.geometry-overlay.lines=antialiased"],
+    &["technique.geometry-overlay.offset_factor=4"],
+];
