@@ -355,7 +355,8 @@ fn every_technique_has_a_bundle_and_a_wrong_call_leaves_nothing() {
         assert!(folder.path().join(format!("{technique}.png")).is_file());
         assert!(!folder.path().join("tiles").exists());
     }
-    for wrong in [&["-t", "truth"][..], &["-t", "analytic"], &[], &["-t", "clipmap", "--set", "nonsense=1"]] {
+    for wrong in [&["-t", "truth"][..], &["-t", "raytracing"], &[], &["-t", "clipmap", "--set", "nonsense=1"]]
+    {
         let folder = tempfile::tempdir().unwrap();
         let done = export(folder.path(), &[wrong, &["-o", "out"]].concat());
         assert_eq!(done.status.code(), Some(2), "{wrong:?}");

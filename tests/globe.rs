@@ -65,7 +65,7 @@ fn assert_twins(own: &Stage, other: &Stage) -> Truth {
     assert!(share(&truth).iter().filter(|share| **share > 0.4).count() > 100, "something is drawn");
     assert_eq!(
         drawing::kinds_of_footprints_for(own),
-        [Kind::Clipmap, Kind::InverseProjection, Kind::StaticDecal]
+        [Kind::Clipmap, Kind::InverseProjection, Kind::StaticDecal, Kind::Analytic]
     );
     for kind in drawing::kinds_of_footprints_for(own) {
         let frame = drawing::frame_of(kind, own, &[]);

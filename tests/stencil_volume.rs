@@ -3,7 +3,7 @@
 
 mod drawing;
 
-use drapery::buffer::Values;
+use drapery::buffer::{PlaneKind, Values};
 use drapery::compare::{Image, Metrics};
 use drapery::technique::{self, Frame, FrameOptions, Kind};
 use drawing::{count, scene, stage};
@@ -378,7 +378,11 @@ fn every_buffer_keeps_its_bits_for_any_number_of_threads_and_any_tiles() {
 #[test]
 fn every_buffer_has_the_bits_of_the_last_version_in_every_build() {
     let changes = ["technique.stencil-volume.joins=\"style\"", "technique.stencil-volume.samples=2"];
-    let all = hashes(&hills(), &changes, 128, 2).join("\n");
+    let mut all = hashes(&hills(), &changes, 128, 2);
+    // Which items touch pixels follows from what makes the picture.
+    let is_pick = |line: &str| PlaneKind::PICKS.iter().any(|kind| line.split(' ').next() == Some(kind.name));
+    all.retain(|line| !is_pick(line));
+    let all = all.join("\n");
     assert_eq!(&blake3::hash(all.as_bytes()).to_hex()[..16], "4b8b8b93208db432");
 }
 

@@ -11,7 +11,6 @@ use drapery::explain::{self, Account, Asking, page};
 use drapery::measure::Watch;
 use drapery::output::write_whole;
 use drapery::source::load;
-use drapery::technique::Kind;
 use drapery::{Error, Result, parallel};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -69,7 +68,7 @@ fn pixel(text: &str) -> std::result::Result<[usize; 2], String> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Outcome {
-    let kinds = kinds(&arguments.techniques)?;
+    let kinds = techniques::asked(&arguments.techniques).kinds;
     let budget = arguments.truth.budget()?;
     let changes = arguments.device.before(&arguments.overrides)?;
     let text = scene_input::read(arguments.scene.as_deref(), &changes)?;
@@ -127,16 +126,4 @@ fn write(arguments: &Arguments, account: &Account) -> Outcome {
         Ok(_) | Err(Stop::PipeClosed) => Ok(Status::Passed),
         Err(stop) => Err(stop),
     }
-}
-
-/// The techniques that are asked for, each once; `None`: all.
-fn kinds(names: &[Name]) -> Result<Option<Vec<Kind>>> {
-    let mut kinds = Vec::new();
-    for name in names.iter().filter(|name| **name != Name::Truth) {
-        let kind = techniques::built(*name)?;
-        if !kinds.contains(&kind) {
-            kinds.push(kind);
-        }
-    }
-    Ok((!names.is_empty()).then_some(kinds))
 }

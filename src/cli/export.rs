@@ -2,7 +2,7 @@
 
 use super::bar::Bar;
 use super::device_argument::DeviceArgument;
-use super::render::techniques::{self, Name};
+use super::render::techniques::Name;
 use super::scene_input;
 use super::stop::{Outcome, Status};
 use super::truth_arguments::TruthArguments;
@@ -69,7 +69,7 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
         let refusal = Error::usage("a client cannot draw by `truth`: it is in every bundle, to judge by");
         return Err(refusal.help("name a technique, such as -t clipmap").into());
     }
-    let technique = arguments.technique.map(techniques::built).transpose()?;
+    let technique = arguments.technique.and_then(Name::kind);
     match technique {
         Some(technique) if !arguments.conformance => bundle(arguments, technique, budget),
         _ => conformance(arguments, technique, budget),

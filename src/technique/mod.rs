@@ -36,9 +36,6 @@ declaration::techniques! {
     Analytic is analytic,
 }
 
-/// Techniques that are known and not built yet: their names, and what they are in a line.
-pub const PLANNED: [(&str, &str); 0] = [];
-
 impl Kind {
     /// Draws a stage once, from its scene's own camera. ([`prepare`] once and [`Prepared::frame`] draw many views.)
     ///

@@ -71,7 +71,7 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Outcome {
-    let asked = techniques::asked(&arguments.techniques)?;
+    let asked = techniques::asked(&arguments.techniques);
     let budget = arguments.truth.budget()?;
     let changes = arguments.device.before(&arguments.overrides)?;
     let scene = scene_input::read(arguments.scene.as_deref(), &changes)?;
