@@ -86,8 +86,14 @@ const BY_SEGMENTS: &[Kind] =
     &[Kind::GeometryOverlay, Kind::DynamicLine, Kind::Clipmap, Kind::InverseProjection];
 
 /// All but stencil volumes compose in a shader.
-const SHADERS: &[Kind] =
-    &[Kind::Clipmap, Kind::InverseProjection, Kind::StaticDecal, Kind::DynamicLine, Kind::GeometryOverlay];
+const SHADERS: &[Kind] = &[
+    Kind::Clipmap,
+    Kind::InverseProjection,
+    Kind::StaticDecal,
+    Kind::DynamicLine,
+    Kind::GeometryOverlay,
+    Kind::Analytic,
+];
 
 /// The variants; each is drawn by the first machines ([`MACHINES`]) too.
 pub(super) const VARIANTS: &[Variant] = &[
