@@ -33,6 +33,7 @@ fn a_pixel_is_told_as_text_as_json_and_as_a_page() {
     let json: serde_json::Value = serde_json::from_str(&told(&["--json", "-"])).unwrap();
     assert_eq!((&json["schema"], &json["kind"]), (&1.into(), &"explanation".into()));
     assert_eq!(json["techniques"][0]["technique"], "static-decal");
+    assert!(told(&["--html", "-"]).starts_with("<!DOCTYPE html>"), "and nothing else is on stdout");
     assert!((json["covering"][0]["low"].as_f64().unwrap() - 0.3).abs() < 1e-9, "{json}");
 }
 
@@ -55,5 +56,7 @@ fn calls_that_ask_for_nothing_that_can_be_told_exit_with_2() {
         refused(&["--pixel", "1,7", "--feature", "feild", "--html", "why.html"])
             .contains("did you mean `field`?")
     );
+    assert!(refused(&["--pixel", "1,7", "--html", "one", "--json", "one"]).contains("name the same file"));
+    assert!(refused(&["--pixel", "1,7", "--html", "gone/why.html"]).contains("its folder is not there"));
     assert!(!folder.path().join("why.html").exists());
 }

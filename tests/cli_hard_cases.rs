@@ -36,3 +36,11 @@ fn a_number_that_no_case_has_writes_nothing() {
     assert!(error.contains("there is no hard case 0"), "{error}");
     assert!(!folder.path().join("out").exists());
 }
+
+#[test]
+fn curves_are_refused_where_nothing_would_show_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let (status, said, error) = hard_cases(folder.path(), &["--stability"]);
+    assert_eq!((status, said.as_str()), (2, ""));
+    assert!(error.contains("-o DIR or --json FILE"), "{error}");
+}

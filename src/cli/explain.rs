@@ -2,18 +2,16 @@
 
 use super::bar::Bar;
 use super::device_argument::DeviceArgument;
-use super::print::print;
+use super::print::{check_files, deliver, print};
 use super::render::techniques::{self, Name};
 use super::scene_input;
 use super::stop::{Outcome, Status, Stop};
 use super::truth_arguments::TruthArguments;
 use drapery::explain::{self, Account, Asking, page};
 use drapery::measure::Watch;
-use drapery::output::write_whole;
 use drapery::source::load;
 use drapery::{Error, Result, parallel};
-use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -43,7 +41,7 @@ pub(super) struct Arguments {
     /// Write all of it as JSON; `-`: on stdout in place of the text.
     #[arg(long, value_name = "FILE", requires = "pixel")]
     json: Option<PathBuf>,
-    /// Write a page, one file that needs no network.
+    /// Write a page, one file that needs no network; `-`: on stdout in place of the text.
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
     /// How many pixels a page of the whole picture tells of at most.
@@ -68,6 +66,7 @@ fn pixel(text: &str) -> std::result::Result<[usize; 2], String> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Outcome {
+    check_files(&[("--json", arguments.json.as_deref()), ("--html", arguments.html.as_deref())])?;
     let kinds = techniques::asked(&arguments.techniques).kinds;
     let budget = arguments.truth.budget()?;
     let changes = arguments.device.before(&arguments.overrides)?;
@@ -96,10 +95,14 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
     let answer = parallel::with_threads(arguments.threads, answer)?;
     let (account, page) = answer.map_err(|error| scene_input::blame(&text, error))?;
     drop(bar);
+    let mut is_told = false;
     if let (Some(path), Some(page)) = (&arguments.html, page) {
-        write_whole(path, |to: &mut dyn Write| to.write_all(page.as_bytes()))?;
+        is_told |= deliver(path, &page)?;
     }
-    account.map_or(Ok(Status::Passed), |account| write(arguments, &account))
+    match account {
+        Some(account) => write(arguments, &account, is_told),
+        None => Ok(Status::Passed),
+    }
 }
 
 /// What is told of a pixel, and the page that was asked for.
@@ -108,19 +111,15 @@ type Answer = (Option<Account>, Option<String>);
 /// Samples a side of a close-up.
 const CLOSE_UP: usize = 160;
 
-fn write(arguments: &Arguments, account: &Account) -> Outcome {
-    let json = || {
+/// Writes what is told of a pixel: as JSON where that is asked for, and as text where nothing else goes to stdout.
+fn write(arguments: &Arguments, account: &Account, mut is_told: bool) -> Outcome {
+    if let Some(path) = &arguments.json {
         let text = serde_json::to_string_pretty(&account.document());
-        text.map(|text| text + "\n")
-            .map_err(|error| Error::internal("an account is no JSON").caused_by(error))
-    };
-    match arguments.json.as_deref() {
-        Some(path) if path == Path::new("-") => return print(&json()?),
-        Some(path) => {
-            let text = json()?;
-            write_whole(path, |to: &mut dyn Write| to.write_all(text.as_bytes()))?;
-        }
-        None => {}
+        let text = text.map_err(|error| Error::internal("an account is no JSON").caused_by(error))?;
+        is_told |= deliver(path, &(text + "\n"))?;
+    }
+    if is_told {
+        return Ok(Status::Passed);
     }
     match print(&account.text()) {
         Ok(_) | Err(Stop::PipeClosed) => Ok(Status::Passed),

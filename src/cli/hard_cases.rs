@@ -1,13 +1,12 @@
 //! `drapery hard-cases`: failures that real systems' users reported, by every technique.
 
 use super::bar::Bar;
-use super::print::print;
+use super::print::{check_files, deliver, print};
 use super::stop::{Outcome, Status, Stop};
 use drapery::hard_cases::{self, Plan, Suite};
 use drapery::measure::Watch;
-use drapery::output::{Batch, write_whole};
+use drapery::output::Batch;
 use drapery::parallel;
-use std::io::Write;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
@@ -35,7 +34,7 @@ pub(super) struct Arguments {
     /// Write hard-cases.html, hard-cases.json and hard-cases.txt into this folder, with curves of error against what makes scenes hard.
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// Write the numbers as JSON.
+    /// Write the numbers as JSON; `-`: on stdout in place of the text.
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
     /// How many threads work; 0: as many as there are processors.
@@ -44,18 +43,27 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Outcome {
+    check_files(&[("--json", arguments.json.as_deref())])?;
+    if arguments.stability && arguments.output.is_none() && arguments.json.is_none() {
+        return Err(drapery::Error::usage("the curves of numerical stability are not text")
+            .help("say where they go: -o DIR or --json FILE")
+            .into());
+    }
     let batch = arguments.output.as_deref().map(Batch::into).transpose()?;
     let bar = Bar::new();
     let suite = parallel::with_threads(arguments.threads, || suite(arguments, &bar))??;
     drop(bar);
+    let mut is_told = false;
     if let Some(path) = &arguments.json {
-        let text = suite.json()?;
-        write_whole(path, |to: &mut dyn Write| to.write_all(text.as_bytes()))?;
+        is_told = deliver(path, &suite.json()?)?;
     }
     if let Some(batch) = batch {
         write(&suite, batch)?;
     }
     let status = if suite.failed().next().is_none() { Status::Passed } else { Status::Failed };
+    if is_told {
+        return Ok(status);
+    }
     match print(&suite.text()) {
         Ok(_) | Err(Stop::PipeClosed) => Ok(status),
         Err(stop) => Err(stop),

@@ -53,13 +53,13 @@ pub enum Step {
 pub enum Fallback {
     /// More parts of triangles, or of an image's texels, than `fragments`.
     Fragments,
-    /// More parts of edges than `crowd`, or more items than a set has bits.
+    /// More parts of edges than `crowd`, more items than a set has bits, or a width in pixels that is not linear enough in the plan.
     Crowd,
 }
 
 impl crate::technique::Step for Step {
     fn section(&self) -> &'static str {
-        "ours: docs/semantics.md, 7"
+        "ours, semantics 7"
     }
 
     fn items(&self) -> Vec<u32> {
@@ -99,7 +99,7 @@ impl fmt::Display for Step {
             Self::Sampled { why, samples } => {
                 let what = match why {
                     Fallback::Fragments => "parts of triangles",
-                    Fallback::Crowd => "parts of edges",
+                    Fallback::Crowd => "parts of edges, or a width in pixels bends or grows too fast",
                 };
                 write!(f, "too many {what}: {samples} samples tell instead")
             }
