@@ -28,10 +28,14 @@ pub(super) fn draw(prepared: &Prepare, view: &ViewFrame, options: &FrameOptions)
     let numbers: Vec<usize> = (0..tiling.count()).collect();
     let progress = Progress::new(numbers.len(), options.progress);
     let tiles = parallel::map_with(&numbers, Room::default, |room, k| {
-        let pixels = painter.tile(&tiling.place(*k), room);
+        let mut touches = options.touches(view.width());
+        let pixels = painter.tile(&tiling.place(*k), room, &mut touches);
         progress.step();
-        pixels
+        (pixels, touches)
     });
+    let (tiles, found): (Vec<_>, Vec<_>) = tiles.into_iter().unzip();
+    let mut touches = options.touches(view.width());
+    found.into_iter().for_each(|part| touches.take(part));
     let sky = Pixel { paint: painter.backdrop.sky, class: 0, edges: 0, fragments: 0, fallback: 0 };
     let pixels = tiling.assembled(sky, tiles.iter().map(Vec::as_slice));
     drop(tiles);
@@ -44,9 +48,11 @@ pub(super) fn draw(prepared: &Prepare, view: &ViewFrame, options: &FrameOptions)
     });
     let size = tiling.size();
     let wanted = ORDER.into_iter().filter(|name| options.wants(name));
+    let own = wanted.filter_map(|name| plane(name, size, (&pixels, &coded), centres.as_ref()));
+    let picks = touches.planes(view.height(), &|name| options.wants(name));
     Frame {
         image: Buffer::from_values(size[0], size[1], coded.codes().to_vec()),
-        planes: wanted.filter_map(|name| plane(name, size, (&pixels, &coded), centres.as_ref())).collect(),
+        planes: own.chain(picks).collect(),
         counts: counts(&pixels),
     }
 }

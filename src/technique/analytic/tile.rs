@@ -14,6 +14,7 @@ use super::settings::Settings;
 use super::sheet::{BLOCK, FULL, Fragment, Sheet, square};
 use super::step::{Fallback, Step};
 use super::texels::Texels;
+use crate::buffer::Touches;
 use crate::canvas::{Backdrop, GBuffer, LastGround, Record};
 use crate::math;
 use crate::raster::Lattice;
@@ -83,9 +84,10 @@ fn class_of(class: Class) -> u8 {
 }
 
 impl<'a> Painter<'a> {
-    /// The pixels of a tile, row by row from the top.
-    pub(super) fn tile(&self, place: &TilePlace, room: &mut Room) -> Vec<Pixel> {
+    /// The pixels of a tile, row by row from the top; and which items touch them, where that is wanted.
+    pub(super) fn tile(&self, place: &TilePlace, room: &mut Room, touches: &mut Touches) -> Vec<Pixel> {
         let [width, height] = place.size;
+        room.lists.wants_sets = touches.is_wanted();
         let empty = Pixel { paint: self.backdrop.sky, class: 0, edges: 0, fragments: 0, fallback: 0 };
         let mut pixels = vec![empty; width * height];
         let samples = self.see(place, room);
@@ -93,10 +95,46 @@ impl<'a> Painter<'a> {
         for (k, block) in blocks(place).enumerate() {
             self.look_near(k, &block, room);
             for (x, y) in pixels_of(&block) {
-                pixels[y * width + x] = self.pixel([x, y], samples.as_ref(), room, &mut last, &mut ());
+                pixels[y * width + x] = if touches.is_wanted() {
+                    let mut steps = Vec::new();
+                    let pixel = self.pixel([x, y], samples.as_ref(), room, &mut last, &mut steps);
+                    let items = self.held(([x, y], &pixel), samples.as_ref(), room, &steps);
+                    let at = [place.corner[0] + x, place.corner[1] + y];
+                    items.for_each(|(item, is_central)| touches.push(at, item, is_central));
+                    pixel
+                } else {
+                    self.pixel([x, y], samples.as_ref(), room, &mut last, &mut ())
+                };
             }
         }
         pixels
+    }
+
+    /// The items that cover some of a pixel, by its steps or its samples, and those that hold its middle.
+    fn held(
+        &self,
+        (at, pixel): ([usize; 2], &Pixel),
+        samples: Option<&GBuffer>,
+        room: &mut Room,
+        steps: &[Step],
+    ) -> impl Iterator<Item = (u32, bool)> + use<> {
+        let mut held = Vec::new();
+        for step in steps {
+            if let Step::Covered { items, share } = step
+                && *share > 0.0
+            {
+                held.extend(items.iter().map(|item| (*item, false)));
+            }
+        }
+        let n = if pixel.class == SAMPLED { self.settings.samples as usize } else { 1 };
+        let middle = (n - 1) / 2;
+        for place in (0..n * n).map(|k| [k % n, k / n]) {
+            room.lists.sets.clear();
+            self.sample(at, (place, n), samples, room, &mut self.backdrop.no_ground());
+            let items = room.lists.sets.iter().flat_map(|(items, _)| items);
+            held.extend(items.map(|item| (*item, place == [middle, middle])));
+        }
+        held.into_iter()
     }
 
     /// Decides one pixel of a tile as [`Self::tile`] does.
@@ -353,24 +391,32 @@ impl<'a> Painter<'a> {
         room: &mut Room,
         last: &mut LastGround,
     ) -> Paint {
-        let Room { sheet, block, lists, origin, .. } = room;
-        let items = self.items(*origin);
         let n = self.settings.samples as usize;
-        let samples = samples.filter(|_| sheet.is_crowded(at));
-        crate::canvas::mean(n, |column, row| {
-            let place = [column, row].map(|k| (k as f64 + 0.5) / n as f64);
-            let screen = DVec2::new(at[0] as f64 + place[0], at[1] as f64 + place[1]);
-            let sample = match samples {
-                Some(seen) => {
-                    seen_sample((self.view, self.mesh), *origin, seen, [at[0] * n + column, at[1] * n + row])
-                }
-                None => fragment_at(sheet, at, screen),
-            };
-            let Some((facet, plan)) = sample else { return self.backdrop.sky };
-            let ground = self.backdrop.paint_at(last, facet.id, || plan);
-            let place = Place { facet: &facet, screen: &[screen], plan: &[plan], pixel: screen };
-            items.paint(&place, block, ground, lists).map_or(ground, |painted| painted.paint)
-        })
+        crate::canvas::mean(n, |column, row| self.sample(at, ([column, row], n), samples, room, last))
+    }
+
+    /// What a pixel shows in the middle of one of n x n equal squares.
+    fn sample(
+        &self,
+        at: [usize; 2],
+        ([column, row], n): ([usize; 2], usize),
+        samples: Option<&GBuffer>,
+        room: &mut Room,
+        last: &mut LastGround,
+    ) -> Paint {
+        let Room { sheet, block, lists, origin, .. } = room;
+        let place = [column, row].map(|k| (k as f64 + 0.5) / n as f64);
+        let screen = DVec2::new(at[0] as f64 + place[0], at[1] as f64 + place[1]);
+        let sample = match samples.filter(|_| sheet.is_crowded(at)) {
+            Some(seen) => {
+                seen_sample((self.view, self.mesh), *origin, seen, [at[0] * n + column, at[1] * n + row])
+            }
+            None => fragment_at(sheet, at, screen),
+        };
+        let Some((facet, plan)) = sample else { return self.backdrop.sky };
+        let ground = self.backdrop.paint_at(last, facet.id, || plan);
+        let place = Place { facet: &facet, screen: &[screen], plan: &[plan], pixel: screen };
+        self.items(*origin).paint(&place, block, ground, lists).map_or(ground, |painted| painted.paint)
     }
 }
 
