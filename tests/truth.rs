@@ -364,6 +364,37 @@ fn a_wide_line_of_many_segments_covers_what_its_single_segment_does() {
     }
 }
 
+/// A wide line, and over it a wide outline inside of its polygon, both half transparent and cut into so many segments.
+fn under_two_strokes_of(segments: u32, y: f64) -> Truth {
+    let place = |k: u32| f64::from(k) / f64::from(segments);
+    let half = Color([1.0, 0.0, 0.0, 0.5]);
+    let along: Vec<_> = (0..=4 * segments).map(|k| (10.0 * place(k) - 20.0, y)).collect();
+    let wide = Line { color: half, width: Width::Metres(9.0), join: Join::Round, cap: Cap::Round };
+    let mut ring: Vec<_> = (0..=segments).map(|k| (40.0 * place(k) - 20.0, 0.25)).collect();
+    ring.extend([(20.0, 60.0), (-20.0, 60.0)]);
+    let outline =
+        Outline { line: Line { color: Color([0.0, 0.0, 1.0, 0.5]), ..wide }, mode: OutlineMode::Inset };
+    let style = Style { outline: Some(outline), ..Style::default() };
+    truth(&map(6, vec![line(&along, wide), layer(Shape::Polygon(vec![plan(&ring)]), style)]), flat(), 1e-4)
+}
+
+#[test]
+fn strokes_that_cover_a_pixel_with_any_of_their_many_parts_are_painted_once_each() {
+    // Either may be found first.
+    for at in [-2.47, 0.53] {
+        let [one, many] = [1, 2000].map(|segments| under_two_strokes_of(segments, at));
+        for (y, x) in (0..6).flat_map(|y| (0..6).map(move |x| (y, x))) {
+            for c in 0..4 {
+                let (low, high) = (one.low.at(x, y)[c], one.high.at(x, y)[c]);
+                assert!(
+                    many.low.at(x, y)[c] <= high + 1e-6 && low <= many.high.at(x, y)[c] + 1e-6,
+                    "{x},{y}"
+                );
+            }
+        }
+    }
+}
+
 #[test]
 fn a_pixel_of_thirty_thousand_triangles_is_the_mean_of_the_pixels_that_it_would_be() {
     let layers = vec![

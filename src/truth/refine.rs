@@ -369,8 +369,9 @@ impl Refinery {
         for run in near.runs() {
             fresh.push(self.shapes_near(middle, plan, run, near));
         }
+        let with_parts = fresh.len();
         for item in near.covering() {
-            if fresh.binary_search_by_key(item, |s| s.item).is_err() {
+            if fresh[..with_parts].binary_search_by_key(item, |s| s.item).is_err() {
                 let mut state = middle.first_state(*item, Edges::Beyond(plan), (0, 0));
                 state.stroke = Known::In;
                 fresh.push(state);
@@ -387,6 +388,7 @@ impl Refinery {
         });
         fresh.retain(|state| state.known() != Known::Out);
         fresh.sort_unstable_by_key(|state| state.item);
+        debug_assert!(fresh.windows(2).all(|pair| pair[0].item < pair[1].item), "an item is known once");
         let first = self.states.len() as u32;
         self.states.extend_from_slice(&fresh);
         self.fresh = fresh;
