@@ -184,25 +184,20 @@ impl<'l> Footprints<'l> {
     /// The ends of the edge of a polygon that a part is; `None`: it is of a stroke.
     #[inline]
     pub fn edge(&self, part: BorderPart) -> Option<[Plan; 2]> {
-        let (vertices, at) = (self.list.vertices(), part.vertex as usize);
         let is_edge = (part.chain as usize) < self.list.items()[part.item as usize].area.len();
-        is_edge.then(|| [vertices[at], vertices[at + 1]])
+        is_edge.then(|| self.segment(part))
     }
 
-    /// How far a plan point is from the segment or edge that a part is of, metres, up to a few roundings.
-    pub fn distance(&self, part: BorderPart, at: Plan) -> f64 {
-        let vertices = self.list.vertices();
-        let ends = match stroke_of(self.list, part.item, part.chain) {
+    /// The ends of the segment or edge that a part is of.
+    pub fn segment(&self, part: BorderPart) -> [Plan; 2] {
+        let (vertices, at) = (self.list.vertices(), part.vertex as usize);
+        match stroke_of(self.list, part.item, part.chain) {
             Some((chain, _)) => {
-                let segment = segment_of(vertices, chain, part.vertex as usize);
+                let segment = segment_of(vertices, chain, at);
                 [segment.from, segment.to]
             }
-            None => [vertices[part.vertex as usize], vertices[part.vertex as usize + 1]],
-        };
-        let (along, away) = (ends[1] - ends[0], at - ends[0]);
-        let squared = along.length_squared();
-        let share = if squared > 0.0 { (away.dot(along) / squared).clamp(0.0, 1.0) } else { 0.0 };
-        (away - along * share).length()
+            None => [vertices[at], vertices[at + 1]],
+        }
     }
 
     /// What a part is made of.

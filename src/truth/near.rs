@@ -1,7 +1,7 @@
 //! The parts of items' borders that are near a fragment; of a crowd of one item's those are left out that cannot matter.
 
 use super::knowledge::Middle;
-use super::shape::Verdict;
+use super::shape::{Verdict, distance};
 use crate::footprint::{BorderPart, Primitive};
 use crate::space::PlanBox;
 
@@ -99,7 +99,11 @@ impl Near {
         let (footprints, at) = (middle.pixel.setting.footprints, middle.hit().plan);
         let run = self.parts.iter().filter(|part| part.item == item);
         let strokes = run.filter(|part| footprints.edge(**part).is_none());
-        let mut strokes: Vec<_> = strokes.map(|part| (footprints.distance(*part, at), *part)).collect();
+        let away = |part: BorderPart| {
+            let [from, to] = footprints.segment(part);
+            distance(from, to, at)
+        };
+        let mut strokes: Vec<_> = strokes.map(|part| (away(*part), *part)).collect();
         strokes.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let is_over = strokes.iter().take(MOST_ASKED).any(|(_, part)| {
             self.primitives.clear();
