@@ -12,10 +12,10 @@ use super::quadtree::{Kind, LeafEdges, Start};
 use super::settings::REACH_OF_40;
 use super::settings::{Joins, Outlines};
 use super::stroke::{StrokeRules, around};
-use crate::draw_list::{DrawList, ItemStyle, Role, Side};
+use crate::draw_list::{DrawList, ItemStyle, Side};
 use crate::error::{Error, Result};
 use crate::parallel;
-use crate::scene::{Cap, Join, Rule};
+use crate::scene::{Cap, Join};
 use crate::space::{Plan, PlanBox};
 
 /// The number of no row.
@@ -118,18 +118,7 @@ impl Decals<'_> {
 
 impl Arrays {
     fn add_style(&mut self, style: &ItemStyle, rules: Option<&StrokeRules>) {
-        let role = match style.role {
-            Role::Fill => 0,
-            Role::Outside => 1,
-            Role::Outline => 2,
-            Role::Line => 3,
-            Role::Point => 4,
-        };
-        let rule = match style.rule {
-            Rule::EvenOdd => 0,
-            Rule::NonZero => 1,
-        };
-        let cut = style.cut.map_or(0, |side| if side == Side::Inside { 1 } else { 2 });
+        let [role, rule, cut] = style.codes();
         let (join, limit) = rules.map_or((0, 0.0), |rules| match (rules.join, rules.joins) {
             (Join::Round, _) => (0, 0.0),
             (Join::Bevel, _) => (1, 0.0),

@@ -49,6 +49,28 @@ pub struct ItemStyle {
 }
 
 impl ItemStyle {
+    /// What it is, its rule and the side that counts, as tables for clients have them: 0 a fill, 1 what is outside, 2 an outline, 3 a line, 4 a point; 0 even-odd,
+    /// 1 nonzero; 0 both sides, 1 the inside, 2 the outside.
+    pub fn codes(&self) -> [u32; 3] {
+        let role = match self.role {
+            Role::Fill => 0,
+            Role::Outside => 1,
+            Role::Outline => 2,
+            Role::Line => 3,
+            Role::Point => 4,
+        };
+        let rule = match self.rule {
+            Rule::EvenOdd => 0,
+            Rule::NonZero => 1,
+        };
+        let cut = match self.cut {
+            None => 0,
+            Some(Side::Inside) => 1,
+            Some(Side::Outside) => 2,
+        };
+        [role, rule, cut]
+    }
+
     /// Numbers that two styles share only if they are equal.
     fn key(&self) -> [u64; 11] {
         let [r, g, b, a] = self.paint.0.map(f64::to_bits);

@@ -2,8 +2,7 @@
 
 use crate::buffer::{Plane, Values};
 use crate::canvas::table;
-use crate::draw_list::{DrawList, Role, Side};
-use crate::scene::Rule;
+use crate::draw_list::DrawList;
 
 /// A row an item in draw order: layer, feature in the layer ([`crate::draw_list::NO_FEATURE`] of what is outside of all polygons), what it is (0 a fill, 1
 /// what is outside, 2 an outline, 3 a line, 4 a point), its polygon's rule (0 even-odd, 1 nonzero), which side of that counts (0 both, 1 its inside, 2 its
@@ -11,19 +10,7 @@ use crate::scene::Rule;
 pub fn items(list: &DrawList) -> Plane {
     let row = |number: u32, layer: u32, feature: u32| {
         let style = list.style_of(number);
-        let role = match style.role {
-            Role::Fill => 0,
-            Role::Outside => 1,
-            Role::Outline => 2,
-            Role::Line => 3,
-            Role::Point => 4,
-        };
-        let cut = match style.cut {
-            None => 0,
-            Some(Side::Inside) => 1,
-            Some(Side::Outside) => 2,
-        };
-        let rule = u32::from(style.rule == Rule::NonZero);
+        let [role, rule, cut] = style.codes();
         [layer, feature, role, rule, cut, u32::from(style.group.is_some())]
     };
     let mut rows = list.numbered().map(|(number, item)| row(number, item.layer, item.feature)).collect();
