@@ -4,8 +4,9 @@ use super::figure::{Content, Figure, Panel, Paper};
 use super::made::{Made, letter};
 use super::unmade::{UNMADE, Unmade};
 use crate::error::{Error, Result};
+use crate::output::document;
 use crate::output::{base64, small_png};
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{Markup, PreEscaped, html};
 
 const STYLE: &str = include_str!("page.css");
 
@@ -21,35 +22,25 @@ pub(super) fn page(made: &[Made]) -> Result<String> {
         let figures: Vec<Markup> = of(*paper).map(section).collect::<Result<_>>()?;
         sections.push(html! { h2 { (paper.title()) } @for figure in &figures { (figure) } });
     }
-    let page = html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                meta name="color-scheme" content="light dark";
-                title { "The papers' figures, made again" }
-                style { (PreEscaped(STYLE)) }
-            }
-            body {
-                header {
-                    h1 { "The papers' figures, made again" }
-                    p.lead {
-                        "What the papers on vector data over terrain show, drawn by their own techniques as this program imitates them, on data "
-                        "that is generated: landscapes are not the papers', what happens in them is. Drawings show the program's own structures. "
-                        "The same bits on every machine."
-                    }
-                    nav aria-label="figures" { @for paper in &papers {
-                        p { (paper.title()) }
-                        ul { @for one in of(*paper) { li { a href={ "#" (one.figure.name) } { (one.figure.name) } } } }
-                    } }
+    let body = html! {
+        body {
+            header {
+                h1 { "The papers' figures, made again" }
+                p.lead {
+                    "What the papers on vector data over terrain show, drawn by their own techniques as this program imitates them, on data "
+                    "that is generated: landscapes are not the papers', what happens in them is. Drawings show the program's own structures. "
+                    "The same bits on every machine."
                 }
-                @for section in &sections { (section) }
-                @if !UNMADE.is_empty() { (unmade()) }
+                nav aria-label="figures" { @for paper in &papers {
+                    p { (paper.title()) }
+                    ul { @for one in of(*paper) { li { a href={ "#" (one.figure.name) } { (one.figure.name) } } } }
+                } }
             }
+            @for section in &sections { (section) }
+            @if !UNMADE.is_empty() { (unmade()) }
         }
     };
-    Ok(page.into_string() + "\n")
+    Ok(document("The papers' figures, made again", STYLE, &body))
 }
 
 /// A figure.

@@ -5,8 +5,9 @@ use super::super::interesting::Interesting;
 use super::drawing::data_url;
 use super::fragment::fragment;
 use crate::error::{Error, Result};
+use crate::output::document;
 use crate::output::small_png;
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{Markup, PreEscaped, html};
 
 const STYLE: &str = include_str!("style.css");
 const SCRIPT: &str = include_str!("script.js");
@@ -86,18 +87,6 @@ fn pictures(interesting: &Interesting) -> Result<Markup> {
 }
 
 fn page(title: &str, body: Markup, is_wide: bool) -> String {
-    let page = html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                meta name="color-scheme" content="light dark";
-                title { (title) }
-                style { (PreEscaped(STYLE)) }
-            }
-            body.wide[is_wide] { (body) script { (PreEscaped(SCRIPT)) } }
-        }
-    };
-    page.into_string() + "\n"
+    let body = html! { body.wide[is_wide] { (body) script { (PreEscaped(SCRIPT)) } } };
+    document(title, STYLE, &body)
 }

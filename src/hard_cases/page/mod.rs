@@ -7,8 +7,9 @@ use super::suite::{CaseResult, Suite};
 use super::text::told;
 use crate::buffer::Buffer;
 use crate::error::{Error, Result};
+use crate::output::document;
 use crate::output::{base64, small_png};
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{Markup, html};
 
 const STYLE: &str = include_str!("style.css");
 
@@ -19,32 +20,22 @@ impl Suite {
     /// Internal errors only.
     pub fn page(&self) -> Result<String> {
         let cases = self.cases.iter().map(section).collect::<Result<Vec<Markup>>>()?;
-        let page = html! {
-            (DOCTYPE)
-            html lang="en" {
-                head {
-                    meta charset="utf-8";
-                    meta name="viewport" content="width=device-width, initial-scale=1";
-                    meta name="color-scheme" content="light dark";
-                    title { "Hard cases" }
-                    style { (PreEscaped(STYLE)) }
-                }
-                body {
-                    header {
-                        h1 { "Hard cases" }
-                        p.lead {
-                            "Failures that users of real systems reported, as scenes with a known right answer: by the truth and by each technique that "
-                            "they concern, as exact mathematics (f64) and on imitated machines. Features are white on black, so that a pixel is as bright as it is covered."
-                        }
-                        p.facts { (self.counted()) "." }
-                        (contents(&self.cases))
+        let body = html! {
+            body {
+                header {
+                    h1 { "Hard cases" }
+                    p.lead {
+                        "Failures that users of real systems reported, as scenes with a known right answer: by the truth and by each technique that "
+                        "they concern, as exact mathematics (f64) and on imitated machines. Features are white on black, so that a pixel is as bright as it is covered."
                     }
-                    @for case in &cases { (case) }
-                    @if !self.curves.is_empty() { (plot::section(&self.curves)) }
+                    p.facts { (self.counted()) "." }
+                    (contents(&self.cases))
                 }
+                @for case in &cases { (case) }
+                @if !self.curves.is_empty() { (plot::section(&self.curves)) }
             }
         };
-        Ok(page.into_string() + "\n")
+        Ok(document("Hard cases", STYLE, &body))
     }
 }
 

@@ -6,11 +6,13 @@ use super::plot::{self, View};
 use super::{Exhibit, Metric, Report, SceneReport, exhibit};
 use crate::error::Result;
 use crate::output::base64;
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use crate::output::document;
+use maud::{Markup, PreEscaped, html};
 pub(super) use rows::size;
 use rows::table;
 
-const STYLE: &str = include_str!("style.css");
+/// How pages of reports look.
+pub(super) const STYLE: &str = include_str!("style.css");
 const SCRIPT: &str = include_str!("script.js");
 
 /// The bytes of PNG files that a page carries at most: a third more as text.
@@ -27,19 +29,6 @@ pub struct Section<'a> {
     pub plots: &'a [String],
 }
 
-/// A page's head.
-pub(super) fn head(title: &str) -> Markup {
-    html! {
-        head {
-            meta charset="utf-8";
-            meta name="viewport" content="width=device-width, initial-scale=1";
-            meta name="color-scheme" content="light dark";
-            title { (title) }
-            style { (PreEscaped(STYLE)) }
-        }
-    }
-}
-
 /// The text of the page.
 ///
 /// # Errors
@@ -47,27 +36,23 @@ pub(super) fn head(title: &str) -> Markup {
 pub fn page(report: &Report, sections: &[Section]) -> Result<String> {
     let scale = exhibit::scale()?;
     let (share, mut room) = (MOST_BYTES / sections.len().max(1), 0);
-    let page = html! {
-        (DOCTYPE)
-        html lang="en" {
-            (head(&format!("Speed against error: {}", names(report))))
-            body {
-                header {
-                    h1 { "Speed against error" }
-                    p.lead {
-                        "Every technique over its settings, measured against the certified truth. Error is the distance of a "
-                        "channel (0 to 1) from the interval that provably holds the right value; 0 inside it. "
-                        @if report.repeat == 1 { "Times are of one run." }
-                        @else { "Times are medians of " (report.repeat) " runs, with the shortest and the longest." }
-                    }
+    let body = html! {
+        body {
+            header {
+                h1 { "Speed against error" }
+                p.lead {
+                    "Every technique over its settings, measured against the certified truth. Error is the distance of a "
+                    "channel (0 to 1) from the interval that provably holds the right value; 0 inside it. "
+                    @if report.repeat == 1 { "Times are of one run." }
+                    @else { "Times are medians of " (report.repeat) " runs, with the shortest and the longest." }
                 }
-                @for section in sections { (section.markup(&mut room, share, &scale)) }
-                (footer())
-                script { (PreEscaped(SCRIPT)) }
             }
+            @for section in sections { (section.markup(&mut room, share, &scale)) }
+            (footer())
+            script { (PreEscaped(SCRIPT)) }
         }
     };
-    Ok(page.into_string() + "\n")
+    Ok(document(&format!("Speed against error: {}", names(report)), STYLE, &body))
 }
 
 fn names(report: &Report) -> String {

@@ -1,32 +1,29 @@
 //! `tables.html`: the tables beside the paper's, one page that needs no network.
 
 use super::super::super::axis::{duration, short};
-use super::super::super::page::head;
+use super::super::super::page::STYLE;
 use super::super::grouped::grouped;
 use super::{DataSet, Row, Table, Tables};
-use maud::{DOCTYPE, Markup, html};
+use crate::output::document;
+use maud::{Markup, html};
 
 /// The text of the page.
 pub fn page(tables: &Tables) -> String {
-    let page = html! {
-        (DOCTYPE)
-        html lang="en" {
-            (head("Line rendering by inverse projection: the tables"))
-            body {
-                header {
-                    h1 { "Line rendering by inverse projection" }
-                    p.lead {
-                        "Tables 2 to 5 and the frame rates of Fig. 14 of She et al. 2016, measured anew in software on data in the likeness of the paper's. Counts are the same in "
-                        "every run. Times are this machine's. "
-                        @if tables.repeat == 1 { "Each is of one run." } @else { "Each is the median of " (tables.repeat) " runs." }
-                    }
+    let body = html! {
+        body {
+            header {
+                h1 { "Line rendering by inverse projection" }
+                p.lead {
+                    "Tables 2 to 5 and the frame rates of Fig. 14 of She et al. 2016, measured anew in software on data in the likeness of the paper's. Counts are the same in "
+                    "every run. Times are this machine's. "
+                    @if tables.repeat == 1 { "Each is of one run." } @else { "Each is the median of " (tables.repeat) " runs." }
                 }
-                @for table in Table::ALL { (section(tables, table)) }
-                (footer())
             }
+            @for table in Table::ALL { (section(tables, table)) }
+            (footer())
         }
     };
-    page.into_string() + "\n"
+    document("Line rendering by inverse projection: the tables", STYLE, &body)
 }
 
 /// A table, with the rows of all data sets that have some.

@@ -1,34 +1,31 @@
 //! `tables.html`: the tables with bars, one page that needs no network.
 
 use super::super::super::axis::{duration, short};
-use super::super::super::page::{head, size};
+use super::super::super::page::{STYLE, size};
 use super::super::grouped::grouped;
 use super::{DataSet, SolutionRow, Tables, WidthRow};
-use maud::{DOCTYPE, Markup, html};
+use crate::output::document;
+use maud::{Markup, html};
 
 /// The text of the page.
 pub fn page(tables: &Tables) -> String {
-    let page = html! {
-        (DOCTYPE)
-        html lang="en" {
-            (head("Line rasterization for multi-resolution textures: the tables"))
-            body {
-                header {
-                    h1 { "Line rasterization for multi-resolution textures" }
-                    p.lead {
-                        "The tables of Taibo et al. 2014, section 5, measured anew in software: what each solution keeps in memory, how long "
-                        "it takes to make that, and how long all tiles of the clipmap around the middle take. Percentages are of the best, as "
-                        "in the paper's Figures 10 to 12. "
-                        @if tables.repeat == 1 { "Times are of one run." }
-                        @else { "Times are medians of " (tables.repeat) " runs." }
-                    }
+    let body = html! {
+        body {
+            header {
+                h1 { "Line rasterization for multi-resolution textures" }
+                p.lead {
+                    "The tables of Taibo et al. 2014, section 5, measured anew in software: what each solution keeps in memory, how long "
+                    "it takes to make that, and how long all tiles of the clipmap around the middle take. Percentages are of the best, as "
+                    "in the paper's Figures 10 to 12. "
+                    @if tables.repeat == 1 { "Times are of one run." }
+                    @else { "Times are medians of " (tables.repeat) " runs." }
                 }
-                @for set in &tables.data_sets { (data_set(set)) }
-                (footer())
             }
+            @for set in &tables.data_sets { (data_set(set)) }
+            (footer())
         }
     };
-    page.into_string() + "\n"
+    document("Line rasterization for multi-resolution textures: the tables", STYLE, &body)
 }
 
 fn data_set(set: &DataSet) -> Markup {

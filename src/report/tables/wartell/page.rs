@@ -1,35 +1,32 @@
 //! `tables.html`: the tables beside the paper's, one page that needs no network.
 
 use super::super::super::axis::{duration, short};
-use super::super::super::page::{head, size};
+use super::super::super::page::{STYLE, size};
 use super::super::grouped::grouped;
 use super::Tables;
 use super::paper::{COVERING_TRIANGLES, POINTS, QUAD_BYTES, TABLE_1};
 use super::rows::{DataSet, Form, POLYLINES, Row, Stored};
 use super::sweeps::{BORROW, ERROR_PX, OFFSET, SWEEPS, Sweep, TOLERANCE};
-use maud::{DOCTYPE, Markup, html};
+use crate::output::document;
+use maud::{Markup, html};
 
 /// The text of the page.
 pub fn page(tables: &Tables) -> String {
-    let page = html! {
-        (DOCTYPE)
-        html lang="en" {
-            (head("Vector data over multi-resolution terrain: the tables"))
-            body {
-                header {
-                    h1 { "Vector data over multi-resolution terrain" }
-                    p.lead {
-                        "Table 1 and the storage of section 3.3 of Wartell et al. 2003, measured anew in software, and geometry overlay over what can be set of its mesh "
-                        "and its lines. Counts and bytes are the same in every run. Times are this machine's. "
-                        @if tables.repeat == 1 { "Each is of one run." } @else { "Each is the median of " (tables.repeat) " runs." }
-                    }
+    let body = html! {
+        body {
+            header {
+                h1 { "Vector data over multi-resolution terrain" }
+                p.lead {
+                    "Table 1 and the storage of section 3.3 of Wartell et al. 2003, measured anew in software, and geometry overlay over what can be set of its mesh "
+                    "and its lines. Counts and bytes are the same in every run. Times are this machine's. "
+                    @if tables.repeat == 1 { "Each is of one run." } @else { "Each is the median of " (tables.repeat) " runs." }
                 }
-                @for set in &tables.data_sets { (data_set(set)) }
-                (footer())
             }
+            @for set in &tables.data_sets { (data_set(set)) }
+            (footer())
         }
     };
-    page.into_string() + "\n"
+    document("Vector data over multi-resolution terrain: the tables", STYLE, &body)
 }
 
 fn data_set(set: &DataSet) -> Markup {

@@ -1,7 +1,7 @@
 //! `tables.html`: the tables and figures on one page that needs no network.
 
 use super::super::super::axis::{duration, short};
-use super::super::super::page::{head, size};
+use super::super::super::page::{STYLE, size};
 use super::super::grouped::grouped;
 use super::Tables;
 use super::amounts::Amount;
@@ -9,7 +9,8 @@ use super::figures::{FIGURES, Figure};
 use super::rows::{DataSet, Row};
 use super::trends::{METRICS, Sign, Trend};
 use crate::math::max;
-use maud::{DOCTYPE, Markup, html};
+use crate::output::document;
+use maud::{Markup, html};
 use std::collections::BTreeMap;
 
 /// What the thesis's text says of itself and its tables do not.
@@ -22,28 +23,24 @@ const SLIPS: [&str; 2] = [
 
 /// The text of the page.
 pub fn page(tables: &Tables) -> String {
-    let page = html! {
-        (DOCTYPE)
-        html lang="en" {
-            (head("Vector data on heightfields: the tables"))
-            body {
-                header {
-                    h1 { "Vector data on heightfields" }
-                    p.lead {
-                        "Chapter 5 of Zechmeister 2020, measured anew in software: static decals (after Thöny 2017 and Frasson 2018) and dynamic lines, beside "
-                        "stencil volumes. Memory is bytes of structures and work counts what a frame looks at; they are the same in every run. Times are "
-                        "this machine's. "
-                        @if tables.repeat == 1 { "Each is of one run." } @else { "Each is the median of " (tables.repeat) " runs." }
-                    }
+    let body = html! {
+        body {
+            header {
+                h1 { "Vector data on heightfields" }
+                p.lead {
+                    "Chapter 5 of Zechmeister 2020, measured anew in software: static decals (after Thöny 2017 and Frasson 2018) and dynamic lines, beside "
+                    "stencil volumes. Memory is bytes of structures and work counts what a frame looks at; they are the same in every run. Times are "
+                    "this machine's. "
+                    @if tables.repeat == 1 { "Each is of one run." } @else { "Each is the median of " (tables.repeat) " runs." }
                 }
-                (data(&tables.data_sets))
-                (trend_table(&tables.trends))
-                @for figure in &FIGURES { (section(figure, &tables.data_sets)) }
-                (footer())
             }
+            (data(&tables.data_sets))
+            (trend_table(&tables.trends))
+            @for figure in &FIGURES { (section(figure, &tables.data_sets)) }
+            (footer())
         }
     };
-    page.into_string() + "\n"
+    document("Vector data on heightfields: the tables", STYLE, &body)
 }
 
 /// Tables 5.1 to 5.3.
