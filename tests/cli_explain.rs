@@ -48,7 +48,8 @@ fn calls_that_ask_for_nothing_that_can_be_told_exit_with_2() {
         said
     };
     assert!(refused(&[]).contains("--pixel"));
-    assert!(refused(&["--pixel", "12"]).contains("a pixel is a column and a row, such as 640,420"));
+    assert!(refused(&["--pixel", "12"]).contains("a pixel is its column and its row, such as 640,420"));
+    assert!(refused(&["--pixel", "-1,3"]).contains("from 0 at the upper left"));
     assert!(refused(&["--html", "why.html", "--feature", "field"]).contains("--pixel"));
     assert!(refused(&["--pixel", "24,7"]).contains("there is no pixel 24,7 in a picture of 24 x 16"));
     assert!(refused(&["--pixel", "1,7", "-t", "dynamic-line"]).contains("width in pixels"));

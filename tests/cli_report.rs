@@ -401,6 +401,12 @@ fn a_paper_that_has_no_tables_is_refused() {
 }
 
 #[test]
+fn a_paper_after_a_space_is_told_from_a_scene() {
+    let told = Place::new().refused(&["--tables", "she"]);
+    assert!(told.contains("say --tables=she"), "{told}");
+}
+
+#[test]
 fn tables_of_a_scene_without_lines_are_refused() {
     let place = Place::new();
     let areas = SCENE.split("[[layer]]\nname = \"road\"").next().unwrap();

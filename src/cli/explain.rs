@@ -2,6 +2,7 @@
 
 use super::bar::Bar;
 use super::device_argument::DeviceArgument;
+use super::pixel::pixel;
 use super::print::{check_files, deliver, print};
 use super::render::techniques::{self, Name};
 use super::scene_input;
@@ -30,7 +31,7 @@ pub(super) struct Arguments {
     /// The scene file, `-` for stdin; without it, a built-in generated scene.
     scene: Option<PathBuf>,
     /// The pixel: column and row, from 0 at the upper left. Without it, a page of the whole picture is written, in which one clicks.
-    #[arg(long, value_name = "X,Y", value_parser = pixel, required_unless_present = "html")]
+    #[arg(long, value_name = "X,Y", value_parser = pixel, allow_hyphen_values = true, required_unless_present = "html")]
     pixel: Option<[usize; 2]>,
     /// A technique to ask; may be repeated. Default: all that draw the scene.
     #[arg(short, long = "technique", value_name = "T")]
@@ -57,12 +58,6 @@ pub(super) struct Arguments {
     device: DeviceArgument,
     #[command(flatten)]
     truth: TruthArguments,
-}
-
-fn pixel(text: &str) -> std::result::Result<[usize; 2], String> {
-    let numbers =
-        text.split_once(',').and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]));
-    numbers.ok_or_else(|| "a pixel is a column and a row, such as 640,420".into())
 }
 
 pub(super) fn run(arguments: &Arguments) -> Outcome {

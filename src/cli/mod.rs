@@ -18,6 +18,7 @@ mod info;
 mod judge_test;
 mod lines;
 mod new;
+mod pixel;
 mod print;
 mod reduce;
 mod refusal;

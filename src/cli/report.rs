@@ -4,12 +4,13 @@ use super::bar::Bar;
 use super::scene_input;
 use super::stop::{Outcome, Status, Stop};
 use super::truth_arguments::TruthArguments;
+use clap::ValueEnum;
 use drapery::output::Batch;
 use drapery::report::tables::{she, taibo, wartell, zechmeister};
 use drapery::report::{self, SceneReport};
 use drapery::scene_file::{DEFAULT_SCENE, SceneText};
-use drapery::{Opened, Result, parallel};
-use std::path::PathBuf;
+use drapery::{Error, Opened, Result, parallel};
+use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -80,6 +81,9 @@ enum Paper {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Outcome {
+    if let (Some(_), [scene, ..]) = (arguments.tables, &arguments.scenes[..]) {
+        check_paper(scene)?;
+    }
     match arguments.tables {
         None => run_report(arguments),
         Some(Paper::Taibo) => run_taibo(arguments),
@@ -87,6 +91,17 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
         Some(Paper::Wartell) => run_wartell(arguments),
         Some(Paper::She) => run_she(arguments),
     }
+}
+
+/// A paper's name is joined to `--tables`: after a space it is a scene, and is taken for a slip where there is no such file.
+fn check_paper(scene: &Path) -> Result<()> {
+    let Some(name) = scene.to_str() else { return Ok(()) };
+    if scene.exists() || Paper::from_str(name, true).is_err() {
+        return Ok(());
+    }
+    let error =
+        Error::usage(format!("`{name}` after `--tables` and a space is a scene, and there is no such file"));
+    Err(error.help(format!("say --tables={name}")))
 }
 
 /// Measures speed against error.

@@ -5,6 +5,7 @@ pub(super) mod techniques;
 
 use super::bar::Bar;
 use super::device_argument::DeviceArgument;
+use super::pixel::pixel;
 use super::print::print;
 use super::scene_input;
 use super::stop::{Outcome, Status};
@@ -56,7 +57,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     buffers: Vec<String>,
     /// Tell which features there are at a pixel (column, row, from 0 at the upper left), by the truth and each technique; also in result.json.
-    #[arg(long, value_name = "X,Y", value_parser = pick::pixel)]
+    #[arg(long, value_name = "X,Y", value_parser = pixel, allow_hyphen_values = true)]
     pick: Option<[usize; 2]>,
     /// How many threads; 0: as many as the machine has. The pictures are the same.
     #[arg(long, value_name = "N", default_value_t = 0)]

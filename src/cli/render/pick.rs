@@ -4,13 +4,6 @@ use crate::cli::refusal::harmless;
 use drapery::output::{ItemResult, PickResult, PickedItem, PickedRun};
 use std::fmt::Write;
 
-/// A pixel as it is written: `X,Y`.
-pub(super) fn pixel(text: &str) -> Result<[usize; 2], String> {
-    let whole = |number: &str| number.trim().parse::<usize>().ok();
-    let pixel = text.split_once(',').and_then(|(x, y)| Some([whole(x)?, whole(y)?]));
-    pixel.ok_or_else(|| "a pixel is its column and its row, such as 310,205".into())
-}
-
 /// What each run says of the pixel, the topmost item first; `items` tells of those that are named.
 pub(super) fn text(pick: &PickResult, items: &[ItemResult]) -> String {
     let mut text = format!("pixel {},{}\n", pick.pixel[0], pick.pixel[1]);
