@@ -61,23 +61,27 @@ fn sign(is_positive: bool) -> i32 {
 ///
 /// Point, bend and corner are all moved to the north-east by the same steps. So no end of an edge lies on the path, an edge is crossed or is
 /// not, and all that are crossed meet the rectangle between the point and the corner, border included.
+///
+/// Where an edge lies of the corner does not depend on the point, and is exact in any arithmetic, as the corner's own winding number is: in single
+/// precision an edge through the corner would turn all of a leaf inside out.
 pub(super) fn turns_above<A: Arithmetic>(
     edges: impl Iterator<Item = (Plan, Plan)>,
     corner: Plan,
     at: Plan,
 ) -> i32 {
     let point = |p: Plan| [A::number(p.x), A::number(p.y)];
-    let (corner, at) = (point(corner), point(at));
-    let bend = [corner[0], at[1]];
+    let exact = |p: Plan| [p.x, p.y];
+    let at = point(at);
+    let bend = [A::number(corner.x), at[1]];
     let mut turns = 0;
-    for (a, b) in edges {
-        let (a, b) = (point(a), point(b));
+    for (from, to) in edges {
+        let (a, b) = (point(from), point(to));
         let (rises, is_level) = (a[1] <= at[1], (a[1] <= at[1]) == (b[1] <= at[1]));
-        if is_level && (!rises || (a[1] <= corner[1] && b[1] <= corner[1])) {
+        if is_level && (!rises || (from.y <= corner.y && to.y <= corner.y)) {
             // All of it is higher than the path, or all of it lower.
             continue;
         }
-        let (goes_east, is_upright) = (a[0] <= corner[0], (a[0] <= corner[0]) == (b[0] <= corner[0]));
+        let (goes_east, is_upright) = (from.x <= corner.x, (from.x <= corner.x) == (to.x <= corner.x));
         if is_upright {
             // It can be crossed on the way to the east only.
             if goes_east && !is_level && A::is_left(a, b, at) == rises {
@@ -89,7 +93,7 @@ pub(super) fn turns_above<A: Arithmetic>(
         if !is_level && bend_is_left != rises && A::is_left(a, b, at) == rises {
             turns += sign(rises);
         }
-        if bend_is_left == goes_east && A::is_left(a, b, corner) != goes_east {
+        if bend_is_left == goes_east && Exact::is_left(exact(from), exact(to), exact(corner)) != goes_east {
             turns += sign(goes_east);
         }
     }

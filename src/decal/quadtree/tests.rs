@@ -226,6 +226,24 @@ proptest! {
         }
     }
 
+    /// An edge along the diagonal of the ring's box goes through the corners of leaves, at every depth.
+    #[test]
+    fn in_single_precision_an_edge_through_a_leafs_corner_turns_nothing_inside_out(
+        ring in proptest::collection::vec((0.0..1.0, 0.0..1.0), 4..30), origin in (-99.0..99.0, -99.0..99.0), size in (1.0..99.0, 1.0..99.0),
+        depth in 1..6u32, points in proptest::collection::vec((0.0..1.0, 0.0..1.0), 20),
+    ) {
+        let placed = |(x, y): (f64, f64)| (origin.0 + size.0 * x, origin.1 + size.1 * y);
+        let ring: Vec<_> = ring.into_iter().chain([(0.0, 0.0), (1.0, 1.0)]).map(placed).collect();
+        let (vertices, first) = among_others(&ring);
+        let path = &vertices[first as usize..];
+        let tree = tree_of(&vertices, first, Limits { capacity: 4, depth }, LeafPolygons::Corner);
+        let points = points.into_iter().map(placed).map(|(x, y)| Plan::new(x, y));
+        for at in points.filter(|at| distance(path, *at) > 1e-3) {
+            let got = tree.winding_f32(&vertices, Start::ROOT, [at.x as f32, at.y as f32], &mut Counts::default());
+            prop_assert_eq!(got, truth(path, at), "{:?}", at);
+        }
+    }
+
     #[test]
     fn leaves_have_no_more_edges_than_the_limits_say_and_all_that_meet_them(ring in ring_on_lattice(), limits in limits()) {
         let (vertices, first) = among_others(&ring);
