@@ -206,7 +206,7 @@ impl<'l> Footprints<'l> {
         match stroke_of(self.list, part.item, part.chain) {
             Some((chain, line)) => {
                 let segment = segment_of(vertices, chain, at);
-                let of = (&self.pixel, self.strokes);
+                let of = (&self.pixel, self.strokes.of(self.list.style_of(part.item).role));
                 match self.list.style_of(part.item).cut.filter(|_| self.strokes.is_cut_by_side()) {
                     Some(cut) => {
                         let is_left = self.sides.get(&(part.item, part.chain)).copied().flatten();
@@ -345,10 +345,11 @@ impl Parts<'_> {
             }
         };
         if let Some((chain, line)) = stroke_of(self.list, item, place) {
+            let strokes = self.strokes.of(self.list.style_of(item).role);
             // A dot is a part too.
             for vertex in chain.first..chain.first + chain.segments().max(1) {
                 let segment = segment_of(vertices, chain, vertex as usize);
-                if let Some(reach) = stroke::reach(&segment, line, (self.pixel, self.strokes)) {
+                if let Some(reach) = stroke::reach(&segment, line, (self.pixel, strokes)) {
                     add(vertex, [segment.from, segment.to], reach);
                 }
             }

@@ -2,6 +2,7 @@
 
 use super::primitive::{Convex, HalfPlane, Primitive};
 use super::{Away, PixelSize, grows_with_distance};
+use crate::draw_list::Role;
 use crate::interval::Ball;
 use crate::math;
 use crate::predicate::orient2d;
@@ -14,7 +15,8 @@ pub enum Strokes {
     /// What their style says: the definition (`docs/semantics.md`).
     #[default]
     Style,
-    /// A rectangle a segment, square caps, and nothing else (Schneider & Klein 2007, 4.1: "each line segment separately").
+    /// A rectangle a segment, square caps, and nothing else (Schneider & Klein 2007, 4.1: "each line segment separately"). Points have no
+    /// segments: they are as in [`Strokes::Polygons`].
     Rectangles,
     /// What their style says, of polygons: a disc has [`DISC_CORNERS`] corners.
     Polygons,
@@ -32,6 +34,14 @@ pub enum Strokes {
 impl Strokes {
     fn is_round_below_40(self) -> bool {
         matches!(self, Self::Decals { is_round_below_40: true, .. })
+    }
+
+    /// Those of items of a role.
+    pub(super) fn of(self, role: Role) -> Self {
+        match (self, role) {
+            (Self::Rectangles, Role::Point) => Self::Polygons,
+            _ => self,
+        }
     }
 
     /// Whether a stroke is left out.
