@@ -22,7 +22,8 @@ fn hills() -> String {
     scene(HILLS, "eye = [40, -420, 260], target = [0, 0, 40]", layers)
 }
 
-/// Outlines inside and outside of a wide ring and of a narrow polygon with an acute corner, round lines, a bevelled one, and points.
+/// Outlines inside and outside of a wide ring and of a narrow polygon with an acute corner, round lines, a bevelled one, points, and dashes
+/// inside of a ring that crosses itself.
 fn outlines() -> String {
     let layers = "[[layer]]\nfeatures = [{ polygon = [[[-150, -150], [120, -180], [60, 20], [160, 150], [-120, 90]], [[-60, -60], [20, -50], [-20, 40]]] }]\n\
          outline = { color = \"#003366\", width_m = 24.0, mode = \"inset\", opacity = 0.7 }\n\
@@ -30,7 +31,9 @@ fn outlines() -> String {
          outline = { color = \"#660033\", width_m = 18.0, mode = \"offset\", join = \"round\" }\n\
          [[layer]]\nfeatures = [{ line = [[-280, -200], [-100, 200], [-200, -250]] }]\n\
          line = { color = \"#ff7f00\", width_m = 12, opacity = 0.5, join = \"bevel\", cap = \"square\" }\n\
-         [[layer]]\nfeatures = [{ points = [[90, -60], [180, 220], [-210, 20]] }]\npoint = { color = \"#ff00ff\", width_m = 60.0, opacity = 0.8 }\n";
+         [[layer]]\nfeatures = [{ points = [[90, -60], [180, 220], [-210, 20]] }]\npoint = { color = \"#ff00ff\", width_m = 60.0, opacity = 0.8 }\n\
+         [[layer]]\nfeatures = [{ polygon = [[-40, 60], [120, 280], [20, 260], [60, 90]] }]\n\
+         outline = { color = \"#208040\", width_m = 20.0, mode = \"inset\", dash = [40, 20] }\n";
     scene(HILLS, "eye = [40, -420, 260], target = [0, 0, 40]", layers)
 }
 

@@ -6,6 +6,7 @@
 
 mod area;
 mod primitive;
+mod rings;
 mod stroke;
 
 pub use primitive::{HalfPlane, MOST_SIDES, Primitive};
@@ -90,12 +91,6 @@ pub type IsSeen<'s> = dyn Fn(&PlanBox) -> bool + Sync + 's;
 
 /// By item and place of a chain among its own, on which side of the chain the item's polygon lies.
 type Sides = BTreeMap<(u32, u32), Option<bool>>;
-
-/// About so many segments of a ring are asked on which side of them its polygon lies.
-const MOST_ASKED: usize = 64;
-
-/// How far beside a segment its polygon is asked for, as a share of the segment's length.
-const BESIDE: f64 = 1e-6;
 
 /// No number of an area.
 const NO_AREA: u32 = u32::MAX;
@@ -227,33 +222,16 @@ impl<'l> Footprints<'l> {
         room.iter().all(|primitive| primitive.misses(plan))
     }
 
-    /// Of each chain of an outline that is cut, where it is cut by side: whether the polygon lies on the left of most of its segments.
-    /// (The thesis takes the turn of the ring as a whole, 4.4.1; where a ring crosses itself that is wrong for some of them.)
+    /// Of each chain of an outline that is cut, where it is cut by side: on which side of it the polygon lies.
     fn sides_of_cut_outlines(&self) -> Sides {
         let is_cut = |item: &u32| self.list.style_of(*item).cut.is_some();
         let items = self.list.numbered().filter(|(item, _)| is_cut(item) && self.strokes.is_cut_by_side());
         let chains = items.flat_map(|(item, of)| {
-            let first = of.area.len() as u32;
-            (first..).zip(self.list.strokes(of)).map(move |(place, chain)| ((item, place), *chain))
+            let (first, rings) = (of.area.len() as u32, rings::Sides::of(self.list, of));
+            let of_chain = move |(place, chain): (u32, &Chain)| ((item, place), rings.left_of(chain.part));
+            (first..).zip(self.list.strokes(of)).map(of_chain)
         });
-        chains.map(|(key, chain)| (key, self.has_polygon_on_the_left(key.0, &chain))).collect()
-    }
-
-    /// Whether an item's polygon lies on the left of most segments of a chain, or on the right; `None`: it cannot be told.
-    fn has_polygon_on_the_left(&self, item: u32, chain: &Chain) -> Option<bool> {
-        let path = self.list.path_of(chain);
-        let every = (path.len() / MOST_ASKED).max(1);
-        let (mut left, mut right) = (0, 0);
-        for ends in path.windows(2).step_by(every) {
-            let along = ends[1] - ends[0];
-            let middle = ends[0] + along * 0.5;
-            // Beside the segment, nearer than anything that is drawn on purpose.
-            let aside = along.perp() * BESIDE;
-            let [on_left, on_right] = [aside, -aside].map(|by| self.polygon_holds(item, middle + by));
-            left += u32::from(on_left && !on_right);
-            right += u32::from(on_right && !on_left);
-        }
-        (left != right).then_some(left > right)
+        chains.collect()
     }
 
     /// Bytes held, without the draw list.
