@@ -144,13 +144,11 @@ impl<'l> Outlines<'l> {
         area.part == Part::Stroke || matches!(role, Role::Fill | Role::Outside)
     }
 
-    /// Turns the normals of rings outward: the outside is on the right of lines' outlines, of rings where it is found to be.
+    /// Turns the normals of rings outward: the outside is on the right of lines' outlines, of rings where it is found to be
+    /// beside the middle of what lies over the terrain.
     fn turn_outward(&mut self, terrain: &PlanBox) {
-        let mut bounds = PlanBox::EMPTY;
-        self.edges.iter().for_each(|e| bounds.include_box(&PlanBox::around([e.from, e.to])));
-        let bounds = bounds.common(terrain);
         let turned = crate::parallel::map(&self.edges, |edge| {
-            let middle = middle_within(edge, &bounds).filter(|_| edge.area.part == Part::Polygon);
+            let middle = middle_within(edge, terrain).filter(|_| edge.area.part == Part::Polygon);
             let mut holding = Vec::new();
             middle.is_some_and(|middle| {
                 self.holding(middle, &mut holding);

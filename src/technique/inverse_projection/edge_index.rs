@@ -37,6 +37,8 @@ pub struct EdgeIndex<'l> {
     covers: CellLists<Winding>,
     /// `sums[r * (columns + 1) + c]`: how many members the cells of rows below r and columns below c have.
     sums: Vec<u64>,
+    /// The rectangle of the plan that the terrain covers.
+    terrain: PlanBox,
 }
 
 /// How often an area winds around a point.
@@ -69,6 +71,7 @@ impl<'l> EdgeIndex<'l> {
             members: CellLists::default(),
             covers: CellLists::default(),
             sums: Vec::new(),
+            terrain: *bounds,
             list,
             area_count: area_count(list),
             edges: Vec::new(),
@@ -401,9 +404,9 @@ impl<'l> EdgeIndex<'l> {
         column
     }
 
-    /// The middle of the part of an edge that lies in the grid.
-    fn middle_in_grid(&self, edge: &Edge) -> Option<Plan> {
-        let (low, high) = (self.origin, self.corner(self.columns, self.rows));
+    /// The middle of the part of an edge that lies over the terrain.
+    fn middle_over_terrain(&self, edge: &Edge) -> Option<Plan> {
+        let PlanBox { min: low, max: high } = self.terrain;
         let along = edge.b - edge.a;
         let (mut from, mut to) = (0.0, 1.0);
         for (start, step, low, high) in
@@ -422,13 +425,14 @@ impl<'l> EdgeIndex<'l> {
         (from <= to).then(|| edge.a + along * ((from + to) / 2.0))
     }
 
-    /// Finds on which side of each ring's edges the outside is.
+    /// Finds on which side of each ring's edges the outside is; where the ring crosses itself that changes along an edge, and it is the side at
+    /// its middle over the terrain.
     fn find_outsides(&mut self) {
         let outside: Vec<bool> = parallel::map_indices(self.edges.len(), |k| {
             let edge = &self.edges[k];
-            // The outside of a stroke is on the right; an edge beside the grid meets no pixel.
+            // The outside of a stroke is on the right; an edge beside the terrain meets no pixel.
             !edge.area.is_stroke()
-                && self.middle_in_grid(edge).is_some_and(|middle| {
+                && self.middle_over_terrain(edge).is_some_and(|middle| {
                     let turns = self.winding_of(edge.area, middle);
                     self.rule_of(edge.area).contains(turns) != is_left(edge, middle)
                 })
@@ -552,6 +556,19 @@ mod tests {
 
     fn coordinate() -> impl Strategy<Value = f64> {
         prop_oneof![(-8..9i32).prop_map(|k| f64::from(k) / 2.0), -4.0..4.0f64]
+    }
+
+    /// The crossing is at a height of 477 m; over the terrain the edge has its middle at 468.5 m.
+    #[test]
+    fn where_a_ring_crosses_itself_an_edge_has_its_outside_where_it_is_at_its_middle_over_the_terrain() {
+        let ring = [(-652.0, 799.0), (-1174.0, 260.0), (-921.0, 1682.0), (-983.0, -63.0)];
+        let list = list_of(&[ring.map(|(x, y)| Plan::new(x, y)).to_vec()]);
+        let outside_is_left = |top: f64| {
+            let terrain = PlanBox { min: Plan::new(-1000.0, -1000.0), max: Plan::new(1000.0, top) };
+            let index = EdgeIndex::new(&list, &terrain).unwrap();
+            index.edges.iter().find(|edge| edge.a.x == -921.0).unwrap().outside_is_left
+        };
+        assert_eq!([1000.0, 1100.0].map(outside_is_left), [false, true]);
     }
 
     proptest! {
