@@ -94,6 +94,19 @@ fn machines_may_paint_the_sky_where_volumes_cross_the_far_plane_all_of_it_or_not
     assert!(outside(painted_of, &bare) > 20 && outside(bare_of, &painted) > 20, "one is not the other");
 }
 
+/// A field that reaches beyond the terrain, from high above, in parallel projection without a far plane.
+#[test]
+fn machines_paint_no_sky_beside_the_terrain_in_parallel_projection() {
+    let layers = "[[layer]]\nfeatures = [{ polygon = [[-500, -420], [450, -380], [520, 460]] }]\nfill = { color = \"#3388ff\" }\n";
+    let camera = "eye = [0, -1, 3000], target = [0, 0, 0], projection = \"orthographic\", height_m = 900";
+    let text = scene(HILLS, camera, layers);
+    let all = allowed_of(Kind::StencilVolume, &stage(&text, &[]));
+    for machine in MACHINES {
+        let image = frame_of(Kind::StencilVolume, &stage(&text, machine), &[]).image;
+        assert_eq!(best(&all, &image), 0, "{machine:?}");
+    }
+}
+
 #[test]
 fn buffers_of_several_samples_a_pixel_are_judged_sample_by_sample() {
     let keys = ["technique.stencil-volume.samples=2", "image.width=24", "image.height=16"];

@@ -64,8 +64,8 @@ impl Envelope {
             (DepthFormat::F32Reversed, true) => step * depth,
             // 1 - near / depth, near 1 almost everywhere.
             (_, true) => step * depth * depth / near,
-            // Linear between the planes; an infinite far plane lies a little beyond the terrain then.
-            (_, false) => step * (if far.is_finite() { far } else { 4.0 * depth } - near),
+            // Linear between the planes; an infinite far plane lies beyond the terrain by its diagonal then.
+            (_, false) => step * (if far.is_finite() { far } else { 16.0 * depth } - near),
         };
         DEPTH_STEPS * of_depth
     }

@@ -73,7 +73,7 @@ const FARTHEST: f64 = (1u32 << 18) as f64;
 impl<T: Real> Pipeline<T> {
     /// The machine for a view of a terrain.
     ///
-    /// A parallel lens has no linear depth up to infinity: an infinite far plane lies a little beyond the terrain then.
+    /// A parallel lens has no linear depth up to infinity: an infinite far plane lies beyond the terrain then, by the terrain's diagonal.
     pub fn new(frame: &ViewFrame, mesh: &Mesh, device: &Device) -> Self {
         let depth = DepthBuffer(device.depth);
         let projection = projection(frame, mesh, device);
@@ -285,9 +285,11 @@ fn far_plane(frame: &ViewFrame, mesh: &Mesh) -> f64 {
     if frame.far().is_finite() || matches!(frame.lens(), Lens::Central { .. }) {
         return frame.far();
     }
+    // Volumes reach beyond the terrain, below it and beside it: where they crossed the plane they were painted on the sky.
     let farthest = mesh.bounds(mesh.root()).map_or(0.0, |b| {
         let spread: f64 = b.axes.iter().map(|a| frame.forward().dot(*a).abs()).sum();
-        frame.depth(b.center) + spread
+        let diagonal = 2.0 * b.axes.iter().map(|a| a.length_squared()).sum::<f64>().sqrt();
+        frame.depth(b.center) + spread + diagonal
     });
     crate::math::max(2.0 * frame.near(), farthest * (1.0 + 1.0 / 1024.0))
 }
