@@ -1,13 +1,13 @@
 //! Features -> items, block by block.
 
-use super::dash::{Dashed, check as check_dashes, dashed};
+use super::dash::{InThePlan, check as check_dashes};
 use super::style::{StyleParts, StyleTable};
 use super::vertices::{Ends, add_distinct, are_distinct};
 use super::{Chain, DrawList, Item, ItemStyle, NO_FEATURE};
 use crate::error::{Error, Result};
 use crate::overlay::{border_outside, union_border};
 use crate::parallel;
-use crate::scene::{Dash, Feature, Layer, Rule, Shape};
+use crate::scene::{Dash, Dashed, Feature, Layer, Rule, Shape};
 use crate::space::{Plan, PlanBox};
 use std::ops::Range;
 
@@ -192,7 +192,8 @@ impl DrawList {
         let first = self.chains.len();
         for chain in whole.clone() {
             let chain = self.chains[chain as usize];
-            let Dashed::Parts(parts) = dashed(self.path_of(&chain), chain.is_closed, dash) else {
+            let along = dash.along(self.path_of(&chain), chain.is_closed, &InThePlan);
+            let Dashed::Parts(parts) = along else {
                 self.chains.push(chain);
                 continue;
             };

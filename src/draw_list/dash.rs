@@ -5,8 +5,7 @@
 
 use super::vertices::SAME_VERTEX;
 use crate::error::{Error, Result};
-use crate::math::{max, min};
-use crate::scene::{Dash, Feature, Layer, Shape};
+use crate::scene::{Feature, Layer, Measure, Shape};
 use crate::space::Plan;
 
 /// The most dashes of all layers.
@@ -49,119 +48,32 @@ fn most_dashes(layer: &Layer, feature: &Feature) -> f64 {
     feature.shape.parts().map(of_part).sum()
 }
 
-/// What is drawn of a path, whose consecutive vertices are distinct.
-pub(super) enum Dashed {
-    /// All of it.
-    Whole,
-    /// These, each at least two distinct vertices.
-    Parts(Vec<Vec<Plan>>),
-}
+/// Lengths in the plan.
+pub(super) struct InThePlan;
 
-/// The dashes along a path. Those of a closed one, which ends where it begins, that meet at its first vertex are one. A dash of no more than the
-/// distance of vertices that are the same is none.
-pub(super) fn dashed(path: &[Plan], is_closed: bool, dash: &Dash) -> Dashed {
-    let along = lengths_along(path);
-    let length = along[along.len() - 1];
-    if length == 0.0 {
-        return Dashed::Whole;
-    }
-    let mut stretches = stretches(length, dash);
-    let joins = |stretches: &[Stretch]| {
-        is_closed
-            && stretches.first().is_some_and(|of| of.from <= 0.0)
-            && stretches.last().is_some_and(|of| of.to >= length)
-    };
-    if let [only] = &stretches[..]
-        && only.from <= 0.0
-        && only.to >= length
-    {
-        return Dashed::Whole;
-    }
-    let over_the_start = if stretches.len() > 1 && joins(&stretches) { stretches.pop() } else { None };
-    let part = |of: &Stretch| part(path, &along, of);
-    let mut parts: Vec<Vec<Plan>> = stretches.iter().map(part).collect();
-    if let (Some(last), Some(first)) = (over_the_start, parts.first_mut()) {
-        let mut whole = part(&last);
-        first.drain(1..).for_each(|p| push(&mut whole, p));
-        *first = whole;
-    }
-    parts.retain(|part| part.len() > 1);
-    Dashed::Parts(parts)
-}
+impl Measure for InThePlan {
+    type Place = Plan;
 
-/// A dash from one length along a path to another.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Stretch {
-    from: f64,
-    to: f64,
-}
+    const SAME: f64 = SAME_VERTEX;
 
-/// Of each vertex how far along a path it lies.
-fn lengths_along(path: &[Plan]) -> Vec<f64> {
-    let mut along = 0.0;
-    let steps = path.windows(2).map(|ends| {
-        along += (ends[1] - ends[0]).length();
-        along
-    });
-    std::iter::once(0.0).chain(steps).collect()
-}
-
-/// The dashes of a path of a length, in their order, ends not cut off.
-fn stretches(length: f64, dash: &Dash) -> Vec<Stretch> {
-    let period = dash.period();
-    let into = dash.offset().rem_euclid(period);
-    let mut found = Vec::new();
-    for turn in 0_u32.. {
-        let mut at = f64::from(turn) * period - into;
-        if at >= length {
-            break;
-        }
-        for lengths in dash.lengths().chunks(2) {
-            let stretch = Stretch { from: at, to: at + lengths[0] };
-            if min(stretch.to, length) - max(stretch.from, 0.0) > SAME_VERTEX {
-                found.push(stretch);
-            }
-            at = stretch.to + lengths[1];
-        }
+    fn length(&self, from: Plan, to: Plan) -> f64 {
+        (to - from).length()
     }
-    found
-}
 
-/// The vertices of a stretch of a path.
-fn part(path: &[Plan], along: &[f64], of: &Stretch) -> Vec<Plan> {
-    let mut part = vec![place(path, along, of.from)];
-    let first = along.partition_point(|at| *at <= of.from);
-    let end = along.partition_point(|at| *at < of.to);
-    path[first..end.max(first)].iter().for_each(|p| push(&mut part, *p));
-    push(&mut part, place(path, along, of.to));
-    part
-}
+    fn place(&self, [from, to]: [Plan; 2], length: f64, at: f64) -> Plan {
+        from + (to - from) / length * at
+    }
 
-/// Adds a vertex; one that is the same as that before it stands in its place, but never in that of the first.
-fn push(part: &mut Vec<Plan>, p: Plan) {
-    let is_same = |last: &Plan| (*last - p).length() <= SAME_VERTEX;
-    while part.len() > 1 && part.last().is_some_and(is_same) {
-        part.pop();
+    fn after_the_end(&self, place: Plan, _: Plan, _: Plan) -> Plan {
+        place
     }
-    if !part.last().is_some_and(is_same) {
-        part.push(p);
-    }
-}
-
-/// The place at a length along a path; its ends beyond them.
-fn place(path: &[Plan], along: &[f64], at: f64) -> Plan {
-    let to = along.partition_point(|end| *end <= at);
-    if to == 0 {
-        return path[0];
-    }
-    let Some(end) = path.get(to) else { return path[path.len() - 1] };
-    let (from, start) = (path[to - 1], along[to - 1]);
-    from + (*end - from) / (along[to] - start) * (at - start)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::min;
+    use crate::scene::{Dash, Dashed};
 
     fn plan(points: &[(f64, f64)]) -> Vec<Plan> {
         points.iter().map(|&(x, y)| Plan::new(x, y)).collect()
@@ -169,7 +81,7 @@ mod tests {
 
     fn parts(path: &[(f64, f64)], is_closed: bool, lengths: &[f64], offset: f64) -> Vec<Vec<Plan>> {
         let dash = Dash::new(lengths, offset).expect("a pattern");
-        match dashed(&plan(path), is_closed, &dash) {
+        match dash.along(&plan(path), is_closed, &InThePlan) {
             Dashed::Whole => vec![plan(path)],
             Dashed::Parts(parts) => parts,
         }

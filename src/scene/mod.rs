@@ -14,7 +14,7 @@ mod settings;
 
 pub use attribute::{Attribute, Column};
 pub use camera::{Camera, Projection};
-pub use dash::Dash;
+pub use dash::{Dash, Dashed, Measure};
 pub use detail::{Detail, LevelOfDetail};
 pub use globe::GlobePosts;
 pub use ground::{Ground, GroundColors, Imagery, Light};
