@@ -136,9 +136,9 @@ fn is_in(part: &Primitive, at: Plan, from_eye: &dyn Fn() -> f64) -> bool {
         Primitive::Convex(shape) | Primitive::Perhaps(shape) => {
             shape.sides().iter().all(|side| is_inside(side, at))
         }
-        Primitive::Near { from, to, reach, growth } => {
+        Primitive::Near { from, to, scale, reach, growth } => {
             let reach = if *growth == 0.0 { *reach } else { reach + growth * from_eye() };
-            distance(at, *from, *to) <= reach
+            distance([at, *from, *to].map(|p| Plan::from(p.to_vec() * *scale))) <= reach
         }
     }
 }
@@ -149,7 +149,7 @@ fn is_inside(side: &HalfPlane, at: Plan) -> bool {
 }
 
 /// The distance of a point from a segment.
-fn distance(at: Plan, from: Plan, to: Plan) -> f64 {
+fn distance([at, from, to]: [Plan; 3]) -> f64 {
     let (along, d) = (to - from, at - from);
     let length = along.length_squared();
     let t = if length > 0.0 { (d.dot(along) / length).clamp(0.0, 1.0) } else { 0.0 };

@@ -292,6 +292,123 @@ fn a_layer_in_another_crs_is_on_the_same_ground() {
     assert!(off < 0.05, "{off}");
 }
 
+/// A red line or outline of some places.
+fn stroke(geometry: &str, style: &str) -> String {
+    let part = if geometry.contains("polygon") { "outline" } else { "line" };
+    format!("[[layer]]\nfeatures = [{{ {geometry} }}]\n{part} = {{ color = \"#ff0000\", {style} }}\n")
+}
+
+#[test]
+fn a_width_in_pixels_is_as_wide_along_a_parallel_as_along_a_meridian_at_any_latitude() {
+    for lat in [0.0, 60.0, -80.0] {
+        let path = plain_around(&format!("plain-px-{lat}.asc"), 20.0, lat, 0.02);
+        let terrain = format!(
+            "terrain={{ source = {:?}, crs = \"EPSG:4326\", color = \"#ffffff\" }}",
+            path.to_str().unwrap()
+        );
+        for lens in ["", ", projection = \"orthographic\", height_m = 20000"] {
+            let camera =
+                format!("eye_geo = [20, {lat:?}, 20000], target_geo = [20, {lat:?}, 0], near_m = 10{lens}");
+            let of = |line: &str| {
+                let own = stroke(&format!("line = [{line}]"), "width_px = 7.5");
+                share(&drawing::truth_of(&stage(&camera, &own, &[&terrain])))
+            };
+            let level = of(&format!("[19.9, {lat:?}], [20.1, {lat:?}]"));
+            let upright = of(&format!("[20, {:?}], [20, {:?}]", lat - 0.1, lat + 0.1));
+            let down: f64 = (0..60).map(|y| level[y * 60 + 29]).sum();
+            let across: f64 = upright[29 * 60 + 21..29 * 60 + 39].iter().sum();
+            assert!(
+                (down - 7.5).abs() < 0.03 && (across - 7.5).abs() < 0.03,
+                "{lat} {camera} {down} {across}"
+            );
+        }
+    }
+}
+
+#[test]
+fn strokes_in_pixels_know_neither_the_antimeridian_nor_the_pole() {
+    let at = |lon: f64, lat: f64| straight_down(lon, lat, 5e6);
+    let px = "width_px = 3.5, opacity = 0.5";
+    let small = ["image.width=36", "image.height=36"];
+    let twins = [
+        (
+            stage(
+                &at(180.0, 3.0),
+                &stroke("polygon = [[[170, -10], [-170, -10], [-170, 10], [170, 10]]]", px),
+                &small,
+            ),
+            stage(
+                &at(90.0, 3.0),
+                &stroke("polygon = [[[80, -10], [100, -10], [100, 10], [80, 10]]]", px),
+                &small,
+            ),
+        ),
+        // Beside the seam, and as wide over it.
+        (
+            stage(&at(180.0, 3.0), &stroke("line = [[179.9, -20], [179.9, 20]]", px), &small),
+            stage(&at(90.0, 3.0), &stroke("line = [[89.9, -20], [89.9, 20]]", px), &small),
+        ),
+        (
+            stage(&at(0.0, 90.0), &stroke("line = [[200, 70], [200, 90], [20, 90], [20, 70]]", px), &small),
+            stage(
+                &at(90.0, 90.0),
+                &stroke("line = [[-70, 70], [-70, 90], [110, 90], [110, 70]]", px),
+                &small,
+            ),
+        ),
+    ];
+    for (own, turned) in &twins {
+        let (truth, twin) = (drawing::truth_of(own), drawing::truth_of(turned));
+        let off = difference(&colors(&truth), &colors(&twin));
+        // Tangents of pictures from two sides of a pole have other last digits.
+        assert!(off <= 2.0 * SAME, "{off}");
+        assert!(share(&truth).iter().filter(|share| **share > 0.45).count() > 20, "something is drawn");
+        assert!(share(&truth).iter().all(|share| *share < 0.51), "and nothing twice");
+        let kinds = Kind::ALL.iter().copied();
+        let kinds: Vec<Kind> = kinds.filter(|kind| drapery::technique::applies(*kind, own).is_ok()).collect();
+        assert_eq!(kinds, [Kind::GeometryOverlay]);
+        let frame = drawing::frame_of(Kind::GeometryOverlay, own, &[]);
+        let error = drawing::errors(&truth, &Image::from_rgba8(&frame.image).unwrap());
+        assert!(error.mean < 0.03, "{}", error.mean);
+    }
+}
+
+#[test]
+fn a_point_in_pixels_is_a_disc_on_the_screen_even_at_a_pole() {
+    let own =
+        "[[layer]]\nfeatures = [{ points = [[33, 90]] }]\npoint = { color = \"#ff0000\", width_px = 21 }\n";
+    let share = share(&drawing::truth_of(&stage(&straight_down(0.0, 90.0, 3e6), own, &[])));
+    let area: f64 = share.iter().sum();
+    assert!((area / (std::f64::consts::PI * 10.5 * 10.5) - 1.0).abs() < 0.02, "{area}");
+    assert!(
+        share[30 * 60 + 30 + 9] > 0.9
+            && share[(30 + 9) * 60 + 30] > 0.9
+            && share[(30 + 9) * 60 + 30 + 9] < 0.1
+    );
+}
+
+#[test]
+fn dashes_are_as_long_on_the_ground_and_know_no_seam() {
+    let dashed = "width_m = 100000, opacity = 0.5, dash = [300000, 200000], dash_offset = 70000";
+    let line = |from: f64, to: f64| stroke(&format!("line = [[{from}, 30], [{}, 30]]", to), dashed);
+    let own = stage(&straight_down(180.0, 30.0, 5e6), &line(160.0, -160.0), &[]);
+    let turned = stage(&straight_down(90.0, 30.0, 5e6), &line(70.0, 110.0), &[]);
+    let truth = drawing::truth_of(&own);
+    assert!(difference(&colors(&truth), &colors(&drawing::truth_of(&turned))) <= SAME);
+    let covered = |style: &str| -> f64 {
+        let layer = stroke("line = [[90, 30], [90, 31.5]]", style);
+        share(&drawing::truth_of(&stage(&straight_down(90.0, 31.0, 1e6), &layer, &[]))).iter().sum()
+    };
+    // 166 km along a meridian: 4 of 10 km, 2 of 40, of them drawn.
+    let whole = covered("width_m = 30000");
+    let some = covered("width_m = 30000, dash = [10000, 30000]");
+    assert!((some / whole - 46.3 / 166.3).abs() < 0.01, "{}", some / whole);
+    // A pixel is 13.8 km: five dashes with half a disc of that at both ends.
+    let dots = covered("width_px = 1, dash = [10000, 30000]") / covered("width_px = 1");
+    let disc = std::f64::consts::FRAC_PI_4 * 13.8;
+    assert!((dots - (46.3 + 5.0 * disc) / (166.3 + disc)).abs() < 0.05, "{dots}");
+}
+
 #[test]
 fn what_a_globe_does_not_have_is_refused_with_the_reason() {
     let base = format!(
@@ -312,9 +429,8 @@ fn what_a_globe_does_not_have_is_refused_with_the_reason() {
         ("terrain.offset=[1, 0]".into(), "cannot be moved"),
         ("layer.0.offset=[0, 1]".into(), "cannot be moved"),
         ("layer.0.order=size".into(), "measured in the plan"),
-        ("layer.0.outline={ color = \"red\", width_px = 2 }".into(), "do not depend on the view"),
         ("layer.0.outline.mode=inset".into(), "not cut to the polygon"),
-        ("layer.0.outline.dash=[9e3, 5e3]".into(), "dashes are measured in metres of the plan"),
+        ("layer.0.outline.dash=[1e-2, 1e-2]".into(), "more than 2^22 dashes"),
         ("layer.0.fill.invert=true".into(), "left out of an inverted fill"),
         ("camera={ eye = [1e6, 0, 1e7], target = [0, 0, 0] }".into(), "eye_geo"),
         ("layer.0.features=[{ polygon = [[[0, 0], [9, 0], [9, 200]]] }]".into(), "not a place"),

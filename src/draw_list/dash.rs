@@ -54,7 +54,7 @@ pub(super) struct InThePlan;
 impl Measure for InThePlan {
     type Place = Plan;
 
-    const SAME: f64 = SAME_VERTEX;
+    const SHORTEST: f64 = SAME_VERTEX;
 
     fn length(&self, from: Plan, to: Plan) -> f64 {
         (to - from).length()
@@ -62,6 +62,10 @@ impl Measure for InThePlan {
 
     fn place(&self, [from, to]: [Plan; 2], length: f64, at: f64) -> Plan {
         from + (to - from) / length * at
+    }
+
+    fn is_same(&self, one: Plan, other: Plan) -> bool {
+        (other - one).length() <= SAME_VERTEX
     }
 
     fn after_the_end(&self, place: Plan, _: Plan, _: Plan) -> Plan {

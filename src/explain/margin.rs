@@ -229,15 +229,15 @@ fn of_primitive(
                 }
             }
         }
-        Primitive::Near { from, to, reach, growth } => {
-            let along = *to - *from;
+        Primitive::Near { from, to, scale, reach, growth } => {
+            let (along, from) = ((*to - *from) * *scale, (plan - *from) * *scale);
             let length = along.length_squared();
-            let share = if length > 0.0 { ((plan - *from).dot(along) / length).clamp(0.0, 1.0) } else { 0.0 };
-            let away = plan - (*from + along * share);
+            let share = if length > 0.0 { (from.dot(along) / length).clamp(0.0, 1.0) } else { 0.0 };
+            let away = from - along * share;
             let distance = away.length();
             let (radius, Some(out)) = (reach + growth * from_eye, away.try_normalize()) else { return };
             // The gradient of the distance in pixels says how far that is on the screen.
-            let slope = to_pixels.inverse().transpose() * out;
+            let slope = to_pixels.inverse().transpose() * (out * *scale);
             let steepness = slope.length();
             if steepness > 0.0 {
                 let across = slope / steepness;

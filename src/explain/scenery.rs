@@ -116,9 +116,9 @@ fn cut(bench: &Bench, primitive: &Primitive, (triangle, piece): (u32, &[Plan])) 
     match primitive {
         Primitive::Edge { from, to } => (false, segment_in(*from, *to, piece)),
         Primitive::Convex(shape) | Primitive::Perhaps(shape) => (true, clipped(piece, &lines(shape.sides()))),
-        Primitive::Near { from, to, reach, growth } => {
+        Primitive::Near { from, to, scale, reach, growth } => {
             let from_eye = bench.eye_distance_over(triangle, middle_of_plan(piece)).unwrap_or(0.0);
-            (true, clipped(piece, &capsule(*from, *to, reach + growth * from_eye)))
+            (true, clipped(piece, &capsule([*from, *to], *scale, reach + growth * from_eye)))
         }
     }
 }
@@ -147,12 +147,13 @@ fn line_of(side: &HalfPlane) -> Line {
 }
 
 /// The sides of a polygon around all within `radius` of a segment.
-fn capsule(from: Plan, to: Plan, radius: f64) -> Vec<Line> {
+fn capsule([from, to]: [Plan; 2], scale: DVec2, radius: f64) -> Vec<Line> {
     let sides = (0..DISC).map(|k| {
         let angle = std::f64::consts::TAU * k as f64 / DISC as f64;
         let out = DVec2::new(math::cos(angle), math::sin(angle));
-        let at = if out.dot(to - from) > 0.0 { to } else { from };
-        Line { at, normal: -out, offset: radius }
+        let normal = out * scale;
+        let at = if normal.dot(to - from) > 0.0 { to } else { from };
+        Line { at, normal: -normal, offset: radius }
     });
     sides.collect()
 }
@@ -216,7 +217,7 @@ mod tests {
     #[test]
     fn a_capsule_has_the_area_of_its_segment_and_disc() {
         let wide = [(-50.0, -50.0), (50.0, -50.0), (50.0, 50.0), (-50.0, 50.0)].map(|(x, y)| Plan::new(x, y));
-        let shape = clipped(&wide, &capsule(Plan::new(0.0, 0.0), Plan::new(10.0, 0.0), 2.0));
+        let shape = clipped(&wide, &capsule([Plan::new(0.0, 0.0), Plan::new(10.0, 0.0)], DVec2::ONE, 2.0));
         let area: f64 =
             shape.windows(2).map(|p| (p[0] - shape[0]).perp_dot(p[1] - shape[0])).sum::<f64>() / 2.0;
         let exact = 40.0 + std::f64::consts::PI * 4.0;

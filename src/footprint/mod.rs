@@ -14,11 +14,13 @@ pub use stroke::Strokes;
 
 use crate::draw_list::{Chain, DrawList, Item, Role, Side};
 use crate::index::BoxTree;
+use crate::math::min;
 use crate::parallel;
 use crate::scene::{Line, Width};
-use crate::space::{Lens, Plan, PlanBox, ViewFrame, World};
+use crate::space::{Globe, Lens, Plan, PlanBox, ViewFrame, World};
 use crate::terrain::Mesh;
 use area::Area;
+use glam::DVec2;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -42,6 +44,8 @@ pub struct PixelSize {
     pub eye: Option<World>,
     /// How far from the eye the surface may be over a point of the plan.
     pub away: Away,
+    /// The globe on whose ground those metres are; `None`: they are metres of the plan.
+    pub ground: Option<Globe>,
 }
 
 /// How far from an eye the surface may be over a point of the plan.
@@ -62,10 +66,23 @@ impl PixelSize {
             Some(heights) => Away::Over(above(heights)),
             None => Away::Within(mesh.farthest_from(eye)),
         };
+        let ground = mesh.globe().copied();
         match view.lens() {
-            Lens::Central { pixel } => Self { pixel, eye: Some(eye), away },
-            Lens::Parallel { pixel } => Self { pixel, eye: None, away },
+            Lens::Central { pixel } => Self { pixel, eye: Some(eye), away, ground },
+            Lens::Parallel { pixel } => Self { pixel, eye: None, away, ground },
         }
+    }
+
+    /// How many metres of a stroke's width a metre of the plan is beside a segment, to the east and to the north.
+    fn scale(&self, from: Plan, to: Plan) -> DVec2 {
+        self.ground.map_or(DVec2::ONE, |globe| globe.ground_scale(from, to))
+    }
+
+    /// So many metres around a segment in the plan, in each coordinate: no more than a turn, beside which a copy lies.
+    fn in_plan(&self, reach: f64, from: Plan, to: Plan) -> DVec2 {
+        let Some(globe) = &self.ground else { return DVec2::splat(reach) };
+        let far = DVec2::splat(reach) / globe.ground_scale(from, to);
+        DVec2::new(min(far.x, globe.turn()), min(far.y, globe.turn())) * (1.0 + 1e-9)
     }
 }
 
@@ -317,7 +334,7 @@ impl Parts<'_> {
     /// Those of the chain at a place among an item's.
     fn of_chain(&self, item: u32, place: u32, found: &mut Vec<(BorderPart, PlanBox)>) {
         let vertices = self.list.vertices();
-        let mut add = |vertex: u32, ends: [Plan; 2], reach: f64| {
+        let mut add = |vertex: u32, ends: [Plan; 2], reach: DVec2| {
             for plan in self.long.boxes(ends, reach).filter(|plan| !plan.is_empty() && (self.is_seen)(plan)) {
                 found.push((BorderPart { item, chain: place, vertex }, plan));
             }
@@ -337,7 +354,7 @@ impl Parts<'_> {
         for vertex in border.first..border.first + border.count {
             let (from, to) = (vertices[vertex as usize], vertices[vertex as usize + 1]);
             if from != to {
-                add(vertex, [from, to], 0.0);
+                add(vertex, [from, to], DVec2::ZERO);
             }
         }
     }
@@ -366,13 +383,13 @@ impl Long {
     }
 
     /// Boxes along a segment, with all within `reach` of it in each coordinate.
-    fn boxes(self, [from, to]: [Plan; 2], reach: f64) -> impl Iterator<Item = PlanBox> {
+    fn boxes(self, [from, to]: [Plan; 2], reach: DVec2) -> impl Iterator<Item = PlanBox> {
         let along = to - from;
         let (wide, tall) = (along.x.abs(), along.y.abs());
         let narrow = crate::math::min(wide, tall);
         let is_long = along.length() > self.least && self.most > 1.0 && narrow.is_finite();
         // One along an axis, or one that is hardly longer than wide, is as well in one box.
-        let wished = narrow / (4.0 * reach + (wide + tall) / self.most);
+        let wished = narrow / (4.0 * reach.max_element() + (wide + tall) / self.most);
         let count = if is_long { crate::math::min(wished.ceil(), self.most) as usize } else { 1 };
         let at = move |k: usize| match k {
             0 => from,
@@ -382,7 +399,11 @@ impl Long {
         // What is between two places is rounded by far less than this.
         let size = from.to_vec().abs().max_element() + to.to_vec().abs().max_element();
         let slack = if count > 1 { 16.0 * f64::EPSILON * size } else { 0.0 };
-        (0..count.max(1)).map(move |k| PlanBox::around([at(k), at(k + 1)]).grown(reach + slack))
+        let reach = reach + DVec2::splat(slack);
+        (0..count.max(1)).map(move |k| {
+            let PlanBox { min, max } = PlanBox::around([at(k), at(k + 1)]);
+            PlanBox { min: min + -reach, max: max + reach }
+        })
     }
 }
 

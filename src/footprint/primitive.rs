@@ -2,6 +2,7 @@
 
 use crate::interval::Ball;
 use crate::space::{Plan, PlanBox};
+use glam::DVec2;
 
 /// The most half planes of a [`Convex`].
 pub const MOST_SIDES: usize = 5;
@@ -96,13 +97,15 @@ pub enum Primitive {
     },
     /// Points of the item's stroke.
     Convex(Convex),
-    /// Points of the item's stroke: those within `reach + growth * r` of the segment from -> to, r their distance from the
-    /// eye in space, metres.
+    /// Points of the item's stroke: those within `reach + growth * r` of the segment from -> to where coordinates are as many times as large as `scale` says, r
+    /// their distance from the eye in space, metres.
     Near {
         /// Where the segment starts.
         from: Plan,
         /// Where it ends; for a disc where it starts.
         to: Plan,
+        /// Metres of the width in a metre of the plan to the east and to the north: 1 but on a globe.
+        scale: DVec2,
         /// The part of the distance that is the same everywhere, metres.
         reach: f64,
         /// The part that grows with the distance from the eye.
@@ -113,6 +116,11 @@ pub enum Primitive {
 }
 
 impl Primitive {
+    /// All within a distance of a point.
+    pub fn disc(at: Plan, radius: f64) -> Self {
+        Self::Near { from: at, to: at, scale: DVec2::ONE, reach: radius, growth: 0.0 }
+    }
+
     /// An edge's line, and the lines across it at its ends: the edge lies on their inner sides.
     pub fn edge_sides(from: Plan, to: Plan) -> [HalfPlane; 3] {
         let x = Ball::exact(to.x) - Ball::exact(from.x);
@@ -133,7 +141,11 @@ impl Primitive {
                 shape.sides().iter().any(|side| side.excludes(plan))
             }
             // One that grows reaches as far as it grows.
-            Self::Near { from, to, reach, growth } => *growth == 0.0 && is_beyond(*from, *to, *reach, plan),
+            Self::Near { from, to, scale, reach, growth } => {
+                let scaled = |p: Plan| Plan::from(p.to_vec() * *scale);
+                let plan = PlanBox { min: scaled(plan.min), max: scaled(plan.max) };
+                *growth == 0.0 && is_beyond(scaled(*from), scaled(*to), *reach, &plan)
+            }
         }
     }
 }

@@ -8,6 +8,7 @@ use crate::math;
 use crate::predicate::orient2d;
 use crate::scene::{Cap, Join, Line, Width};
 use crate::space::{DISC_CORNERS, Plan, disc_corners};
+use glam::DVec2;
 
 /// What strokes are made of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -78,7 +79,11 @@ fn half_width(line: &Line, pixel: &PixelSize) -> (f64, f64) {
 }
 
 /// How far from the bare segment all that [`primitives`] gives may lie, in each coordinate; `None`: there is nothing.
-pub(super) fn reach(segment: &Segment, line: &Line, (pixel, strokes): (&PixelSize, Strokes)) -> Option<f64> {
+pub(super) fn reach(
+    segment: &Segment,
+    line: &Line,
+    (pixel, strokes): (&PixelSize, Strokes),
+) -> Option<DVec2> {
     if strokes.leaves_out(line) {
         return None;
     }
@@ -90,7 +95,11 @@ pub(super) fn reach(segment: &Segment, line: &Line, (pixel, strokes): (&PixelSiz
         _ => half * std::f64::consts::SQRT_2,
     };
     // The rounding of these few operations is far below this share.
-    Some(reach * (1.0 + 1e-9) + 1e-9)
+    let reach = reach * (1.0 + 1e-9) + 1e-9;
+    Some(match line.width {
+        Width::Metres(_) => DVec2::splat(reach),
+        Width::Pixels(_) => pixel.in_plan(reach, segment.from, segment.to),
+    })
 }
 
 /// How far a stroke reaches whose half width is `growth` times the distance r of the surface point from the eye.
@@ -124,12 +133,13 @@ pub(super) fn primitives(
     let (from, to) = (segment.from, segment.to);
     if let Width::Pixels(_) = line.width {
         // A dynamic line is all points near its centre line: caps and joins are round by definition.
-        out.push(Primitive::Near { from, to, reach: half, growth });
+        let scale = pixel.scale(from, to);
+        out.push(Primitive::Near { from, to, scale, reach: half, growth });
         return;
     }
     let disc = |at: Plan, out: &mut Vec<Primitive>| match strokes {
         Strokes::Polygons => out.extend(disc_slabs(at, half).map(Primitive::Convex)),
-        _ => out.push(Primitive::Near { from: at, to: at, reach: half, growth: 0.0 }),
+        _ => out.push(Primitive::disc(at, half)),
     };
     let cap = match (strokes, line.cap) {
         _ if strokes.is_round_below_40() => Cap::Round,
@@ -178,7 +188,7 @@ pub(super) fn side_primitives(
     let (half, _) = half_width(line, of.0);
     if line.join == Join::Round && !segment.is_last {
         // A round join is of both segments, and each has a side of its own.
-        whole.push(Primitive::Near { from: segment.to, to: segment.to, reach: half, growth: 0.0 });
+        whole.push(Primitive::disc(segment.to, half));
     }
     let [along, ..] = Primitive::edge_sides(segment.from, segment.to);
     let right = HalfPlane { normal: along.normal.map(|n| -n), ..along };
@@ -213,7 +223,7 @@ fn round_below_40(before: Plan, at: Plan, after: Plan, half: f64, out: &mut Vec<
     let (into, leaving) = (at - before, after - at);
     let lengths = into.length() * leaving.length();
     let excess = -into.dot(leaving) - COS_40 * lengths;
-    let disc = Primitive::Near { from: at, to: at, reach: half, growth: 0.0 };
+    let disc = Primitive::disc(at, half);
     // Far more than the rounding of these few operations.
     let doubt = 1e-12 * lengths;
     if excess > doubt {

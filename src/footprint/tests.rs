@@ -2,7 +2,7 @@ use super::*;
 use crate::scene::{Cap, Color, Feature, Fill, Join, Layer, Outline, OutlineMode, Rule, Shape, Style};
 use proptest::prelude::*;
 
-const PIXEL: PixelSize = PixelSize { pixel: 1.0, eye: None, away: Away::Over(0.0) };
+const PIXEL: PixelSize = PixelSize { pixel: 1.0, eye: None, away: Away::Over(0.0), ground: None };
 
 fn line_style(width: f64, join: Join, cap: Cap) -> Style {
     let color = Color([1.0, 0.0, 0.0, 1.0]);

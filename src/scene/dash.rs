@@ -55,14 +55,17 @@ pub trait Measure {
     /// What a path leads through.
     type Place: Copy;
 
-    /// Places that are no farther apart are one, and what is no longer is no dash, metres.
-    const SAME: f64;
+    /// What is no longer is no dash, metres.
+    const SHORTEST: f64;
 
     /// The length of a segment, metres.
     fn length(&self, from: Self::Place, to: Self::Place) -> f64;
 
     /// The place so far along a segment of a length, metres.
     fn place(&self, segment: [Self::Place; 2], length: f64, at: f64) -> Self::Place;
+
+    /// Whether two consecutive places are one.
+    fn is_same(&self, one: Self::Place, other: Self::Place) -> bool;
 
     /// A place after the beginning of a path that ends where it begins, as one after its end.
     fn after_the_end(&self, place: Self::Place, begin: Self::Place, end: Self::Place) -> Self::Place;
@@ -93,7 +96,7 @@ impl Dash {
         if length == 0.0 {
             return Dashed::Whole;
         }
-        let mut stretches = self.stretches(length, M::SAME);
+        let mut stretches = self.stretches(length, M::SHORTEST);
         let joins = |stretches: &[Stretch]| {
             is_closed
                 && stretches.first().is_some_and(|of| of.from <= 0.0)
@@ -169,7 +172,7 @@ impl<M: Measure> Path<'_, M> {
 
     /// Adds a place; one that is the same as that before it stands in its place, but never in that of the first.
     fn push(&self, part: &mut Vec<M::Place>, p: M::Place) {
-        let is_same = |last: &M::Place| self.measure.length(p, *last) <= M::SAME;
+        let is_same = |last: &M::Place| self.measure.is_same(p, *last);
         while part.len() > 1 && part.last().is_some_and(is_same) {
             part.pop();
         }

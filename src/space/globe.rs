@@ -5,6 +5,7 @@
 //! z through the northern pole.
 
 use super::{Ellipsoid, Plan, World};
+use crate::math::cos;
 use glam::{DVec2, DVec3};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -29,6 +30,13 @@ impl Globe {
     /// The place of a longitude and latitude, radians.
     pub fn plan(&self, lon: f64, lat: f64) -> Plan {
         Plan::from(DVec2::new(lon, lat) * self.ellipsoid.a - self.plan_origin)
+    }
+
+    /// How many metres on the ground a metre of the plan is to the east and to the north, at the latitude in the middle of a segment.
+    pub fn ground_scale(&self, from: Plan, to: Plan) -> DVec2 {
+        let (_, lat) = self.geographic(from + (to - from) * 0.5);
+        let Ellipsoid { a, .. } = self.ellipsoid;
+        DVec2::new(self.ellipsoid.prime_vertical(lat) / a * cos(lat), self.ellipsoid.meridian(lat) / a)
     }
 
     /// The length of a turn of longitude in the plan.
@@ -66,6 +74,22 @@ mod tests {
         let ellipsoid = Ellipsoid { a: 6_378_137.0, f: 1.0 / 298.257_223_563 };
         let (plan_origin, world_origin) = (DVec2::new(1e6, -2e6), DVec3::new(6e6, 1e6, -2e6));
         Globe { ellipsoid, plan_origin, world_origin }
+    }
+
+    #[test]
+    fn a_step_of_the_plan_is_as_long_on_the_ground_as_its_scale_says() {
+        let globe = globe();
+        for lat in [0.0, 0.7, -1.3, 1.56] {
+            let at = globe.plan(2.0, lat);
+            for step in [DVec2::new(10.0, 0.0), DVec2::new(0.0, 10.0), DVec2::new(-6.0, 8.0)] {
+                let (from, to) = (at + step * -0.5, at + step * 0.5);
+                let told = (globe.ground_scale(from, to) * step).length();
+                let way = (globe.world(to, 0.0) - globe.world(from, 0.0)).length();
+                assert!((told - way).abs() < 1e-6, "{lat} {step}: {told} {way}");
+            }
+        }
+        let pole = globe.plan(0.0, FRAC_PI_2);
+        assert!(globe.ground_scale(pole, pole).x < 1e-15);
     }
 
     #[test]

@@ -26,7 +26,7 @@ pub use tin::Tin;
 use crate::error::Result;
 use crate::math;
 use crate::scene::{Diagonal, Surface};
-use crate::space::{Plan, PlanBox, World};
+use crate::space::{Globe, Plan, PlanBox, World};
 use glam::DVec3;
 use lod::LodMesh;
 use std::ops::Range;
@@ -345,6 +345,18 @@ impl Mesh {
             Self::Tin(_) => None,
             Self::Globe(globe) => Some(Lattice::Globe(Arc::clone(globe))),
             Self::Lod(lod) => Some(lod.lattice().clone()),
+        }
+    }
+
+    /// The globe that it lies on; `None` of one over a plane.
+    pub fn globe(&self) -> Option<&Globe> {
+        match self {
+            Self::Globe(globe) => Some(&globe.posts().globe),
+            Self::Lod(lod) => match lod.lattice() {
+                Lattice::Globe(globe) => Some(&globe.posts().globe),
+                Lattice::Plane(_) => None,
+            },
+            Self::Grid(_) | Self::Tin(_) => None,
         }
     }
 

@@ -24,8 +24,11 @@ pub(super) enum PixelPrimitive {
 /// The plan points within `reach + growth * r` of a segment, r their distance from the eye.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Near {
+    /// Its ends, scaled.
     from: Plan,
     to: Plan,
+    /// Coordinates are so many times as large.
+    scale: DVec2,
     reach: f64,
     growth: f64,
 }
@@ -105,8 +108,9 @@ impl PixelGround<'_> {
             Primitive::Edge { from, to } => self.edge(*from, *to),
             Primitive::Convex(shape) => self.convex(shape.sides(), true),
             Primitive::Perhaps(shape) => self.convex(shape.sides(), false),
-            Primitive::Near { from, to, reach, growth } => {
-                PixelPrimitive::Near(Near { from: *from, to: *to, reach: *reach, growth: *growth })
+            Primitive::Near { from, to, scale, reach, growth } => {
+                let [from, to] = [from, to].map(|p| Plan::from(p.to_vec() * *scale));
+                PixelPrimitive::Near(Near { from, to, scale: *scale, reach: *reach, growth: *growth })
             }
         }
     }
@@ -186,16 +190,19 @@ impl Near {
                 return Verdict::Stuck;
             }
             let error = self.error(&hit, &centre, ground);
-            let away = hit.plan - centre.plan;
+            let away = (hit.plan - centre.plan) * self.scale;
             let eye = ground.size.eye;
             let r = eye.map_or(0.0, |eye| (hit.world - eye).length());
             let r_tangent = eye.map_or(0.0, |eye| tangent.to_eye.dot(hit.world - eye));
             let nearest = tangent.distance + tangent.gradient.dot(away) - tangent.doubt * away.length();
             spread.include(Corner {
                 least: nearest - self.reach - self.growth * r - error,
-                most: distance(self.from, self.to, hit.plan) - self.reach - self.growth * r_tangent + error,
-                linear: tangent.value + tangent.slope.dot(away),
-                across: tangent.slope.perp_dot(away),
+                most: distance(self.from, self.to, self.scaled(hit.plan))
+                    - self.reach
+                    - self.growth * r_tangent
+                    + error,
+                linear: tangent.value + tangent.slope.dot(hit.plan - centre.plan),
+                across: tangent.slope.perp_dot(hit.plan - centre.plan),
             });
         }
         match (spread.most <= 0.0, spread.least > 0.0) {
@@ -210,8 +217,8 @@ impl Near {
     }
 
     fn tangent(&self, ground: &PixelGround, centre: &Hit) -> Tangent {
-        let foot = nearest(self.from, self.to, centre.plan);
-        let away = centre.plan - foot;
+        let at = self.scaled(centre.plan);
+        let away = at - nearest(self.from, self.to, at);
         let distance = away.length();
         let gradient = if distance > 0.0 { away / distance } else { DVec2::ZERO };
         let rounding = 16.0 * f64::EPSILON * self.size(centre);
@@ -220,14 +227,19 @@ impl Near {
         let from_eye = eye.map_or(DVec3::ZERO, |eye| centre.world - eye);
         let r = from_eye.length();
         let to_eye = if r > 0.0 { from_eye / r } else { DVec3::ZERO };
-        let slope = gradient - ground.facet.slope(to_eye) * self.growth;
+        let slope = gradient * self.scale - ground.facet.slope(to_eye) * self.growth;
         Tangent { distance, gradient, doubt, to_eye, slope, value: distance - self.reach - self.growth * r }
+    }
+
+    /// A place where distances are measured.
+    fn scaled(&self, p: Plan) -> Plan {
+        Plan::from(p.to_vec() * self.scale)
     }
 
     /// What hits' errors and the roundings here can do to the bounds, metres.
     fn error(&self, hit: &Hit, centre: &Hit, ground: &PixelGround) -> f64 {
         let depth = ground.size.eye.map_or(0.0, |eye| (hit.world - eye).length());
-        (2.0 + 2.0 * self.growth) * (hit.error + centre.error)
+        (2.0 * math::max(1.0, self.scale.max_element()) + 2.0 * self.growth) * (hit.error + centre.error)
             + 64.0 * f64::EPSILON * (self.size(hit) + (1.0 + self.growth) * depth)
     }
 

@@ -270,7 +270,7 @@ impl Law {
         let shape = Shape::Line(vec![points.to_vec()]);
         let features = vec![Feature { index: 0, style: 0, shape }];
         let list = DrawList::new(&mut [Layer::uniform("l", style, features)], &PlanBox::EMPTY).unwrap();
-        let pixel = PixelSize { pixel: 1.0, eye: None, away: Away::Over(0.0) };
+        let pixel = PixelSize { pixel: 1.0, eye: None, away: Away::Over(0.0), ground: None };
         let footprints = Footprints::new(&list, pixel, &|_| true);
         let mut primitives = Vec::new();
         let everywhere = PlanBox { min: Plan::new(-1e12, -1e12), max: Plan::new(1e12, 1e12) };
@@ -288,13 +288,7 @@ impl Law {
                     let Some(before) = link.before else { continue };
                     let (e, d) = ((link.from - before).normalize(), (link.to - link.from).normalize());
                     if (-e).dot(d) > math::cos(40.0f64.to_radians()) {
-                        let disc = Primitive::Near {
-                            from: link.from,
-                            to: link.from,
-                            reach: width / 2.0,
-                            growth: 0.0,
-                        };
-                        primitives.push(disc);
+                        primitives.push(Primitive::disc(link.from, width / 2.0));
                     }
                 }
             }

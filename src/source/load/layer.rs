@@ -78,7 +78,8 @@ fn layer(
         let curves = on_the_ground(scene, spec, &own)?;
         let curves = curves.map(|kind| GroundCurves::new(kind, turn, tolerance, near));
         let strokes = globe::Strokes { ellipsoid: ground.globe.ellipsoid, turn, curves };
-        (features, styles) = globe::stroked(features, styles, &strokes);
+        (features, styles) =
+            globe::stroked(features, styles, &strokes).map_err(|error| columns.blame(error))?;
         map = own;
     }
     let middle = (terrain.bounds.min.to_vec() + terrain.bounds.max.to_vec()) * 0.5;

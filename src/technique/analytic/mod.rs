@@ -35,7 +35,7 @@ pub use step::{Fallback, Step};
 
 use super::{Declaration, Explanation, Frame, FrameOptions, Parameters, Prepared};
 use crate::buffer::{Look, PlaneKind};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::scene::StrokeForm;
 use crate::space::ViewFrame;
 use crate::stage::Stage;
@@ -88,12 +88,20 @@ impl<'s> Prepare<'s> {
     }
 }
 
-/// Whether the technique can draw the scene: it draws every scene.
+/// Whether the technique can draw the scene.
 ///
 /// # Errors
-/// Never so far.
-pub fn applies(_: &Stage) -> Result<()> {
-    Ok(())
+/// The reason why it cannot.
+pub fn applies(stage: &Stage) -> Result<()> {
+    let in_pixels = || stage.scene.layers.iter().find(|layer| layer.has_width_in_pixels());
+    match stage.mesh.globe().and_then(|_| in_pixels()) {
+        None => Ok(()),
+        Some(layer) => Err(Error::unsupported(format!(
+            "analytic measures widths in pixels in the plan, and on a globe they are measured on the ground: layer `{}` has width_px",
+            layer.name
+        ))
+        .help("give the layer width_m, or leave the technique out")),
+    }
 }
 
 impl Prepared for Prepare<'_> {

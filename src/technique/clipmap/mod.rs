@@ -53,7 +53,7 @@ pub use step::Step;
 
 use super::{Declaration, Explanation, Frame, FrameOptions, Parameters, Prepared};
 use crate::buffer::{Look, PlaneKind};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::parallel;
 use crate::parameter::Named;
 use crate::scene::{Line, StrokeForm, TechniqueSettings, Width};
@@ -189,12 +189,23 @@ impl<'s> Prepare<'s> {
     }
 }
 
-/// Whether the technique can draw the scene: it can.
+/// Whether the technique can draw the scene.
 ///
 /// # Errors
-/// None yet; other techniques have reasons.
-pub fn applies(_stage: &Stage) -> Result<()> {
-    Ok(())
+/// The reason why it cannot.
+pub fn applies(stage: &Stage) -> Result<()> {
+    let Some(layer) = stage.scene.layers.iter().find(|layer| layer.has_width_in_pixels()) else {
+        return Ok(());
+    };
+    if stage.mesh.globe().is_none() {
+        return Ok(());
+    }
+    Err(Error::unsupported(format!(
+        "clipmap gives a line a width in world space, the same all over its texture (Taibo et al. 2014, 3), and on a globe a texel is another length at each latitude and in each \
+         direction: layer `{}` has width_px",
+        layer.name
+    ))
+    .help("give the layer width_m, or leave the technique out"))
 }
 
 impl Prepared for Prepare<'_> {

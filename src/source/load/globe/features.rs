@@ -8,14 +8,18 @@ use super::super::place::Map;
 use super::super::unroll::{self, Unrolled};
 use super::super::window::on_the_globe;
 use super::stroke::Brush;
+use super::way::{OverTheGround, evenly, in_steps};
 use crate::crs::{PlanFrom, Turn};
 use crate::error::{Error, Result};
 use crate::math::{cos, max};
 use crate::parallel;
-use crate::scene::{Cap, Feature, Fill, Line, OutlineMode, Rule, Shape, Style, Swath, Width};
+use crate::scene::{Cap, Dash, Dashed, Feature, Fill, Line, OutlineMode, Rule, Shape, Style, Swath, Width};
 use crate::scene_file::{Edges, LayerSpec, SceneFile};
 use crate::space::{Ellipsoid, Globe, Plan, PlanBox};
 use glam::DVec2;
+
+/// The most dashes of a layer: each is an area, or a line.
+const MOST_DASHES: f64 = (1 << 22) as f64;
 
 /// Refuses a style that a globe does not have.
 pub(in crate::source::load) fn check_styles(
@@ -32,28 +36,14 @@ pub(in crate::source::load) fn check_styles(
             [("line", style.line), ("point", style.point), ("outline", style.outline.map(|o| o.line))];
         let strokes = strokes.into_iter().filter_map(|(part, line)| Some((part, line?)));
         for (part, line) in strokes {
-            if matches!(line.width, Width::Pixels(_)) {
-                return refuse(
-                    &format!("{part}.width_px"),
-                    "strokes on a globe are areas on the ground, which do not depend on the view",
-                    "give a width in metres: width_m",
-                );
-            }
-            if spec.style.fill.as_ref().is_some_and(|fill| fill.is_inverted) {
+            let is_area = matches!(line.width, Width::Metres(_));
+            if is_area && spec.style.fill.as_ref().is_some_and(|fill| fill.is_inverted) {
                 return refuse(
                     part,
                     "a stroke on a globe is an area, and would be left out of an inverted fill",
                     "draw the strokes in a layer of their own",
                 );
             }
-        }
-        let dashed = [("line", style.line_dash), ("outline", style.outline_dash)];
-        if let Some((part, _)) = dashed.into_iter().find(|(_, dash)| dash.is_some()) {
-            return refuse(
-                &format!("{part}.dash"),
-                "dashes are measured in metres of the plan, and a globe's plan has its true length nowhere but along the equator",
-                "leave the dashes out",
-            );
         }
         if style.outline.is_some_and(|outline| outline.mode != OutlineMode::Normal) {
             return refuse(
@@ -132,53 +122,73 @@ pub(in crate::source::load) fn near_strokes(globe: &Globe, terrain: &PlanBox, re
     terrain.grown(reach / max(cos(max(south, north)), 1.0 / 64.0))
 }
 
-/// Features whose strokes are areas on the ground, each after its feature's fill, and the styles of both.
+/// Features with their strokes, each after its feature's fill, and the styles of both: of a width in metres an area on the ground, of one in pixels the lines
+/// that it is along.
 pub(in crate::source::load) fn stroked(
     features: Vec<Feature>,
     styles: Vec<Style>,
     ground: &Strokes,
-) -> (Vec<Feature>, Vec<Style>) {
-    let area = |(line, is_of_points): (Line, bool)| Style {
-        fill: Some(Fill { color: line.color, rule: Rule::NonZero }),
-        swath: width_m(line).map(|width_m| Swath { width_m, is_of_points }),
-        ..Style::default()
-    };
+) -> Result<(Vec<Feature>, Vec<Style>)> {
     let fills = styles.iter().map(|style| Style { fill: style.fill, ..Style::default() });
     let mut all: Vec<Style> = fills.collect();
     // Of each style its outline's, its line's, its points', where it has them.
     let mut strokes = Vec::with_capacity(styles.len());
     for style in &styles {
-        let kinds = [style.outline.map(|outline| outline.line), style.line, style.point];
-        strokes.push([(kinds[0], false), (kinds[1], false), (kinds[2], true)].map(|(line, is_of_points)| {
+        let round = |point: Line| Line { cap: Cap::Round, ..point };
+        let kinds = [
+            (style.outline.map(|outline| outline.line), style.outline_dash),
+            (style.line, style.line_dash),
+            (style.point.map(round), None),
+        ];
+        strokes.push([0, 1, 2].map(|kind| {
+            let (line, dash) = kinds[kind];
             line.map(|line| {
-                all.push(area((line, is_of_points)));
-                (line, all.len() as u32 - 1)
+                all.push(style_of(line, kind == 2));
+                Stroke { line, dash, style: all.len() as u32 - 1 }
             })
         }));
     }
-    let made = parallel::map_owned(features, |feature| {
+    let used = |feature: &Feature| {
         let [outline, line, point] = strokes[feature.style as usize];
-        let used = match &feature.shape {
+        match &feature.shape {
             Shape::Polygon(_) | Shape::MultiPolygon(_) => outline,
             Shape::Line(_) => line,
-            Shape::Points(_) => point.map(|(point, style)| (Line { cap: Cap::Round, ..point }, style)),
+            Shape::Points(_) => point,
             Shape::Swath { .. } => None,
-        };
-        let stroke = used.map(|(line, style)| {
-            let shape = ground.swath(&feature.shape, line);
-            Feature { index: feature.index, style, shape }
+        }
+    };
+    ground.check_dashes(&features, used)?;
+    let made = parallel::map_owned(features, |feature| {
+        let stroke = used(&feature).map(|stroke| {
+            let shape = ground.shape(&feature.shape, &stroke);
+            Feature { index: feature.index, style: stroke.style, shape }
         });
         let fill = Some(feature).filter(|feature| feature.shape.is_area());
         [fill, stroke]
     });
-    (made.into_iter().flatten().flatten().collect(), all)
+    Ok((made.into_iter().flatten().flatten().collect(), all))
 }
 
-fn width_m(line: Line) -> Option<f64> {
+/// How a stroke looks on a globe.
+fn style_of(line: Line, is_of_points: bool) -> Style {
     match line.width {
-        Width::Metres(width) => Some(width),
-        Width::Pixels(_) => None,
+        Width::Metres(width_m) => Style {
+            fill: Some(Fill { color: line.color, rule: Rule::NonZero }),
+            swath: Some(Swath { width_m, is_of_points }),
+            ..Style::default()
+        },
+        Width::Pixels(_) if is_of_points => Style { point: Some(line), ..Style::default() },
+        Width::Pixels(_) => Style { line: Some(line), ..Style::default() },
     }
+}
+
+/// A stroke of a style.
+#[derive(Clone, Copy)]
+struct Stroke {
+    line: Line,
+    dash: Option<Dash>,
+    /// The style of what it becomes.
+    style: u32,
 }
 
 /// What strokes lie on, and what the edges are that they follow.
@@ -200,44 +210,100 @@ impl Strokes {
         }
     }
 
-    /// The area of a shape's stroke, each member a ring, and what it is along.
-    fn swath(&self, shape: &Shape, line: Line) -> Shape {
-        let mut swath = (Vec::new(), Vec::new());
-        if let Some(width) = width_m(line) {
-            let brush = Brush::new(self.ellipsoid, width, line.join, line.cap);
-            match shape {
-                Shape::Polygon(of) => self.outline(of, &brush, &mut swath),
-                Shape::MultiPolygon(members) => {
-                    members.iter().for_each(|of| self.outline(of, &brush, &mut swath));
-                }
-                Shape::Line(lines) => {
-                    for line in lines {
-                        let line = self.followed(unroll::line(line.clone(), self.turn), false);
-                        let places = self.radians(line.moved(0));
-                        let is_ring = brush.is_ring(&places);
-                        self.add(brush.stroke(&places, is_ring), &places, &mut swath);
-                    }
-                }
-                Shape::Points(points) => {
-                    let mut dots = Vec::new();
-                    self.radians(points.iter().copied()).into_iter().for_each(|at| brush.dot(at, &mut dots));
-                    self.add(dots, &[], &mut swath);
-                }
-                Shape::Swath { .. } => {}
+    /// Refuses features with more dashes than may be made.
+    fn check_dashes(&self, features: &[Feature], used: impl Fn(&Feature) -> Option<Stroke>) -> Result<()> {
+        let mut all = 0.0;
+        for feature in features {
+            let Some(Stroke { dash: Some(dash), .. }) = used(feature) else { continue };
+            let is_area = feature.shape.is_area();
+            for part in feature.shape.parts() {
+                let closing = part.last().zip(part.first()).filter(|_| is_area);
+                let steps =
+                    part.windows(2).map(|ends| (ends[0], ends[1])).chain(closing.map(|(a, b)| (*a, *b)));
+                // No radian of latitude or longitude is longer than that of a sphere around all of the ellipsoid, at a pole.
+                let radian = self.ellipsoid.a / (1.0 - self.ellipsoid.f);
+                let length = steps.map(|(a, b)| (b - a).length()).sum::<f64>() * self.radian() * radian;
+                all += (length / dash.period() + 2.0) * dash.lengths().len() as f64 / 2.0;
+            }
+            if all > MOST_DASHES {
+                let error = Error::unsupported(
+                    "more than 2^22 dashes up to here, each of them an area on the ground",
+                );
+                let help = "make the numbers of `dash` larger, or leave features out with `where`";
+                return Err(error.help(help).in_feature(feature.index));
             }
         }
-        let (members, lines) = swath;
+        Ok(())
+    }
+
+    /// A shape's stroke: an area, each member a ring, and what it is along; or lines.
+    fn shape(&self, shape: &Shape, stroke: &Stroke) -> Shape {
+        let paths = self.paths(shape, stroke.dash);
+        let own = |path: &[DVec2]| path.iter().map(|p| Plan::from(*p / self.radian())).collect::<Vec<_>>();
+        let Width::Metres(width) = stroke.line.width else {
+            return match shape {
+                Shape::Points(_) => Shape::Points(paths.iter().flat_map(|path| own(&path.places)).collect()),
+                _ => Shape::Line(paths.iter().map(|path| own(&in_steps(&evenly(&path.places)))).collect()),
+            };
+        };
+        let brush = Brush::new(self.ellipsoid, width, stroke.line.join, stroke.line.cap);
+        let (mut members, mut lines) = (Vec::new(), Vec::new());
+        for Path { places, is_joined } in &paths {
+            members.extend(brush.stroke(places, *is_joined).iter().map(|ring| vec![own(ring)]));
+            if !matches!(shape, Shape::Points(_)) {
+                lines.push(own(places));
+            }
+        }
         Shape::Swath { members, lines }
     }
 
-    fn outline(&self, rings: &[Vec<Plan>], brush: &Brush, swath: &mut Parts) {
+    /// What a stroke is along.
+    fn paths(&self, shape: &Shape, dash: Option<Dash>) -> Vec<Path> {
+        let mut all = Vec::new();
+        match shape {
+            Shape::Polygon(of) => self.add_rings(of, dash, &mut all),
+            Shape::MultiPolygon(members) => {
+                members.iter().for_each(|of| self.add_rings(of, dash, &mut all));
+            }
+            Shape::Line(lines) => {
+                for line in lines {
+                    let line = self.followed(unroll::line(line.clone(), self.turn), false);
+                    let places = self.radians(line.moved(0));
+                    let is_joined = OverTheGround(self.ellipsoid).is_ring(&places);
+                    self.add(Path { places, is_joined }, dash, &mut all);
+                }
+            }
+            Shape::Points(points) => {
+                let places = self.radians(points.iter().copied()).into_iter();
+                all.extend(places.map(|place| Path { places: vec![place], is_joined: false }));
+            }
+            Shape::Swath { .. } => {}
+        }
+        all
+    }
+
+    fn add_rings(&self, rings: &[Vec<Plan>], dash: Option<Dash>, all: &mut Vec<Path>) {
         for ring in unroll::rings(rings.to_vec(), self.turn) {
             let ring = self.followed(ring, true);
             let mut places = self.radians(ring.moved(0));
             if let Some(first) = places.first().copied() {
                 places.push(first + DVec2::new(ring.way_around() * self.radian(), 0.0));
             }
-            self.add(brush.stroke(&places, true), &places, swath);
+            self.add(Path { places, is_joined: true }, dash, all);
+        }
+    }
+
+    /// Adds a path, or the dashes along it.
+    fn add(&self, path: Path, dash: Option<Dash>, all: &mut Vec<Path>) {
+        if path.places.is_empty() {
+            return;
+        }
+        let measure = OverTheGround(self.ellipsoid);
+        match dash.map(|dash| dash.along(&in_steps(&path.places), path.is_joined, &measure)) {
+            None | Some(Dashed::Whole) => all.push(path),
+            Some(Dashed::Parts(parts)) => {
+                all.extend(parts.into_iter().map(|places| Path { places, is_joined: false }));
+            }
         }
     }
 
@@ -248,14 +314,11 @@ impl Strokes {
     fn radians(&self, part: impl Iterator<Item = Plan>) -> Vec<DVec2> {
         part.map(|p| p.to_vec() * self.radian()).collect()
     }
-
-    /// Adds rings and what they are the stroke of, in radians.
-    fn add(&self, rings: Vec<Vec<DVec2>>, along: &[DVec2], (members, lines): &mut Parts) {
-        let own = |part: &[DVec2]| part.iter().map(|p| Plan::from(*p / self.radian())).collect::<Vec<_>>();
-        members.extend(rings.iter().map(|ring| vec![own(ring)]));
-        lines.extend((!along.is_empty()).then(|| own(along)));
-    }
 }
 
-/// Members, and lines.
-type Parts = (Vec<Vec<Vec<Plan>>>, Vec<Vec<Plan>>);
+/// What a stroke is along, in radians.
+struct Path {
+    places: Vec<DVec2>,
+    /// Whether it ends where it begins, maybe a turn on, and is joined there.
+    is_joined: bool,
+}

@@ -62,16 +62,6 @@ impl Brush {
         Self { ground: Ground { ellipsoid, tolerance: width / Self::SHARES }, half: 0.5 * width, join, cap }
     }
 
-    /// Whether a path is a ring: it ends where it begins, maybe a turn on, and has three places.
-    pub(super) fn is_ring(&self, path: &[DVec2]) -> bool {
-        let is_one = |a: DVec2, b: DVec2| (self.ground.at(a) - self.ground.at(b)).length() <= SAME_PLACE;
-        let [first, between @ .., last] = path else { return false };
-        let mut others = between.iter().filter(|place| !is_one(**place, *first));
-        let is_around = (last.x - first.x).abs() > 1.0;
-        let mut is_wide = || others.next().is_some_and(|one| others.any(|place| !is_one(*place, *one)));
-        is_one(*first, *last) && (is_around || is_wide())
-    }
-
     /// The rings of a stroke along a path in radians; a joined path ends where it begins, maybe a turn on.
     pub(super) fn stroke(&self, path: &[DVec2], is_joined: bool) -> Vec<Vec<DVec2>> {
         let mut rings = Vec::new();

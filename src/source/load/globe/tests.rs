@@ -2,8 +2,9 @@
 
 use super::super::unroll;
 use super::stroke::Brush;
+use super::way::{OverTheGround, evenly};
 use crate::crs::Turn;
-use crate::scene::{Cap, Join};
+use crate::scene::{Cap, Dash, Dashed, Join, Measure};
 use crate::space::{Ellipsoid, Plan};
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
@@ -160,10 +161,11 @@ fn joins_and_caps_are_those_of_the_style() {
 fn a_ring_has_no_caps_and_is_one_that_ends_where_it_begins_a_turn_on() {
     let brush = Brush::new(WGS84, 1000.0, Join::Bevel, Cap::Square);
     let equator = radians(&[(-180.0, 0.0), (180.0, 0.0)]);
-    assert!(brush.is_ring(&equator));
-    assert!(brush.is_ring(&radians(&[(0.0, 1.0), (2.0, 3.0), (4.0, 1.0), (0.0, 1.0)])));
-    assert!(!brush.is_ring(&radians(&[(0.0, 1.0), (2.0, 3.0), (0.0, 1.0)])), "there and back");
-    assert!(!brush.is_ring(&radians(&[(0.0, 1.0), (2.0, 3.0), (4.0, 1.0)])));
+    let is_ring = |path: &[DVec2]| OverTheGround(WGS84).is_ring(path);
+    assert!(is_ring(&equator));
+    assert!(is_ring(&radians(&[(0.0, 1.0), (2.0, 3.0), (4.0, 1.0), (0.0, 1.0)])));
+    assert!(!is_ring(&radians(&[(0.0, 1.0), (2.0, 3.0), (0.0, 1.0)])), "there and back");
+    assert!(!is_ring(&radians(&[(0.0, 1.0), (2.0, 3.0), (4.0, 1.0)])));
     let area = |rings: &[Vec<DVec2>]| {
         let of = |ring: &Vec<DVec2>| -> f64 {
             (0..ring.len()).map(|k| ring[k].perp_dot(ring[(k + 1) % ring.len()])).sum()
@@ -185,4 +187,80 @@ fn a_place_alone_is_a_dot_by_its_cap() {
     for corner in disc {
         assert!(((at(*corner) - at(place[0])).length() - 1000.0).abs() < 0.01);
     }
+}
+
+#[test]
+fn lengths_over_the_ground_are_those_of_the_ellipsoid() {
+    let ground = OverTheGround(WGS84);
+    let of = |from: (f64, f64), to: (f64, f64)| {
+        let ends = radians(&[from, to]);
+        ground.length(ends[0], ends[1])
+    };
+    // reference: the quarter of a meridian of WGS 84 (EPSG:7030), by GeographicLib 2.3; a degree of longitude on the equator is a turn's 360th.
+    assert!((of((33.0, 0.0), (33.0, 90.0)) - 10_001_965.729_312_7).abs() < 1e-6);
+    assert!((of((0.0, 0.0), (360.0, 0.0)) - TAU * WGS84.a).abs() < 1e-6);
+    assert!(of((20.0, 90.0), (80.0, 90.0)) < 1e-6 && of((5.0, 90.0), (5.0, 120.0)) == 0.0);
+    for (from, to) in
+        [((0.0, 0.0), (40.0, 60.0)), ((10.0, -70.0), (-80.0, 85.0)), ((0.0, 89.0), (120.0, 89.9))]
+    {
+        let ends = radians(&[from, to]);
+        let place = |k: u32| at(ends[0] + (ends[1] - ends[0]) * (f64::from(k) / 100_000.0));
+        let walked: f64 = (0..100_000).map(|k| (place(k + 1) - place(k)).length()).sum();
+        assert!((of(from, to) / walked - 1.0).abs() < 1e-9, "{from:?} {to:?}");
+    }
+}
+
+#[test]
+fn dashes_lie_by_the_length_over_the_ground_whatever_the_latitude() {
+    let ground = OverTheGround(WGS84);
+    let dash = Dash::new(&[100e3, 50e3], 20e3).unwrap();
+    for path in [
+        radians(&[(10.0, 60.0), (40.0, 60.0)]),
+        radians(&[(10.0, 0.0), (10.0, 55.0), (60.0, 80.0)]),
+        radians(&[(200.0, -88.0), (200.0, -90.0), (20.0, -90.0), (20.0, -85.0)]),
+    ] {
+        let Dashed::Parts(parts) = dash.along(&path, false, &ground) else { panic!("there are gaps") };
+        let length =
+            |path: &[DVec2]| path.windows(2).map(|ends| ground.length(ends[0], ends[1])).sum::<f64>();
+        let (first, last) = (length(&parts[0]), length(&parts[parts.len() - 1]));
+        assert!((first - 80e3).abs() < 1e-5 && last < 100e3 + 1e-5, "{first} {last}");
+        assert!(parts[1..parts.len() - 1].iter().all(|part| (length(part) - 100e3).abs() < 1e-5));
+        // 130 km from its beginning the second one begins.
+        let until = parts[1][0];
+        let end = path.iter().position(|place| *place == path[path.len() - 1]).unwrap();
+        let before = path[..end].iter().filter(|place| length_to(&ground, &path, **place) < 130e3);
+        let walked: Vec<DVec2> = before.copied().chain([until]).collect();
+        assert!((length(&walked) - 130e3).abs() < 1e-5, "{}", length(&walked));
+    }
+}
+
+fn length_to(ground: &OverTheGround, path: &[DVec2], place: DVec2) -> f64 {
+    let steps = path.windows(2).take_while(|ends| ends[0] != place);
+    steps.map(|ends| ground.length(ends[0], ends[1])).sum()
+}
+
+#[test]
+fn a_dash_over_the_beginning_of_a_ring_around_a_pole_is_one() {
+    let ground = OverTheGround(WGS84);
+    let ring = radians(&[(-30.0, 80.0), (90.0, 80.0), (210.0, 80.0), (330.0, 80.0)]);
+    let quarter = 0.25 * ground.length(ring[0], ring[3]);
+    let dash = Dash::new(&[quarter, quarter], 0.5 * quarter).unwrap();
+    let Dashed::Parts(parts) = dash.along(&ring, true, &ground) else { panic!("there are gaps") };
+    assert_eq!(parts.len(), 2);
+    let [from, to] = [parts[0][0], parts[0][parts[0].len() - 1]].map(|place| place.x.to_degrees());
+    assert!((from - 285.0).abs() < 1e-9 && (to - 375.0).abs() < 1e-9, "{from} {to}");
+}
+
+#[test]
+fn a_path_of_a_stroke_in_pixels_has_places_where_degrees_become_shorter() {
+    let even = evenly(&radians(&[(10.0, -20.0), (10.0, 90.0), (50.0, 90.0), (50.0, 3.0)]));
+    assert!((100..2000).contains(&even.len()), "{}", even.len());
+    for ends in even.windows(2) {
+        let [from, to] = [ends[0], ends[1]].map(|place| crate::math::cos(place.y));
+        let most = crate::math::max(from, to);
+        let share = if most > 1.0 / 12.0 { 1.0 / 32.0 } else { 1.0 / 8.0 };
+        assert!(most <= 1.0 / 4_096.0 || (from - to).abs() <= most * share + 1e-12);
+    }
+    let level = radians(&[(0.0, 40.0), (90.0, 40.0)]);
+    assert_eq!(evenly(&level), level);
 }
