@@ -55,7 +55,7 @@ fn truth(c: &mut Criterion) {
         let stage = stage(segments);
         let truth = certified(&stage);
         let mean = measure::half_widths(&truth).expect("pixels");
-        let mean = mean.values().iter().sum::<f64>() / mean.values().len() as f64;
+        let mean = mean.values().sum::<f64>() / mean.values().len() as f64;
         #[allow(clippy::print_stderr, reason = "a bench's figures are for people")]
         {
             eprintln!(

@@ -31,7 +31,7 @@ fn against_the_truth(text: &str, changes: &[&str]) -> Metrics {
 
 /// The red channel of all pixels.
 fn reds(text: &str, changes: &[&str]) -> Vec<f64> {
-    colors(&frame(text, changes, &["color"])).values().iter().step_by(4).copied().collect()
+    colors(&frame(text, changes, &["color"])).values().step_by(4).collect()
 }
 
 /// What is exact: areas, joins and caps of the style, nothing blended twice.
@@ -556,11 +556,10 @@ fn levels_meet_without_a_seam() {
     ];
     for changes in [&clipped[..], &[&clipped[..], &OURS].concat()] {
         let drawn = frame(&text, &[changes, &["camera.height_m=2.0"]].concat(), &["color", "level"]);
-        let reds: Vec<f64> = colors(&drawn).values().iter().step_by(4).copied().collect();
+        let reds: Vec<f64> = colors(&drawn).values().step_by(4).collect();
         assert!(reds.iter().all(|v| (v - 0.5).abs() < 1e-6));
         let wide = frame(&text, &[changes, &["technique.clipmap.level_bias=-5"]].concat(), &["color"]);
-        let at =
-            |x: f64, y: f64| colors(&wide).values()[4 * ((64.0 - y) as usize * 128 + (64.0 + x) as usize)];
+        let at = |x: f64, y: f64| colors(&wide).value(4 * ((64.0 - y) as usize * 128 + (64.0 + x) as usize));
         assert!((-50..50).all(|k| (at(f64::from(k), f64::from(k)) - 0.5).abs() < 1e-6));
         assert!(count(&wide, "coarsest_level") > count(&wide, "finest_level"));
     }
@@ -581,7 +580,7 @@ fn beyond_the_clip_region_coarser_levels_blur() {
         let center = format!("technique.clipmap.center={center}");
         let drawn = frame(&text, &[&OURS[..], &near, &[&center]].concat(), &["color"]);
         assert_eq!(count(&drawn, "fallbacks"), fallbacks);
-        colors(&drawn).values().iter().step_by(4).copied().fold(1.0, math::min)
+        colors(&drawn).values().step_by(4).fold(1.0, math::min)
     };
     assert!(drawn("[20.0, 20.0]", 0) < 0.01);
     // The first tile that holds all of it has texels of 1 m: a quarter of one is dark, and pixels between two texels have a part of that.
@@ -634,7 +633,7 @@ fn line_primitives_wider_than_the_device_draws_are_left_out_or_clamped() {
         let wide = format!("technique.clipmap.wide_lines={wide}");
         let drawn = frame(&text, &["technique.clipmap.solution=1-lines", &wide], &["color"]);
         assert!(count(&drawn, "wide_items") > 0);
-        let reds: Vec<f64> = colors(&drawn).values().iter().step_by(4).copied().collect();
+        let reds: Vec<f64> = colors(&drawn).values().step_by(4).collect();
         (0..128).map(|row| 1.0 - reds[row * 128 + 64]).sum::<f64>()
     };
     assert_eq!(width("discard"), 0.0);

@@ -400,7 +400,7 @@ fn against_the_truth(text: &str, changes: &[&str]) -> (Metrics, [f64; 2]) {
         pixels.map(|(x, y)| 1.0 - red(x, y)).sum::<f64>() / width as f64
     };
     let is = black(&|x, y| truth.estimate.at(x, y)[0]);
-    let drawn = black(&|x, y| image.values()[4 * (y * width + x)]);
+    let drawn = black(&|x, y| image.value(4 * (y * width + x)));
     (metrics, [is, drawn])
 }
 

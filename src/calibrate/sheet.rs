@@ -34,7 +34,7 @@ impl Sheet {
     /// A pixel's red, green and blue.
     pub(super) fn at(&self, [x, y]: [usize; 2]) -> [f64; 3] {
         let first = (y * self.image.width() + x) * self.image.channels();
-        std::array::from_fn(|k| self.image.values()[first + k])
+        std::array::from_fn(|k| self.image.value(first + k))
     }
 
     /// Whether a pixel of a picture in black and white is white.

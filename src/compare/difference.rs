@@ -1,12 +1,15 @@
 //! The distance of each value from its interval.
 
 use super::expected::{Expected, Mismatch};
-use super::image::Image;
+use super::image::{Image, Samples};
+use std::borrow::Cow;
+use std::ops::Sub;
 
 /// How far each value of a picture lies outside its expected interval.
 ///
 /// # Guarantees
-/// Every distance is a number, 0 inside the interval and never negative; it may be infinite.
+/// Every distance is a number, 0 inside the interval and never negative; it may be infinite. Between codes it is a whole number of them, whichever
+/// two they are.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Difference(Image);
 
@@ -20,14 +23,15 @@ impl Difference {
             return Err(mismatch);
         }
         let (lo, hi) = (expected.lo(), expected.hi());
-        let mut image = if actual.channels() >= lo.channels() { actual.clone() } else { lo.clone() };
-        let channels = image.channels();
-        for (index, distance) in image.values_mut().iter_mut().enumerate() {
-            let (pixel, channel) = (index / channels, index % channels);
-            let at = |image: &Image| image.at(pixel, channel);
-            *distance = outside(at(lo), at(hi), at(actual));
-        }
-        Ok(Self(image))
+        let channels = lo.channels().max(actual.channels());
+        let samples = if let Some(codes) = each([lo, hi, actual], |image| image.codes8(channels)) {
+            Samples::Codes8(distances(&codes))
+        } else if let Some(codes) = each([lo, hi, actual], |image| image.codes16(channels)) {
+            Samples::Codes16(distances(&codes))
+        } else {
+            Samples::Reals(distances(&[lo, hi, actual].map(|image| image.reals(channels))))
+        };
+        Ok(Self(Image::filled(actual.width(), actual.height(), channels, samples)))
     }
 
     /// Distances that are known already.
@@ -46,28 +50,60 @@ impl Difference {
     /// When it does not tell of each.
     pub fn among(&self, is_kept: &[bool]) -> Option<Self> {
         let channels = self.0.channels();
-        let pixels = self.0.values().chunks_exact(channels).zip(is_kept);
-        assert_eq!(pixels.len(), is_kept.len(), "pixels and what is told of them");
-        let values: Vec<f64> =
-            pixels.filter(|(_, is_kept)| **is_kept).flat_map(|(pixel, _)| pixel).copied().collect();
+        assert_eq!(self.0.width() * self.0.height(), is_kept.len(), "pixels and what is told of them");
+        let kept = self.0.values().enumerate().filter(|(index, _)| is_kept[index / channels]);
+        let values: Vec<f64> = kept.map(|(_, value)| value).collect();
         Image::new(values.len() / channels, 1, channels, values).ok().map(Self)
     }
 
-    /// The largest distance of each pixel's channels.
-    pub(super) fn of_pixels(&self) -> impl Iterator<Item = f64> {
-        let largest = |channels: &[f64]| channels.iter().copied().fold(0.0, crate::math::max);
-        self.0.values().chunks_exact(self.0.channels()).map(largest)
+    /// Of the largest distance of each pixel's channels, what this makes of it.
+    pub(super) fn of_pixels<T: Copy>(&self, made: impl Fn(f64) -> T) -> Vec<T> {
+        let channels = self.0.channels();
+        match self.0.samples() {
+            Samples::Codes8(codes) => {
+                let made: Vec<T> = (0..=u8::MAX).map(|code| made(f64::from(code) / 255.0)).collect();
+                largest(codes, channels).map(|code| made[usize::from(code)]).collect()
+            }
+            Samples::Codes16(codes) => {
+                largest(codes, channels).map(|code| made(f64::from(code) / 65535.0)).collect()
+            }
+            Samples::Reals(values) => {
+                let largest = |pixel: &[f64]| pixel.iter().copied().fold(0.0, crate::math::max);
+                values.chunks_exact(channels).map(|pixel| made(largest(pixel))).collect()
+            }
+        }
     }
 }
 
+/// The largest code of each pixel.
+fn largest<T: Copy + Ord + Default>(codes: &[T], channels: usize) -> impl Iterator<Item = T> {
+    codes.chunks_exact(channels).map(|pixel| pixel.iter().copied().fold(T::default(), T::max))
+}
+
+/// What this finds in all three, where it finds it in each.
+fn each<'a, T: ToOwned + ?Sized>(
+    [lo, hi, actual]: [&'a Image; 3],
+    found: impl Fn(&'a Image) -> Option<Cow<'a, T>>,
+) -> Option<[Cow<'a, T>; 3]> {
+    Some([found(lo)?, found(hi)?, found(actual)?])
+}
+
+/// The distances of values from their intervals: the lower ends, the upper ends, the values.
+fn distances<T: Copy + PartialOrd + Sub<Output = T> + Default>([lo, hi, actual]: &[Cow<[T]>; 3]) -> Vec<T>
+where
+    [T]: ToOwned,
+{
+    lo.iter().zip(&**hi).zip(&**actual).map(|((lo, hi), v)| outside(*lo, *hi, *v)).collect()
+}
+
 /// The distance of `v` from the interval. Comparing first keeps infinities that are expected at the distance 0.
-fn outside(lo: f64, hi: f64, v: f64) -> f64 {
+fn outside<T: PartialOrd + Sub<Output = T> + Default>(lo: T, hi: T, v: T) -> T {
     if v < lo {
         lo - v
     } else if v > hi {
         v - hi
     } else {
-        0.0
+        T::default()
     }
 }
 
@@ -90,7 +126,7 @@ mod tests {
 
     fn distances(lo: &[f64], hi: &[f64], actual: &[f64]) -> Vec<f64> {
         let expected = Expected::between(row(lo), row(hi)).unwrap();
-        Difference::of(&expected, &row(actual)).unwrap().distances().values().to_vec()
+        Difference::of(&expected, &row(actual)).unwrap().distances().values().collect()
     }
 
     #[test]
@@ -111,9 +147,29 @@ mod tests {
         let rgb = || Image::new(1, 1, 3, vec![0.0, 0.5, 1.0]).unwrap();
         let rgba = |alpha| Image::new(1, 1, 4, vec![0.0, 0.5, 1.0, alpha]).unwrap();
         let of = |e: Image, a: Image| Difference::of(&Expected::exactly(e), &a).unwrap();
-        assert_eq!(of(rgb(), rgba(1.0)).distances().values(), [0.0; 4]);
-        assert_eq!(of(rgb(), rgba(0.25)).distances().values(), [0.0, 0.0, 0.0, 0.75]);
-        assert_eq!(of(rgba(0.25), rgb()).distances().values(), [0.0, 0.0, 0.0, 0.75]);
+        assert_eq!(of(rgb(), rgba(1.0)).distances().reals(4)[..], [0.0; 4]);
+        assert_eq!(of(rgb(), rgba(0.25)).distances().reals(4)[..], [0.0, 0.0, 0.0, 0.75]);
+        assert_eq!(of(rgba(0.25), rgb()).distances().reals(4)[..], [0.0, 0.0, 0.0, 0.75]);
+    }
+
+    #[test]
+    fn a_step_of_codes_is_the_same_between_any_two() {
+        let codes = |codes: Vec<u8>| Image::of(255, 1, 1, Samples::Codes8(codes)).unwrap();
+        let (from, to) = (codes((0..255).collect()), codes((1..=255).collect()));
+        let difference = Difference::of(&Expected::exactly(from), &to).unwrap();
+        assert!(difference.distances().values().all(|distance| distance == 1.0 / 255.0));
+    }
+
+    #[test]
+    fn codes_of_8_bits_are_measured_by_codes_of_16_and_by_any_value() {
+        let eight = Image::of(2, 1, 1, Samples::Codes8(vec![0, 100])).unwrap();
+        let sixteen = Image::of(2, 1, 1, Samples::Codes16(vec![1, 25_700])).unwrap();
+        let of = |e: &Image, a: &Image| {
+            let difference = Difference::of(&Expected::exactly(e.clone()), a).unwrap();
+            difference.distances().values().collect::<Vec<_>>()
+        };
+        assert_eq!(of(&eight, &sixteen), [1.0 / 65535.0, 0.0]);
+        assert_eq!(of(&row(&[-0.5, 100.0 / 255.0]), &eight), [0.5, 0.0]);
     }
 
     #[test]
@@ -141,7 +197,7 @@ mod tests {
         let colors = Image::new(1, 3, 3, vec![0.0, 0.5, 0.25, 1.0, 1.0, 1.0, 0.125, 0.0, 0.5]).unwrap();
         let black = Expected::exactly(Image::new(1, 3, 3, vec![0.0; 9]).unwrap());
         let some = Difference::of(&black, &colors).unwrap().among(&[true, false, true]).unwrap();
-        assert_eq!(some.distances().values(), [0.0, 0.5, 0.25, 0.125, 0.0, 0.5]);
+        assert_eq!(some.distances().reals(3)[..], [0.0, 0.5, 0.25, 0.125, 0.0, 0.5]);
         assert_eq!((some.distances().width(), some.distances().channels()), (2, 3));
     }
 

@@ -29,12 +29,12 @@ impl Expected {
         if shape(&lo) != shape(&hi) {
             return Err(Error::usage("the two ends of the expected intervals differ in size or channels"));
         }
-        if let Some(index) = (0..lo.values().len()).find(|i| lo.values()[*i] > hi.values()[*i]) {
+        if let Some(index) = lo.values().zip(hi.values()).position(|(lo, hi)| lo > hi) {
             let ValuePlace { x, y, channel } = lo.place(index);
             return Err(Error::usage(format!(
                 "the expected interval of pixel {x},{y}, channel {channel} is upside down: {} to {}",
-                lo.values()[index],
-                hi.values()[index]
+                lo.value(index),
+                hi.value(index)
             )));
         }
         Ok(Self { lo, hi: Some(hi) })
@@ -43,10 +43,7 @@ impl Expected {
     /// The same, each end moved outward by a share of itself. Infinite ends stay.
     pub(super) fn widened(&self, share: f64) -> Self {
         let moved = |image: &Image, sign: f64| {
-            let mut image = image.clone();
-            let finite = image.values_mut().iter_mut().filter(|value| value.is_finite());
-            finite.for_each(|value| *value += sign * share * value.abs());
-            image
+            image.map(|value| if value.is_finite() { value + sign * share * value.abs() } else { value })
         };
         Self { lo: moved(&self.lo, -1.0), hi: Some(moved(self.hi(), 1.0)) }
     }
@@ -57,12 +54,8 @@ impl Expected {
     /// When it is not told of each pixel.
     #[must_use]
     pub fn ignoring(&self, ignored: &[bool]) -> Self {
-        let with = |image: &Image, value: f64| {
-            let mut image = image.clone();
-            image.fill_pixels(ignored, value);
-            image
-        };
-        Self { lo: with(&self.lo, f64::NEG_INFINITY), hi: Some(with(self.hi(), f64::INFINITY)) }
+        let (lo, hi) = (self.lo.with(f64::NEG_INFINITY, ignored), self.hi().with(f64::INFINITY, ignored));
+        Self { lo, hi: Some(hi) }
     }
 
     /// The lower ends.

@@ -23,7 +23,7 @@ impl Difference {
             }
             along(if is_over(distance, tolerance) { &FAILING } else { &PASSING }, share(distance))
         };
-        let pixels = self.of_pixels().map(color).collect();
+        let pixels = self.of_pixels(color);
         Buffer::from_values(self.distances().width(), self.distances().height(), pixels)
     }
 }

@@ -2,17 +2,41 @@
 
 use crate::buffer::{Buffer, Plane, Values};
 use crate::error::{Error, Result};
+use std::borrow::Cow;
 
 /// A picture of any number of channels, its values in units of 1: code values of 8 bits are 255ths, of 16 bits 65535ths.
 ///
 /// # Guarantees
 /// There is at least one pixel and one channel, and the values fill it. They may be infinite, or not a number.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Image {
     width: usize,
     height: usize,
     channels: usize,
-    values: Vec<f64>,
+    samples: Samples,
+}
+
+/// The values of a picture: rows from the top, then columns, then channels. Codes stay what they are in their file, an eighth or a quarter
+/// of the memory of doubles.
+#[derive(Debug, Clone)]
+pub(super) enum Samples {
+    /// 255ths.
+    Codes8(Vec<u8>),
+    /// 65535ths.
+    Codes16(Vec<u16>),
+    /// In units of 1.
+    Reals(Vec<f64>),
+}
+
+impl Samples {
+    /// How many values there are.
+    fn len(&self) -> usize {
+        match self {
+            Self::Codes8(codes) => codes.len(),
+            Self::Codes16(codes) => codes.len(),
+            Self::Reals(values) => values.len(),
+        }
+    }
 }
 
 /// A value's place in a picture.
@@ -32,23 +56,28 @@ impl Image {
     /// # Errors
     /// When there is no pixel or no channel, or the values do not fill it.
     pub fn new(width: usize, height: usize, channels: usize, values: Vec<f64>) -> Result<Self> {
+        Self::of(width, height, channels, Samples::Reals(values))
+    }
+
+    /// The same of values of any kind.
+    pub(super) fn of(width: usize, height: usize, channels: usize, samples: Samples) -> Result<Self> {
         let wanted = width.checked_mul(height).and_then(|pixels| pixels.checked_mul(channels));
         if wanted == Some(0) {
             return Err(Error::usage("there is nothing to compare: the picture has no pixel or no channel"));
         }
-        if wanted != Some(values.len()) {
+        if wanted != Some(samples.len()) {
             return Err(Error::usage(format!(
                 "a picture of {width} x {height} pixels of {channels} channels cannot have {} values",
-                values.len()
+                samples.len()
             )));
         }
-        Ok(Self { width, height, channels, values })
+        Ok(Self { width, height, channels, samples })
     }
 
     /// A picture that is known to be filled.
-    pub(super) fn filled(width: usize, height: usize, channels: usize, values: Vec<f64>) -> Self {
-        debug_assert_eq!(values.len(), width * height * channels, "values fill a picture");
-        Self { width, height, channels, values }
+    pub(super) fn filled(width: usize, height: usize, channels: usize, samples: Samples) -> Self {
+        debug_assert_eq!(samples.len(), width * height * channels, "values fill a picture");
+        Self { width, height, channels, samples }
     }
 
     /// A picture of 8-bit code values.
@@ -56,9 +85,8 @@ impl Image {
     /// # Errors
     /// When it has no pixel.
     pub fn from_rgba8(picture: &Buffer<[u8; 4]>) -> Result<Self> {
-        let codes = picture.values().as_flattened();
-        let values = codes.iter().map(|code| f64::from(*code) / 255.0).collect();
-        Self::new(picture.width(), picture.height(), 4, values)
+        let codes = picture.values().as_flattened().to_vec();
+        Self::of(picture.width(), picture.height(), 4, Samples::Codes8(codes))
     }
 
     /// A buffer's numbers as they are.
@@ -92,12 +120,59 @@ impl Image {
     }
 
     /// All values: rows from the top, then columns, then channels.
-    pub fn values(&self) -> &[f64] {
-        &self.values
+    pub fn values(&self) -> impl ExactSizeIterator<Item = f64> {
+        (0..self.samples.len()).map(|index| self.value(index))
     }
 
-    pub(super) fn values_mut(&mut self) -> &mut [f64] {
-        &mut self.values
+    /// The value of this index.
+    ///
+    /// # Panics
+    /// When there are not so many.
+    pub fn value(&self, index: usize) -> f64 {
+        match &self.samples {
+            Samples::Codes8(codes) => f64::from(codes[index]) / 255.0,
+            Samples::Codes16(codes) => f64::from(codes[index]) / 65535.0,
+            Samples::Reals(values) => values[index],
+        }
+    }
+
+    /// All values, as they are held.
+    pub(super) fn samples(&self) -> &Samples {
+        &self.samples
+    }
+
+    /// All values in units of 1; a colour without alpha has the alpha 1 where four channels are asked for.
+    pub(super) fn reals(&self, channels: usize) -> Cow<'_, [f64]> {
+        let values = match &self.samples {
+            Samples::Reals(values) => Cow::Borrowed(&values[..]),
+            _ => Cow::Owned(self.values().collect()),
+        };
+        with_alpha(values, (self.channels, channels), 1.0)
+    }
+
+    /// The same in codes of 8 bits; `None` where there are others.
+    pub(super) fn codes8(&self, channels: usize) -> Option<Cow<'_, [u8]>> {
+        match &self.samples {
+            Samples::Codes8(codes) => {
+                Some(with_alpha(Cow::Borrowed(codes), (self.channels, channels), u8::MAX))
+            }
+            _ => None,
+        }
+    }
+
+    /// The same in codes of 16 bits: one of 8 bits is 257 of them. `None` where there are no codes.
+    pub(super) fn codes16(&self, channels: usize) -> Option<Cow<'_, [u16]>> {
+        let codes = match &self.samples {
+            Samples::Codes8(codes) => Cow::Owned(codes.iter().map(|code| 257 * u16::from(*code)).collect()),
+            Samples::Codes16(codes) => Cow::Borrowed(&codes[..]),
+            Samples::Reals(_) => return None,
+        };
+        Some(with_alpha(codes, (self.channels, channels), u16::MAX))
+    }
+
+    /// The same picture with other values, of each the one that this makes of it.
+    pub(super) fn map(&self, value: impl FnMut(f64) -> f64) -> Self {
+        Self { samples: Samples::Reals(self.values().map(value).collect()), ..*self }
     }
 
     /// The same, with 0 in some pixels: what is not looked at need be no number.
@@ -106,25 +181,30 @@ impl Image {
     /// When it is not told of each pixel.
     #[must_use]
     pub fn without(mut self, ignored: &[bool]) -> Self {
-        self.fill_pixels(ignored, 0.0);
+        match &mut self.samples {
+            Samples::Codes8(codes) => fill(codes, ignored, 0),
+            Samples::Codes16(codes) => fill(codes, ignored, 0),
+            Samples::Reals(values) => fill(values, ignored, 0.0),
+        }
         self
     }
 
-    /// Gives some pixels a value in every channel.
-    pub(super) fn fill_pixels(&mut self, which: &[bool], value: f64) {
-        assert_eq!(which.len(), self.width * self.height, "pixels and what is told of them");
-        let pixels = self.values.chunks_exact_mut(self.channels).zip(which);
-        pixels.filter(|(_, is_meant)| **is_meant).for_each(|(pixel, _)| pixel.fill(value));
+    /// The same, with a value in every channel of some pixels.
+    pub(super) fn with(&self, value: f64, which: &[bool]) -> Self {
+        let mut values = self.reals(self.channels).into_owned();
+        fill(&mut values, which, value);
+        Self { samples: Samples::Reals(values), ..*self }
     }
 
     /// Of each pixel of a mask, whether it is marked: whether it has a colour other than black, and is not transparent.
     pub fn marked(&self) -> Vec<bool> {
-        let is_marked = |pixel: &[f64]| {
-            let colors = pixel.len() - usize::from([2, 4].contains(&pixel.len()));
-            pixel[..colors].iter().any(|value| *value != 0.0)
-                && pixel[colors..].iter().all(|alpha| *alpha != 0.0)
+        let channels = self.channels;
+        let colors = channels - usize::from([2, 4].contains(&channels));
+        let is_marked = |pixel: usize| {
+            let has = |channel: usize| self.value(pixel * channels + channel) != 0.0;
+            (0..colors).any(has) && (colors..channels).all(has)
         };
-        self.values.chunks_exact(self.channels).map(is_marked).collect()
+        (0..self.width * self.height).map(is_marked).collect()
     }
 
     /// Where the value of this index is.
@@ -135,13 +215,38 @@ impl Image {
 
     /// The place of the first value that is not a number.
     pub(super) fn first_nan(&self) -> Option<ValuePlace> {
-        self.values.iter().position(|v| v.is_nan()).map(|index| self.place(index))
+        let Samples::Reals(values) = &self.samples else { return None };
+        values.iter().position(|v| v.is_nan()).map(|index| self.place(index))
     }
+}
 
-    /// The value of each pixel's channel; a channel 3 that a colour does not have is its alpha, 1.
-    pub(super) fn at(&self, pixel: usize, channel: usize) -> f64 {
-        if channel < self.channels { self.values[pixel * self.channels + channel] } else { 1.0 }
+/// Pictures are equal by their values, in whatever way they are held.
+impl PartialEq for Image {
+    fn eq(&self, other: &Self) -> bool {
+        let shape = |image: &Self| [image.width, image.height, image.channels];
+        shape(self) == shape(other)
+            && match (&self.samples, &other.samples) {
+                (Samples::Codes8(a), Samples::Codes8(b)) => a == b,
+                (Samples::Codes16(a), Samples::Codes16(b)) => a == b,
+                _ => self.values().eq(other.values()),
+            }
     }
+}
+
+/// Gives some pixels a value in every channel.
+fn fill<T: Copy>(values: &mut [T], which: &[bool], value: T) {
+    let channels = values.len() / which.len().max(1);
+    assert_eq!(values.len(), which.len() * channels, "pixels and what is told of them");
+    let pixels = values.chunks_exact_mut(channels).zip(which);
+    pixels.filter(|(_, is_meant)| **is_meant).for_each(|(pixel, _)| pixel.fill(value));
+}
+
+/// Values of so many channels with as many as are wanted: a fourth behind three is an alpha.
+fn with_alpha<T: Copy>(values: Cow<'_, [T]>, (channels, wanted): (usize, usize), opaque: T) -> Cow<'_, [T]> {
+    if (channels, wanted) != (3, 4) {
+        return values;
+    }
+    values.as_chunks().0.iter().flat_map(|[r, g, b]| [*r, *g, *b, opaque]).collect()
 }
 
 #[cfg(test)]
@@ -153,14 +258,14 @@ mod tests {
         let picture = Buffer::from_values(2, 1, vec![[0, 51, 102, 255], [255, 0, 204, 153]]);
         let image = Image::from_rgba8(&picture).unwrap();
         assert_eq!((image.width(), image.height(), image.channels()), (2, 1, 4));
-        assert_eq!(image.values(), [0.0, 0.2, 0.4, 1.0, 1.0, 0.0, 0.8, 0.6]);
+        assert_eq!(*image.reals(4), [0.0, 0.2, 0.4, 1.0, 1.0, 0.0, 0.8, 0.6]);
     }
 
     #[test]
     fn a_buffers_numbers_of_every_kind_stay_as_they_are() {
         let of = |values: Values| {
             let plane = Plane { name: "p", width: 1, height: 2, components: 1, values };
-            Image::from_plane(&plane).unwrap().values().to_vec()
+            Image::from_plane(&plane).unwrap().values().collect::<Vec<_>>()
         };
         assert_eq!(of(Values::F64(vec![0.1, -2.0])), [0.1, -2.0]);
         assert_eq!(of(Values::F32(vec![0.5, f32::INFINITY])), [0.5, f64::INFINITY]);

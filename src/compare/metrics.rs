@@ -1,7 +1,7 @@
 //! The numbers of a comparison.
 
 use super::difference::{Difference, is_over};
-use super::image::ValuePlace;
+use super::image::{Samples, ValuePlace};
 use crate::math;
 
 /// The side of the window in which failing pixels are counted.
@@ -92,33 +92,80 @@ impl Difference {
     /// The numbers of the comparison. A pixel fails when one of its values is over the tolerance.
     pub fn metrics(&self, tolerance: f64) -> Metrics {
         let distances = self.distances();
-        let values = distances.values();
-        let channel_max = channel_max(values, distances.channels());
+        let (channels, n) = (distances.channels(), distances.values().len());
+        let (channel_max, Sums { mean, rmse, p99 }) = match distances.samples() {
+            Samples::Codes8(codes) => (channel_max(codes, channels, 255.0), Sums::of_codes::<256, _>(codes)),
+            Samples::Codes16(codes) => {
+                (channel_max(codes, channels, 65535.0), Sums::of_codes::<65536, _>(codes))
+            }
+            Samples::Reals(values) => (channel_max(values, channels, 1.0), Sums::of_reals(values)),
+        };
         let max = channel_max.iter().copied().fold(0.0, math::max);
-        let worst = values.iter().position(|d| *d == max).map(|index| distances.place(index));
-        let n = values.len() as f64;
-        let pixels = distances.width() * distances.height();
-        let over_one = self.of_pixels().filter(|d| is_over(*d, ONE_CODE_VALUE)).count();
-        let failing: Vec<bool> = self.of_pixels().map(|d| is_over(d, tolerance)).collect();
+        let worst = if max > 0.0 { distances.values().position(|d| d == max) } else { None };
+        let over_one = self.of_pixels(|d| is_over(d, ONE_CODE_VALUE));
+        let failing = self.of_pixels(|d| is_over(d, tolerance));
+        let count = |which: &[bool]| which.iter().filter(|is_meant| **is_meant).count();
         Metrics {
             max,
-            worst: worst.filter(|_| max > 0.0),
-            mean: values.iter().sum::<f64>() / n,
-            rmse: (values.iter().map(|d| d * d).sum::<f64>() / n).sqrt(),
-            p99: p99(values.iter().copied().filter(|d| *d > 0.0).collect(), values.len()),
+            worst: worst.map(|index| distances.place(index)),
+            mean,
+            rmse,
+            p99,
             channel_max,
-            over_one_code_value: over_one as f64 / pixels as f64,
-            failing: failing.iter().filter(|f| **f).count(),
+            over_one_code_value: count(&over_one) as f64 / (n / channels) as f64,
+            failing: count(&failing),
             densest: densest(&failing, distances.width(), distances.height()),
         }
     }
-}
 
-impl Difference {
     /// The windows with most failing pixels ([`windows`]).
     pub(super) fn windows(&self, tolerance: f64) -> Vec<Window> {
-        let failing = self.of_pixels().map(|d| is_over(d, tolerance)).collect();
+        let failing = self.of_pixels(|d| is_over(d, tolerance));
         windows(failing, self.distances().width(), self.distances().height())
+    }
+}
+
+/// The numbers that all values have a part in.
+struct Sums {
+    mean: f64,
+    rmse: f64,
+    p99: f64,
+}
+
+impl Sums {
+    fn of_reals(values: &[f64]) -> Self {
+        let n = values.len() as f64;
+        Self {
+            mean: values.iter().sum::<f64>() / n,
+            rmse: (values.iter().map(|d| d * d).sum::<f64>() / n).sqrt(),
+            p99: p99(values.iter().copied().filter(|d| *d > 0.0).collect(), values.len()),
+        }
+    }
+
+    /// Of codes of which there are so many, by how often each occurs: sums of whole numbers are exact.
+    fn of_codes<const CODES: usize, T: Copy + Into<usize>>(codes: &[T]) -> Self {
+        // As a rule neighbours are equal: counted in one place, each would wait for the one before it.
+        let mut counts = vec![[0_u64; 4]; CODES];
+        let (fours, rest) = codes.as_chunks::<4>();
+        for four in fours {
+            (0..4).for_each(|k| counts[four[k].into()][k] += 1);
+        }
+        rest.iter().for_each(|code| counts[(*code).into()][0] += 1);
+        let counts: Vec<u64> = counts.iter().map(|four| four.iter().sum()).collect();
+        let sum =
+            |power: u32| (0..).zip(&counts).map(|(code, count)| count * u64::pow(code, power)).sum::<u64>();
+        let (one, n) = ((CODES - 1) as f64, codes.len() as f64);
+        let mut left = (codes.len() * 99).div_ceil(100) as u64;
+        let p99 = counts.iter().take_while(|count| {
+            let is_below = **count < left;
+            left = left.saturating_sub(**count);
+            is_below
+        });
+        Self {
+            p99: p99.count() as f64 / one,
+            mean: sum(1) as f64 / n / one,
+            rmse: (sum(2) as f64 / n).sqrt() / one,
+        }
     }
 }
 
@@ -136,12 +183,17 @@ pub(super) fn windows(mut failing: Vec<bool>, width: usize, height: usize) -> Ve
     windows
 }
 
-fn channel_max(values: &[f64], channels: usize) -> Vec<f64> {
-    let mut most = vec![0.0; channels];
+/// The largest distance of each channel, of values in parts of `one`.
+fn channel_max<T: Copy + PartialOrd + Default + Into<f64>>(
+    values: &[T],
+    channels: usize,
+    one: f64,
+) -> Vec<f64> {
+    let mut most = vec![T::default(); channels];
     for pixel in values.chunks_exact(channels) {
-        most.iter_mut().zip(pixel).for_each(|(most, d)| *most = math::max(*most, *d));
+        most.iter_mut().zip(pixel).for_each(|(most, d)| *most = if *d > *most { *d } else { *most });
     }
-    most
+    most.into_iter().map(|most| most.into() / one).collect()
 }
 
 /// The smallest value that at least 99 of 100 of `n` values do not exceed; `off` are those that are not 0.
@@ -217,6 +269,39 @@ mod tests {
         assert_eq!(metrics.rmse, (0.3125_f64 / 24.0).sqrt());
         assert_eq!(metrics.channel_max, [0.25, 0.0, 0.0, 0.5]);
         assert_eq!((metrics.failing, metrics.over_one_code_value), (1, 2.0 / 6.0));
+    }
+
+    #[test]
+    fn codes_have_the_numbers_of_their_values() {
+        let mut state = 7_u32;
+        let mut codes = || -> Vec<u8> {
+            let mut next = || {
+                state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                (state >> 24) as u8 / if state & 0x300 == 0 { 1 } else { 100 }
+            };
+            (0..40 * 30 * 3).map(|_| next()).collect()
+        };
+        let (expected, actual) = (codes(), codes());
+        let eight = |codes: &[u8]| Image::of(40, 30, 3, Samples::Codes8(codes.to_vec())).unwrap();
+        let sixteen = |codes: &[u8]| {
+            let codes = codes.iter().map(|code| 257 * u16::from(*code)).collect();
+            Image::of(40, 30, 3, Samples::Codes16(codes)).unwrap()
+        };
+        let reals = |codes: &[u8]| eight(codes).map(|value| value);
+        let tolerance = 20.0 / 255.0;
+        let on = |expected: Image, actual: Image| {
+            Difference::of(&Expected::exactly(expected), &actual).unwrap().metrics(tolerance)
+        };
+        let of_codes = on(eight(&expected), eight(&actual));
+        assert_eq!(of_codes, on(sixteen(&expected), eight(&actual)));
+        let of_reals = on(reals(&expected), eight(&actual));
+        assert_eq!((of_codes.failing, of_codes.densest), (of_reals.failing, of_reals.densest));
+        assert_eq!(of_codes.over_one_code_value, of_reals.over_one_code_value);
+        assert!(of_codes.p99 > 0.0 && of_codes.p99 < of_codes.max);
+        let numbers = |m: &Metrics| [&[m.max, m.mean, m.rmse, m.p99][..], &m.channel_max].concat();
+        for (code, real) in numbers(&of_codes).into_iter().zip(numbers(&of_reals)) {
+            assert!((code - real).abs() < 1e-14, "{code} is not {real}");
+        }
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use super::arguments::Arguments;
 use super::files::{is_one_file, mask, read, twice};
 use super::judged::{Call, Judged, Pictures};
-use drapery::compare::{Expected, Image, Limits, Report, Verdict};
+use drapery::compare::{Expected, Limits, Report, Verdict};
 use drapery::{Error, Result};
 use std::path::{Path, PathBuf};
 
@@ -16,7 +16,7 @@ pub(super) fn judged(arguments: &Arguments) -> Result<Call> {
         }
     }
     let picture = read(actual)?;
-    let (wanted, shown) = expectation(&ends)?;
+    let wanted = expectation(&ends)?;
     let size = (wanted.lo().width(), wanted.lo().height());
     let limits = limits(arguments, size.0 * size.1)?;
     let mask = mask(ignore.as_deref(), size)?;
@@ -30,25 +30,20 @@ pub(super) fn judged(arguments: &Arguments) -> Result<Call> {
     let report = Report { expected: &name, actual: &actual.display().to_string(), verdict: &verdict };
     let mut pictures = Pictures::default();
     if arguments.shows() {
-        pictures = Pictures { heat: verdict.heat_map(), both: Some((shown, picture)) };
+        pictures = Pictures { heat: verdict.heat_map(), both: Some((wanted.lo().clone(), picture)) };
     }
     let judged = Judged { case: report.case(), pictures };
     let inputs = ends.into_iter().chain([actual]).chain(ignore).cloned().collect();
     Ok(Call::of(vec![judged], None, inputs))
 }
 
-/// What is expected, and a picture of it.
-fn expectation(ends: &[&PathBuf]) -> Result<(Expected, Image)> {
+/// What is expected.
+fn expectation(ends: &[&PathBuf]) -> Result<Expected> {
     match ends {
-        [lo, hi] => {
-            let (low, high) = (read(lo)?, read(hi)?);
-            let shown = low.clone();
-            Ok((Expected::between(low, high).map_err(|error| error.in_file(hi))?, shown))
-        }
+        [lo, hi] => Expected::between(read(lo)?, read(hi)?).map_err(|error| error.in_file(hi)),
         ends => {
             let path: &Path = ends.first().map_or(Path::new("-"), |path| path);
-            let picture = read(path)?;
-            Ok((Expected::exactly(picture.clone()), picture))
+            Ok(Expected::exactly(read(path)?))
         }
     }
 }

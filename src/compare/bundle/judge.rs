@@ -191,7 +191,7 @@ fn plane(bytes: &[u8], size: Size) -> Result<Numbers> {
     let finer = (plane.width() / size.width.max(1)).max(1);
     let finer = Size { width: size.width.saturating_mul(finer), height: size.height.saturating_mul(finer) };
     check_size((plane.width(), plane.height()), finer)?;
-    Ok(Numbers { components: plane.channels(), values: plane.values().to_vec() })
+    Ok(Numbers { components: plane.channels(), values: plane.values().collect() })
 }
 
 fn picture(bytes: &[u8], size: Size) -> Result<Vec<[u16; 4]>> {

@@ -18,12 +18,14 @@ pub(super) struct Picture<'a> {
 impl<'a> Picture<'a> {
     /// Of a colour, whose alpha is 1 where it has none.
     pub(super) fn of(image: &Image, ignored: Option<&'a [bool]>) -> Self {
-        let channels = image.channels();
-        let pixel = |values: &[f64]| {
-            let alpha = values.get(3).copied().unwrap_or(1.0);
-            [values[0], values[1], values[2], alpha].map(|value| (value * CODES) as f32)
+        let pixels = match image.codes16(4) {
+            Some(codes) => codes.as_chunks().0.iter().map(|pixel| pixel.map(f32::from)).collect(),
+            None => {
+                let code = |value: f64| (value * CODES) as f32;
+                image.reals(4).as_chunks().0.iter().map(|pixel| pixel.map(code)).collect()
+            }
         };
-        Self { pixels: image.values().chunks_exact(channels).map(pixel).collect(), ignored }
+        Self { pixels, ignored }
     }
 }
 

@@ -10,7 +10,7 @@ use crate::buffer::Buffer;
 use crate::compare::allowed::Allowed;
 use crate::compare::difference::Difference;
 use crate::compare::expected::{Mismatch, Side};
-use crate::compare::image::Image;
+use crate::compare::image::{Image, Samples};
 use crate::compare::metrics::{Metrics, Window, densest, windows};
 use crate::compare::submitted::Submitted;
 use std::fmt;
@@ -130,7 +130,7 @@ impl fmt::Display for Judgement {
         };
         let Gates { allow, densest, .. } = self.gates;
         let failing = fitted.metrics.failing;
-        let pixels = fitted.difference.distances().values().len() / 4;
+        let pixels = fitted.fails.len();
         let outside = format!("{failing} of {pixels} pixels are outside of what is allowed ({allow} may be)");
         let lean = || match fitted.lean.lopsided() {
             Some(Lopsided { pixels, of, to_drawn, .. }) => {
@@ -196,11 +196,9 @@ fn mismatch(allowed: &Allowed, frame: &Submitted) -> Option<Mismatch> {
     }
     let counts = |pixel: usize| frame.ignored.as_ref().is_none_or(|ignored| !ignored[pixel]);
     // As a rule there is none, and this is quick to see.
-    if !picture.values().iter().fold(false, |any, value| any | value.is_nan()) {
-        return None;
-    }
-    let is_wrong = |(index, value): (usize, &f64)| value.is_nan() && counts(index / picture.channels());
-    let index = picture.values().iter().enumerate().position(is_wrong)?;
+    picture.first_nan()?;
+    let is_wrong = |(index, value): (usize, f64)| value.is_nan() && counts(index / picture.channels());
+    let index = picture.values().enumerate().position(is_wrong)?;
     Some(Mismatch::NotANumber { side: Side::Actual, place: picture.place(index) })
 }
 
@@ -270,7 +268,7 @@ fn difference(distances: &[(usize, [f64; 4])], (width, height): (usize, usize)) 
     for (pixel, distances) in distances {
         values[4 * pixel..4 * pixel + 4].copy_from_slice(distances);
     }
-    Difference::known(Image::filled(width, height, 4, values))
+    Difference::known(Image::filled(width, height, 4, Samples::Reals(values)))
 }
 
 #[cfg(test)]

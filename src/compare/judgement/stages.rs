@@ -76,7 +76,8 @@ fn outcome(
     let wrong: Vec<usize> = match range {
         StageRange::Between { lo, hi, .. } => {
             let ends = lo.chunks_exact(components).zip(hi.chunks_exact(components));
-            let places = buffer.values().chunks_exact(components).zip(ends).enumerate();
+            let values = buffer.reals(components);
+            let places = values.chunks_exact(components).zip(ends).enumerate();
             // What is not a number is nowhere.
             let fits = |v: &[f64], (lo, hi): (&[f64], &[f64])| {
                 (0..components).all(|k| v[k] >= lo[k] && v[k] <= hi[k])
@@ -86,7 +87,7 @@ fn outcome(
         StageRange::OneOf(rows) => {
             let places = rows.chunk_by(|a, b| a.0 == b.0).map(|rows| (rows[0].0 as usize, rows));
             let is_one =
-                |(at, rows): &(usize, &[(u32, f64)])| rows.iter().any(|row| row.1 == buffer.values()[*at]);
+                |(at, rows): &(usize, &[(u32, f64)])| rows.iter().any(|row| row.1 == buffer.value(*at));
             places.filter(|found| !is_one(found)).map(|(at, _)| at).collect()
         }
     };

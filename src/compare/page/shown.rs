@@ -54,7 +54,7 @@ fn range(image: &Image) -> (f64, f64) {
     if is_color(image) {
         return (0.0, 1.0);
     }
-    let values = image.values().iter().step_by(image.channels()).copied().filter(|value| value.is_finite());
+    let values = image.values().step_by(image.channels()).filter(|value| value.is_finite());
     let (lo, hi) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| {
         (crate::math::min(lo, v), crate::math::max(hi, v))
     });
@@ -69,6 +69,6 @@ fn visible(image: &Image, (lo, hi): (f64, f64)) -> Buffer<[u8; 4]> {
         [r, g, b, a] => [code(r), code(g), code(b), code(a)],
         _ => [code(values[0]), code(values[0]), code(values[0]), 255],
     };
-    let pixels = image.values().chunks_exact(image.channels()).map(pixel).collect();
+    let pixels = image.reals(image.channels()).chunks_exact(image.channels()).map(pixel).collect();
     Buffer::from_values(image.width(), image.height(), pixels)
 }

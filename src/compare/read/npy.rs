@@ -2,7 +2,7 @@
 //! (rows, columns) or (rows, columns, channels), and tables.
 
 use super::size::check_size;
-use crate::compare::image::Image;
+use crate::compare::image::{Image, Samples};
 use crate::error::{Error, Result};
 
 pub(super) const MAGIC: &[u8] = b"\x93NUMPY";
@@ -20,16 +20,12 @@ pub(in crate::compare) struct Array<'a> {
 pub(super) fn decode(bytes: &[u8]) -> Result<Image> {
     let array = Array::of(bytes)?;
     let [height, width, channels] = array.picture_shape()?;
-    let unit = match array.kind {
-        "<u2" => 65535.0,
-        "|u1" => 255.0,
-        _ => 1.0,
+    let samples = match array.kind {
+        "<u2" => Samples::Codes16(numbers(array.data, u16::from_le_bytes)?),
+        "|u1" => Samples::Codes8(array.data.to_vec()),
+        _ => Samples::Reals(array.values()?),
     };
-    let mut values = array.values()?;
-    if unit != 1.0 {
-        values.iter_mut().for_each(|value| *value /= unit);
-    }
-    Image::new(width, height, channels, values)
+    Image::of(width, height, channels, samples)
 }
 
 impl<'a> Array<'a> {
@@ -166,7 +162,7 @@ mod tests {
     fn decoded(kind: &str, data: &[u8]) -> Vec<f64> {
         let image = decode(&file(&head(kind, "(1, 2)"), data)).unwrap();
         assert_eq!((image.width(), image.height(), image.channels()), (2, 1, 1));
-        image.values().to_vec()
+        image.values().collect()
     }
 
     #[test]
@@ -186,7 +182,7 @@ mod tests {
         file.extend((text.len() as u32).to_le_bytes());
         file.extend(text.bytes().chain([0, 51, 255]));
         let image = decode(&file).unwrap();
-        assert_eq!((image.channels(), image.values()), (3, &[0.0, 0.2, 1.0][..]));
+        assert_eq!((image.channels(), &image.reals(3)[..]), (3, &[0.0, 0.2, 1.0][..]));
     }
 
     #[test]
@@ -213,7 +209,7 @@ mod tests {
     #[test]
     fn a_buffers_codes_are_no_fractions() {
         let file = file(&head("|u1", "(1, 2)"), &[7, 255]);
-        assert_eq!(Array::of(&file).unwrap().plane().unwrap().values(), [7.0, 255.0]);
+        assert_eq!(Array::of(&file).unwrap().plane().unwrap().reals(1)[..], [7.0, 255.0]);
     }
 
     #[test]

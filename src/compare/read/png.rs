@@ -1,7 +1,7 @@
 //! PNG of 8 or 16 bits (fewer bits, palettes and grey become colours).
 
 use super::size::{MOST_PIXELS, check_promise, check_size};
-use crate::compare::image::Image;
+use crate::compare::image::{Image, Samples};
 use crate::error::{Error, Result};
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 use std::io::Cursor;
@@ -14,14 +14,15 @@ const MOST_BYTES: u64 = 8 * MOST_PIXELS as u64;
 pub(super) fn decode(bytes: &[u8]) -> Result<Image> {
     let picture = open(bytes)?;
     let (width, height) = (picture.width() as usize, picture.height() as usize);
-    // v * 257 / 65535 is v / 255, in doubles too: both are the nearest to the same quotient.
-    let (channels, codes) = if picture.color().has_alpha() {
-        (4, picture.into_rgba16().into_raw())
-    } else {
-        (3, picture.into_rgb16().into_raw())
+    let color = picture.color();
+    let has_16_bits = color.bytes_per_pixel() > color.channel_count();
+    let (channels, samples) = match (color.has_alpha(), has_16_bits) {
+        (true, true) => (4, Samples::Codes16(picture.into_rgba16().into_raw())),
+        (true, false) => (4, Samples::Codes8(picture.into_rgba8().into_raw())),
+        (false, true) => (3, Samples::Codes16(picture.into_rgb16().into_raw())),
+        (false, false) => (3, Samples::Codes8(picture.into_rgb8().into_raw())),
     };
-    let values = codes.into_iter().map(|code| f64::from(code) / 65535.0).collect();
-    Image::new(width, height, channels, values)
+    Image::of(width, height, channels, samples)
 }
 
 /// Width, height and pixels in codes of 16 bits.
@@ -63,20 +64,20 @@ mod tests {
         let codes: Vec<u8> = (0..=255).flat_map(|v| [v, 255 - v, v, 255]).collect();
         let image = decoded(&codes, 256, ExtendedColorType::Rgba8);
         let wanted: Vec<f64> = codes.iter().map(|v| f64::from(*v) / 255.0).collect();
-        assert_eq!((image.width(), image.channels(), image.values()), (256, 4, &wanted[..]));
+        assert_eq!((image.width(), image.channels(), &image.reals(4)[..]), (256, 4, &wanted[..]));
     }
 
     #[test]
     fn codes_of_16_bits_are_65535ths() {
         let codes: Vec<u8> = [1_u16, 258, 65535].iter().flat_map(|v| v.to_ne_bytes()).collect();
         let image = decoded(&codes, 1, ExtendedColorType::Rgb16);
-        assert_eq!((image.channels(), image.values()), (3, &[1.0 / 65535.0, 258.0 / 65535.0, 1.0][..]));
+        assert_eq!((image.channels(), &image.reals(3)[..]), (3, &[1.0 / 65535.0, 258.0 / 65535.0, 1.0][..]));
     }
 
     #[test]
     fn grey_is_a_colour() {
-        assert_eq!(decoded(&[51], 1, ExtendedColorType::L8).values(), [0.2, 0.2, 0.2]);
-        assert_eq!(decoded(&[51, 102], 1, ExtendedColorType::La8).values(), [0.2, 0.2, 0.2, 0.4]);
+        assert_eq!(decoded(&[51], 1, ExtendedColorType::L8).reals(3)[..], [0.2, 0.2, 0.2]);
+        assert_eq!(decoded(&[51, 102], 1, ExtendedColorType::La8).reals(4)[..], [0.2, 0.2, 0.2, 0.4]);
     }
 
     #[test]
