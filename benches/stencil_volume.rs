@@ -3,59 +3,24 @@
 //!
 //! `cargo bench --bench stencil_volume`
 
+mod peers;
+
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
-use drapery::scene::{Cap, Color, Diagonal, Feature, Join, Layer, Line, Posts, Shape, Style};
-use drapery::scene::{Surface, Width};
+use drapery::scene::{Cap, Color, Diagonal, Feature, Join, Layer, Line, Shape, Style, Width};
 use drapery::scene_file::SceneFile;
 use drapery::space::Plan;
 use drapery::stage::Stage;
 use drapery::technique::stencil_volume::{Grouping, Settings};
 use drapery::technique::{self, FrameOptions, Kind};
 use glam::DVec2;
+use peers::hills;
 use std::hint::black_box;
 
 /// Segments, their length, their width.
 const ROADS: [(usize, f64, f64); 3] =
     [(2_000, 0.02, 0.004), (20_000, 0.02, 0.0015), (200_000, 0.006, 0.0005)];
-/// Posts a side.
-const POSTS: usize = 224;
 /// Segments of a line.
 const CHAIN: usize = 20;
-
-/// A number of 0..=1 for each point of an integer lattice.
-fn lattice_noise(x: i64, y: i64) -> f64 {
-    let mut h = (x as u32).wrapping_mul(0x8da6_b343) ^ (y as u32).wrapping_mul(0xd816_3841);
-    for (shift, factor) in [(13, 0x5bd1_e995), (15, 0x27d4_eb2d)] {
-        h = (h ^ (h >> shift)).wrapping_mul(factor);
-    }
-    f64::from(h ^ (h >> 16)) / f64::from(u32::MAX)
-}
-
-/// Value noise with a fade of the fifth degree.
-fn noise(x: f64, y: f64) -> f64 {
-    let fade = |t: f64| t * t * t * (t * (t * 6.0 - 15.0) + 10.0);
-    let (i, j) = (x.floor() as i64, y.floor() as i64);
-    let (s, t) = (fade(x - x.floor()), fade(y - y.floor()));
-    let row = |j| lattice_noise(i, j) * (1.0 - s) + lattice_noise(i + 1, j) * s;
-    row(j) * (1.0 - t) + row(j + 1) * t
-}
-
-/// Rough hills over the unit square, heights 0 to 0.16.
-fn hills() -> Surface {
-    let step = 1.0 / (POSTS - 1) as f64;
-    let height = |k: usize| {
-        let (x, y) = ((k % POSTS) as f64 * step, (k / POSTS) as f64 * step);
-        let octave = |o: i32| {
-            let scale = f64::from(1 << o);
-            let shift = f64::from(o);
-            0.5 / scale * noise(x * 4.0 * scale + 17.3 * shift, y * 4.0 * scale + 31.7 * shift)
-        };
-        f64::from((0.2 * (0..9).map(octave).sum::<f64>()) as f32)
-    };
-    let heights = (0..POSTS * POSTS).map(height).collect();
-    let steps = (DVec2::X * step, DVec2::Y * step);
-    Surface::Grid(Posts::new((POSTS, POSTS), Plan::default(), steps, heights).expect("finite heights"))
-}
 
 /// Chains of segments that wander from random points of the unit square.
 fn chains(count: usize, length: f64) -> Vec<Feature> {
@@ -104,7 +69,7 @@ terrain = { generate = { kind = "plane", posts = [2, 2], cell_m = 1.0, height_m 
     scene.diagonal = Diagonal::NwSe;
     scene.layers = layers(roads, colors);
     scene.technique.set(Settings { grouping: Grouping::Color, ..Settings::default() });
-    Stage::new(scene, hills()).expect("few triangles")
+    Stage::new(scene, hills(224)).expect("few triangles")
 }
 
 fn stencil_volume(c: &mut Criterion) {

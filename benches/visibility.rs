@@ -3,35 +3,23 @@
 //!
 //! `cargo bench --bench visibility`; the README has the figures, and those of other programs.
 
+mod peers;
+
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use drapery::raster::Lattice;
-use drapery::scene::{Diagonal, Posts, Surface};
-use drapery::scene_file::{TerrainGenerator, TerrainKind};
-use drapery::source::generate;
-use drapery::space::{Plan, Screen, ViewFrame, Viewpoint, World};
+use drapery::scene::Diagonal;
+use drapery::space::{Screen, ViewFrame, Viewpoint, World};
 use drapery::terrain::{Mesh, SKY};
 use drapery::visibility::Visible;
-use glam::{DVec2, DVec3};
+use glam::DVec3;
+use peers::hills;
 use std::hint::black_box;
 
 /// Posts a side and what they make.
 const TERRAINS: [(usize, &str); 4] = [(40, "3k"), (224, "100k"), (1001, "2M"), (2001, "8M")];
 
-/// Rough hills over the unit square.
 fn terrain(n: usize) -> Mesh {
-    let step = 1.0 / (n - 1) as f64;
-    let kind = TerrainKind::Fbm { seed: 7, wavelength_m: 0.25, octaves: 9 };
-    let rough = generate::terrain(&TerrainGenerator {
-        kind,
-        posts: (n, n),
-        cell_m: step,
-        is_in_degrees: false,
-        height_m: 0.16,
-    })
-    .expect("valid numbers");
-    let posts =
-        Posts::new((n, n), Plan::default(), (DVec2::X * step, DVec2::Y * step), rough.heights().to_vec());
-    Mesh::new(Surface::Grid(posts.expect("finite heights")), Diagonal::NwSe).expect("few triangles")
+    Mesh::new(hills(n), Diagonal::NwSe).expect("few triangles")
 }
 
 fn view(target: World) -> ViewFrame {
