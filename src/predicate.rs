@@ -81,7 +81,7 @@ pub fn facing(frame: &ViewFrame, [a, b, c]: &[World; 3]) -> f64 {
 ///
 /// Exact: equal means that they meet the ray in the very same point.
 pub fn compare_along_ray(ray: &Ray, first: &[World; 3], second: &[World; 3]) -> Ordering {
-    let parameter = |triangle| Parameter::new(ray, &TrianglePlane::new(triangle));
+    let parameter = |triangle| Parameter::of(ray, triangle);
     let (t1, t2) = (parameter(first), parameter(second));
     if (t1.value - t2.value).abs() > t1.error + t2.error {
         return if t1.value < t2.value { Ordering::Less } else { Ordering::Greater };
@@ -96,7 +96,7 @@ pub fn compare_along_ray(ray: &Ray, first: &[World; 3], second: &[World; 3]) -> 
 /// Whether the view depth at which a ray meets a triangle is at least `depth` metres (exactly).
 pub fn is_hit_beyond(frame: &ViewFrame, ray: &Ray, triangle: &[World; 3], depth: f64) -> bool {
     // The ray reaches view depth `reach` (a power of two) at parameter 1.
-    let (t, limit) = (Parameter::new(ray, &TrianglePlane::new(triangle)), depth / frame.reach());
+    let (t, limit) = (Parameter::of(ray, triangle), depth / frame.reach());
     if (t.value - limit).abs() > t.error {
         return t.value > limit;
     }
@@ -142,23 +142,30 @@ impl TrianglePlane {
         Self { triangle: *triangle, normal: u.cross(v), spread }
     }
 
-    /// The parameter in plain doubles, and whether it is good to a relative 2^-30.
-    #[inline(always)]
-    pub fn quick_hit_parameter(&self, ray: &Ray) -> (f64, bool) {
-        let fast = Parameter::new(ray, self);
-        (fast.value, fast.error < fast.value.abs() * (1.0 / (1u64 << 30) as f64))
+    /// The numbers that [`quick_hit_parameter`] takes.
+    #[inline]
+    pub fn numbers(&self) -> [f64; 9] {
+        let [a, n, s] = [self.triangle[0].to_vec(), self.normal, self.spread];
+        [a.x, a.y, a.z, n.x, n.y, n.z, s.x, s.y, s.z]
     }
 
     /// As the function [`hit_parameter`].
     #[inline]
     pub fn hit_parameter(&self, ray: &Ray) -> f64 {
-        let (value, is_sure) = self.quick_hit_parameter(ray);
+        let (value, is_sure) = quick_hit_parameter(ray, &self.numbers());
         if is_sure {
             return value;
         }
         let (n, d) = hit_fraction(ray, &self.triangle);
         if d.0.is_empty() { 0.0 } else { n.rounded() / d.rounded() }
     }
+}
+
+/// The parameter of a ray at a plane of these [`TrianglePlane::numbers`] in plain doubles, and whether it is good to a relative 2^-30.
+#[inline(always)]
+pub fn quick_hit_parameter(ray: &Ray, numbers: &[f64; 9]) -> (f64, bool) {
+    let fast = Parameter::new(ray, numbers);
+    (fast.value, fast.error < fast.value.abs() * (1.0 / (1u64 << 30) as f64))
 }
 
 /// A ray's parameter at a triangle's plane in plain doubles, with a bound of its error (infinite or NaN when the plane
@@ -169,13 +176,19 @@ struct Parameter {
 }
 
 impl Parameter {
+    #[inline]
+    fn of(ray: &Ray, triangle: &[World; 3]) -> Self {
+        Self::new(ray, &TrianglePlane::new(triangle).numbers())
+    }
+
     #[inline(always)]
-    fn new(ray: &Ray, plane: &TrianglePlane) -> Self {
-        let (start, along) = (plane.triangle[0] - ray.from, ray.through - ray.from);
-        let (n, d) = (start.dot(plane.normal), along.dot(plane.normal));
+    fn new(ray: &Ray, &[ax, ay, az, nx, ny, nz, sx, sy, sz]: &[f64; 9]) -> Self {
+        let (start, along) = (World::new(ax, ay, az) - ray.from, ray.through - ray.from);
+        let (normal, spread) = (DVec3::new(nx, ny, nz), DVec3::new(sx, sy, sz));
+        let (n, d) = (start.dot(normal), along.dot(normal));
         // Nine roundings bound each product's path (see `sign_of_det`), one more the quotient.
-        let n_error = 10.0 * U * start.abs().dot(plane.spread);
-        let d_error = 10.0 * U * along.abs().dot(plane.spread);
+        let n_error = 10.0 * U * start.abs().dot(spread);
+        let d_error = 10.0 * U * along.abs().dot(spread);
         let value = n / d;
         let certain = d.abs() - d_error;
         let error = (n_error + value.abs() * d_error) / certain + 2.0 * U * value.abs();

@@ -16,7 +16,7 @@ use drapery::technique::inverse_projection::{self, Corners};
 use drapery::technique::{self, Frame, Kind};
 use drapery::terrain::{Drape, Mesh, SurfaceTriangle, SurfaceVertex};
 use drapery::truth::Truth;
-use drapery::visibility::Sight;
+use drapery::visibility::{Planes, Sight};
 use glam::{DQuat, DVec3};
 use std::sync::Arc;
 
@@ -233,10 +233,10 @@ fn a_row_of_plan_points_has_the_bits_of_its_samples() {
         let lattice = Lattice::corners(&view);
         let mut sight = Sight::new(&view, &stage.mesh, &Device::default(), lattice, 64);
         sight.see();
-        let mut seen = 0;
+        let (mut seen, mut planes) = (0, Planes::default());
         for row in 0..lattice.rows {
             let mut points = vec![Plan::default(); lattice.columns];
-            sight.plan_of_row(row, &mut points);
+            sight.plan_of_row(row, &mut points, &mut planes);
             for (column, point) in points.into_iter().enumerate() {
                 let hit =
                     sight.hit(column, row).map_or(Plan::new(f64::INFINITY, f64::INFINITY), |hit| hit.plan);

@@ -7,7 +7,7 @@ use crate::raster::{Counts, Lattice};
 use crate::scene::Device;
 use crate::space::{Plan, ViewFrame};
 use crate::terrain::Mesh;
-use crate::visibility::{Hit, Sight};
+use crate::visibility::{Hit, Planes, Sight};
 
 /// Rows whose plan points are one piece of parallel work.
 const ROWS_AT_A_TIME: usize = 16;
@@ -17,8 +17,8 @@ const ROWS_AT_A_TIME: usize = 16;
 pub struct GBuffer<'a> {
     sight: Sight<'a>,
     columns: usize,
-    /// Rows from the top; infinite where the sky is seen.
-    plan: Vec<Plan>,
+    /// Rows from the top, [`ROWS_AT_A_TIME`] together; infinite where the sky is seen.
+    plan: Vec<Vec<Plan>>,
 }
 
 impl<'a> GBuffer<'a> {
@@ -26,11 +26,15 @@ impl<'a> GBuffer<'a> {
     pub fn new(view: &'a ViewFrame, mesh: &'a Mesh, device: &Device, lattice: Lattice, tile: usize) -> Self {
         let mut sight = Sight::new(view, mesh, device, lattice, tile);
         sight.see();
-        let mut plan = vec![Plan::default(); lattice.columns * lattice.rows];
-        parallel::for_each_chunk(&mut plan, ROWS_AT_A_TIME * lattice.columns, |chunk, rows| {
-            for (k, points) in rows.chunks_mut(lattice.columns).enumerate() {
-                sight.plan_of_row(ROWS_AT_A_TIME * chunk + k, points);
+        let plan = parallel::map_indices(lattice.rows.div_ceil(ROWS_AT_A_TIME), |k| {
+            let first = ROWS_AT_A_TIME * k;
+            let rows = first..lattice.rows.min(first + ROWS_AT_A_TIME);
+            let mut points = vec![Plan::default(); lattice.columns * rows.len()];
+            let mut planes = Planes::default();
+            for (row, points) in rows.zip(points.chunks_mut(lattice.columns)) {
+                sight.plan_of_row(row, points, &mut planes);
             }
+            points
         });
         Self { sight, columns: lattice.columns, plan }
     }
@@ -47,14 +51,14 @@ impl<'a> GBuffer<'a> {
     }
 
     /// The plan points of all samples, rows from the top, infinite where the sky is seen.
-    pub fn plan_points(&self) -> &[Plan] {
-        &self.plan
+    pub fn plan_points(&self) -> impl Iterator<Item = &Plan> {
+        self.plan.iter().flatten()
     }
 
     /// The plan point of a sample, infinite where the sky is seen.
     #[inline(always)]
     pub fn plan(&self, column: usize, row: usize) -> Plan {
-        self.plan[row * self.columns + column]
+        self.plan[row / ROWS_AT_A_TIME][row % ROWS_AT_A_TIME * self.columns + column]
     }
 }
 

@@ -5,7 +5,7 @@
 //! [`moved_ray_side`]: with the point its line of sight. So a count of the faces that the line crosses has one right answer.
 //! Refuses: nothing; the ray must cross the triangle, not lie in its plane.
 
-use super::{Difference, Expansion, Parameter, TrianglePlane, U, hit_fraction, orient3d, sign_of_det};
+use super::{Difference, Expansion, Parameter, U, hit_fraction, orient3d, sign_of_det};
 use crate::space::{Plan, Ray, World};
 use glam::DVec3;
 
@@ -32,7 +32,7 @@ pub fn moved_ray_side(ray: &Ray, a: World, b: World) -> f64 {
 pub fn hit_side(ray: &Ray, triangle: &[World; 3], a: Plan, b: Plan) -> f64 {
     let (along, start) = (b - a, ray.from.plan() - a);
     let d = (ray.through - ray.from).truncate();
-    let t = Parameter::new(ray, &TrianglePlane::new(triangle));
+    let t = Parameter::of(ray, triangle);
     let at = start + d * t.value;
     let value = along.x * at.y - along.y * at.x;
     // Six roundings bound each term's path; the parameter's own error reaches as far as the ray does.
@@ -49,7 +49,7 @@ pub fn hit_side(ray: &Ray, triangle: &[World; 3], a: Plan, b: Plan) -> f64 {
 /// Whether the ray meets a triangle at a height of at least `height`.
 pub fn hit_is_above(ray: &Ray, triangle: &[World; 3], height: f64) -> bool {
     let (start, d) = (ray.from.z - height, ray.through.z - ray.from.z);
-    let t = Parameter::new(ray, &TrianglePlane::new(triangle));
+    let t = Parameter::of(ray, triangle);
     let value = start + d * t.value;
     let error = d.abs() * t.error + 8.0 * U * (start.abs() + (d * t.value).abs());
     if value.abs() > error {

@@ -111,7 +111,7 @@ impl Facet {
 
     /// Scales edge functions to distances and says how far they can be trusted; `least_key` is the least magnitude of
     /// the key on the triangle.
-    pub(super) fn of_shape(
+    fn of_shape(
         id: u32,
         shape: &TriangleShape,
         (is_key_sure, least_key): (bool, f64),
@@ -136,7 +136,7 @@ impl Facet {
     }
 
     /// Draws the samples of columns and rows `from..=to`.
-    pub fn fill(&self, tile: &mut Tile, from: (usize, usize), to: (usize, usize)) {
+    fn fill(&self, tile: &mut Tile, from: (usize, usize), to: (usize, usize)) {
         tile.arch.dispatch(Fill { facet: self, tile, from, to });
     }
 
@@ -239,10 +239,10 @@ impl pulp::WithSimd for Fill<'_, '_, '_> {
 }
 
 /// A triangle's edge functions (positive inside, of any scale), a bound of their error in the tile, and its key.
-pub(super) struct TriangleShape {
-    pub(super) edges: [DVec3; 3],
-    pub(super) edge_error: f64,
-    pub(super) key: DVec3,
+struct TriangleShape {
+    edges: [DVec3; 3],
+    edge_error: f64,
+    key: DVec3,
 }
 
 /// The keys that surely lie between the near and the far plane; all of them when the triangle's corners do.

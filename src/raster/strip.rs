@@ -1,11 +1,11 @@
 //! Many small triangles at once, in single precision: the path that nearly all triangles of a large terrain take.
 //!
 //! Corners are projected in double precision and rounded to single precision in tile coordinates. Sixteen triangles at a
-//! time are then sorted into: no sample near (most), exactly one sample near (decided in place), several
-//! (handed to [`super::Facet::fill`]). The error of a rounded corner bounds every doubt.
+//! time are then sorted into: no sample near (most), exactly one sample near (decided in place), several (filled row by row, by functions
+//! that are made for sixteen at a time too). The error of a rounded corner bounds every doubt.
 
-use super::facet::{Facet, TriangleShape};
-use super::tile::Tile;
+use super::facet::Facet;
+use super::tile::{PAD, Tile};
 use super::{KEY_ERROR, TileView};
 use crate::math::{max_f32, min_f32};
 use crate::scene::Diagonal;
@@ -22,7 +22,10 @@ const U32: f64 = f32::EPSILON as f64 / 2.0;
 const NOTHING: u32 = 0;
 const COVERS_ONE: u32 = 1;
 const DOUBTFUL_ONE: u32 = 2;
-const SEVERAL: u32 = 3;
+const SEVERAL: u32 = 4;
+
+/// A value for each of sixteen triangles.
+type Lanes = [f32; LANES];
 
 /// Up to sixteen projected points: tile coordinates and depth keys. NaN where there is no point, as in the last place.
 #[derive(Debug, Clone, Copy)]
@@ -113,14 +116,80 @@ impl PostLine {
 /// The outcome of sorting sixteen triangles.
 struct Sorted {
     state: [u32; LANES],
-    column: [f32; LANES],
-    row: [f32; LANES],
-    key: [f32; LANES],
+    /// The first column and row of the tile with a sample near, and how many more there are.
+    column: Lanes,
+    row: Lanes,
+    columns_on: Lanes,
+    rows_on: Lanes,
+    key: Lanes,
 }
 
 impl Sorted {
-    const NOTHING: Self =
-        Self { state: [NOTHING; LANES], column: [0.0; LANES], row: [0.0; LANES], key: [0.0; LANES] };
+    const NOTHING: Self = Self {
+        state: [NOTHING; LANES],
+        column: [0.0; LANES],
+        row: [0.0; LANES],
+        columns_on: [0.0; LANES],
+        rows_on: [0.0; LANES],
+        key: [0.0; LANES],
+    };
+
+    /// The triangles in a state, a bit for each.
+    #[inline(always)]
+    fn of_state(&self, state: u32) -> u32 {
+        let bits = self.state.iter().enumerate().map(|(lane, s)| u32::from(*s == state) << lane);
+        bits.fold(0, |all, bit| all | bit)
+    }
+}
+
+/// The places of the bits that are set, from the lowest on.
+#[inline(always)]
+fn lanes_of(mut bits: u32) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let lane = bits.trailing_zeros() as usize;
+        bits &= bits.wrapping_sub(1);
+        (lane < LANES).then_some(lane)
+    })
+}
+
+/// A linear function of the samples for each of sixteen triangles: its value at the first sample near, and by how much it grows from column
+/// to column and from row to row.
+#[derive(Clone, Copy)]
+struct Planes {
+    at_first: Lanes,
+    by_column: Lanes,
+    by_row: Lanes,
+}
+
+impl Planes {
+    const NONE: Self = Self { at_first: [0.0; LANES], by_column: [0.0; LANES], by_row: [0.0; LANES] };
+
+    /// That of one triangle: at the first sample of row `row`, and by column.
+    #[inline(always)]
+    fn of(&self, lane: usize, row: f32) -> (f32, f32) {
+        (self.at_first[lane] + row * self.by_row[lane], self.by_column[lane])
+    }
+}
+
+/// Which samples of a row near a triangle are filled.
+struct Near {
+    /// The tile's column of the first that is near.
+    first: usize,
+    /// The first and the last that are filled, counted from that.
+    columns: (usize, usize),
+    /// Which of the rows near the triangle it is.
+    row: usize,
+}
+
+/// What sixteen triangles are filled by.
+struct Shapes {
+    /// Edge functions, positive inside.
+    edges: [Planes; 3],
+    /// What they may be off.
+    doubt: Lanes,
+    key: Planes,
+    /// 1 where keys are within [`KEY_ERROR`] in the triangle; if not, it is drawn in double precision.
+    is_key_sure: [u32; LANES],
 }
 
 /// A patch of terrain whose pictures of points lie near the tile and surely beyond the near plane.
@@ -154,38 +223,13 @@ impl Patch {
         fits.then_some(Self { point_error: (2.0 * U32 * reach + PROJECTION_ERROR) as f32 })
     }
 
-    /// Draws rows of cells of a grid: the posts of column `i` on of rows `j..=j + rows`; `heights(row)` gives the
-    /// sixteen heights of a row of posts, NaN where there is none.
+    /// Draws the cells of a grid's leaf, row by row.
     pub fn draw_grid(&self, tile: &mut Tile, grid: &Grid, node: Node) {
-        let arch = tile.arch;
-        let (columns, rows) = grid.cells(node);
-        let mut posts = [Points::NONE; LANES];
-        arch.dispatch(Project { view: &tile.view, grid, node, to: &mut posts });
-        let mut sorted = Sorted::NOTHING;
-        for j in rows.clone() {
-            let first = grid.first_triangle(columns.start, j);
-            let (south, north) = (&posts[j - rows.start], &posts[j - rows.start + 1]);
-            let (sw, se) = (south.from::<0>(), south.from::<1>());
-            let (nw, ne) = (north.from::<0>(), north.from::<1>());
-            let own;
-            let halves = match grid.diagonal() {
-                Diagonal::SwNe => [[sw, se, ne], [sw, ne, nw]],
-                Diagonal::NwSe => [[sw, se, nw], [se, ne, nw]],
-                Diagonal::Alternating => {
-                    own = alternating_corners(grid, (columns.start, j), south, north);
-                    [[sw, se, own[0].from::<0>()], [own[1].from::<0>(), ne, nw]]
-                }
-            };
-            for (half, corners) in halves.iter().enumerate() {
-                arch.dispatch(Sort { patch: self, view: &tile.view, corners, sorted: &mut sorted });
-                self.settle(tile, &sorted, corners, |lane| first + 2 * lane as u32 + half as u32);
-            }
-        }
+        tile.arch.dispatch(DrawGrid { patch: self, tile, grid, node });
     }
 
     /// Draws numbered triangles of the tile's mesh, sixteen at a time.
     pub fn draw_triangles(&self, tile: &mut Tile, ids: std::ops::Range<u32>) {
-        let (arch, mut sorted) = (tile.arch, Sorted::NOTHING);
         // Triangles that follow one another share corners: pictures of points by the last digits of their numbers.
         let mut known = [(SKY, (0.0, 0.0, 0.0)); KNOWN];
         for start in ids.clone().step_by(LANES) {
@@ -204,19 +248,55 @@ impl Patch {
                     points.set((id - start) as usize, place.1);
                 }
             }
-            let sixteen = [corners[0].from::<0>(), corners[1].from::<0>(), corners[2].from::<0>()];
-            arch.dispatch(Sort { patch: self, view: &tile.view, corners: &sixteen, sorted: &mut sorted });
-            self.settle(tile, &sorted, &sixteen, |lane| start + lane as u32);
+            tile.arch.dispatch(DrawSixteen { patch: self, tile, corners: &corners, start });
         }
     }
 
-    /// Sorts sixteen triangles by the samples near them, and decides those with one sample.
+    /// Draws sixteen triangles, whose numbers are `step` apart.
     #[inline(always)]
-    fn sort(&self, view: &TileView, [a, b, c]: &[Sixteen; 3], out: &mut Sorted) {
+    fn draw_sixteen(
+        &self,
+        tile: &mut Tile,
+        corners: &[Sixteen; 3],
+        (first, step): (u32, u32),
+        sorted: &mut Sorted,
+    ) {
+        if !self.sort(&tile.view, corners, sorted) {
+            return;
+        }
+        let [one, doubtful, several] =
+            [COVERS_ONE, DOUBTFUL_ONE, SEVERAL].map(|state| sorted.of_state(state));
+        tile.counts.triangles += u64::from((one | doubtful | several).count_ones());
+        let id = |lane: usize| first + step * lane as u32;
+        let sample = |lane: usize| (sorted.column[lane] as usize, sorted.row[lane] as usize);
+        for lane in lanes_of(one) {
+            let (c, r) = sample(lane);
+            tile.offer(c, r, sorted.key[lane], id(lane));
+        }
+        for lane in lanes_of(doubtful) {
+            let (c, r) = sample(lane);
+            tile.decide(c, r, id(lane));
+        }
+        if several != 0 {
+            let shapes = self.shapes(&tile.view, corners, sorted);
+            for lane in lanes_of(several) {
+                if shapes.is_key_sure[lane] != 0 {
+                    shapes.fill(tile, sorted, lane, id(lane));
+                } else if let Some(corners) = tile.mesh.triangle(id(lane)) {
+                    Facet::draw(tile, id(lane), &corners);
+                }
+            }
+        }
+    }
+
+    /// Sorts sixteen triangles by the samples near them, and decides those with one sample; `false`: none has any.
+    #[inline(always)]
+    fn sort(&self, view: &TileView, [a, b, c]: &[Sixteen; 3], out: &mut Sorted) -> bool {
         let (first, last) = (view.first, view.last());
         let (first_x, first_y) = (first.0 as f32, first.1 as f32);
         let (last_x, last_y) = (last.0 as f32, last.1 as f32);
         let hair = 2.0 * self.point_error;
+        let mut any = NOTHING;
         for k in 0..LANES {
             let (ax, ay, bx, by, cx, cy) = (a.x[k], a.y[k], b.x[k], b.y[k], c.x[k], c.y[k]);
             let (low_x, high_x) = (min_f32(min_f32(ax, bx), cx), max_f32(max_f32(ax, bx), cx));
@@ -257,65 +337,155 @@ impl Patch {
             } else {
                 SEVERAL
             };
+            any |= out.state[k];
             out.column[k] = x0 - first_x;
             out.row[k] = y0 - first_y;
+            out.columns_on[k] = x1 - x0;
+            out.rows_on[k] = y1 - y0;
             out.key[k] = key;
         }
+        any != NOTHING
     }
 
-    /// Draws what sorting left to do.
-    #[inline]
-    fn settle(&self, tile: &mut Tile, sorted: &Sorted, corners: &[Sixteen; 3], id: impl Fn(usize) -> u32) {
-        for (lane, state) in sorted.state.iter().enumerate() {
-            if *state != NOTHING {
-                self.settle_one(tile, sorted, corners, lane, id(lane));
-            }
-        }
-    }
-
+    /// What the triangles that have several samples near are filled by.
     #[inline(always)]
-    fn settle_one(&self, tile: &mut Tile, sorted: &Sorted, corners: &[Sixteen; 3], lane: usize, id: u32) {
-        let (c, r) = (sorted.column[lane] as usize, sorted.row[lane] as usize);
-        tile.counts.triangles += 1;
-        match sorted.state[lane] {
-            COVERS_ONE => tile.offer(c, r, sorted.key[lane], id),
-            DOUBTFUL_ONE => tile.decide(c, r, id),
-            _ => self.draw_several(tile, corners.map(|p| [p.x[lane], p.y[lane], p.key[lane]]), id),
+    fn shapes(&self, view: &TileView, [a, b, c]: &[Sixteen; 3], sorted: &Sorted) -> Shapes {
+        let (first_x, first_y) = (view.first.0 as f32, view.first.1 as f32);
+        let mut shapes = Shapes {
+            edges: [Planes::NONE; 3],
+            doubt: [0.0; LANES],
+            key: Planes::NONE,
+            is_key_sure: [0; LANES],
+        };
+        for k in 0..LANES {
+            let (ax, ay, bx, by, cx, cy) = (a.x[k], a.y[k], b.x[k], b.y[k], c.x[k], c.y[k]);
+            let (x, y) = (sorted.column[k] + first_x, sorted.row[k] + first_y);
+            let width = max_f32(max_f32(ax, bx), cx) - min_f32(min_f32(ax, bx), cx);
+            let height = max_f32(max_f32(ay, by), cy) - min_f32(min_f32(ay, by), cy);
+            let doubt = fill_doubt(max_f32(width, height), self.point_error);
+            let ab = (bx - ax) * (y - ay) - (by - ay) * (x - ax);
+            let bc = (cx - bx) * (y - by) - (cy - by) * (x - bx);
+            let ca = (ax - cx) * (y - cy) - (ay - cy) * (x - cx);
+            let area = ab + bc + ca;
+            // Where the area's sign is in doubt, so is every sample near.
+            let sign = if area < 0.0 { -1.0 } else { 1.0 };
+            let mut set = |edge: usize, at_first: f32, by_column: f32, by_row: f32| {
+                shapes.edges[edge].at_first[k] = sign * at_first;
+                shapes.edges[edge].by_column[k] = sign * by_column;
+                shapes.edges[edge].by_row[k] = sign * by_row;
+            };
+            set(0, ab, ay - by, bx - ax);
+            set(1, bc, by - cy, cx - bx);
+            set(2, ca, cy - ay, ax - cx);
+            let (ka, kb, kc) = (a.key[k], b.key[k], c.key[k]);
+            let (u, v) = ((kb - ka) / area, (kc - ka) / area);
+            let key = ka + (ca * u + ab * v);
+            let by_column = (cy - ay) * u + (ay - by) * v;
+            let by_row = (ax - cx) * u + (bx - ax) * v;
+            let spread = max_f32(max_f32(ka, kb), kc) - min_f32(min_f32(ka, kb), kc);
+            let least = min_f32(min_f32(ka.abs(), kb.abs()), kc.abs());
+            // Two edge functions and, three times, their sum are in doubt: that may make half of a key's error. The other half is a dozen
+            // roundings of the terms that make a key.
+            let terms = key.abs() + sorted.columns_on[k] * by_column.abs() + sorted.rows_on[k] * by_row.abs();
+            let is_sure = (6.0 * doubt * spread <= (KEY_ERROR as f32 / 2.0) * least * area.abs())
+                & (terms <= 4.0 * least);
+            shapes.key.at_first[k] = key;
+            shapes.key.by_column[k] = by_column;
+            shapes.key.by_row[k] = by_row;
+            shapes.doubt[k] = doubt;
+            shapes.is_key_sure[k] = u32::from(is_sure);
+        }
+        shapes
+    }
+}
+
+impl Shapes {
+    /// Fills the samples near one of the triangles.
+    #[inline(always)]
+    fn fill(&self, tile: &mut Tile, sorted: &Sorted, lane: usize, id: u32) {
+        let (column, row) = (sorted.column[lane] as usize, sorted.row[lane] as usize);
+        let (columns_on, rows_on) = (sorted.columns_on[lane] as usize, sorted.rows_on[lane] as usize);
+        let last = tile.samples.stride() - PAD;
+        let mut open = [0; PAD];
+        for r in 0..=rows_on {
+            let mut from = column;
+            while from <= column + columns_on {
+                // A whole vector must fit the padded row.
+                let c = if from < last { from } else { last };
+                let near = Near { first: column, columns: (from - column, columns_on), row: r };
+                if self.fill_row(tile, (lane, id), (c, row + r), &near, &mut open) {
+                    self.settle(tile, (lane, id), (c, row + r), &near, &open);
+                }
+                from = c + PAD;
+            }
         }
     }
 
-    /// Draws a triangle that has several samples near it.
-    fn draw_several(&self, tile: &mut Tile, corners: [[f32; 3]; 3], id: u32) {
-        let [a, b, c] = corners.map(|p| p.map(f64::from));
-        let range = |k: usize| {
-            let v = [a[k], b[k], c[k]];
-            v.iter().fold((v[0], v[0]), |(l, h), &v| (if v < l { v } else { l }, if v > h { v } else { h }))
+    /// Fills the vector at a place of the tile as far as that can be told; tells whether any sample is left open, and in `open` which: 1 for
+    /// coverage, 2 for depth alone.
+    #[inline(always)]
+    fn fill_row(
+        &self,
+        tile: &mut Tile,
+        (lane, id): (usize, u32),
+        (c, r): (usize, usize),
+        near: &Near,
+        open: &mut [u32; PAD],
+    ) -> bool {
+        let row = near.row as f32;
+        let [(e0, d0), (e1, d1), (e2, d2)] = self.edges.each_ref().map(|edge| edge.of(lane, row));
+        let (k0, dk) = self.key.of(lane, row);
+        let doubt = self.doubt[lane];
+        let start = c as f32 - near.first as f32;
+        let (from, to) = (near.columns.0 as f32, near.columns.1 as f32);
+        let place = r * tile.samples.stride() + c;
+        let (Some(keys), Some(ids)) = (
+            tile.samples.keys[place..].first_chunk_mut::<PAD>(),
+            tile.samples.ids[place..].first_chunk_mut::<PAD>(),
+        ) else {
+            return false;
         };
-        let ((x0, x1), (y0, y1), (k0, k1)) = (range(0), range(1), range(2));
-        let Some((from, to)) = tile.samples_in([x0, y0, x1, y1]) else {
-            return;
-        };
-        let edge = |p: [f64; 3], q: [f64; 3]| {
-            let (dx, dy) = (q[0] - p[0], q[1] - p[1]);
-            DVec3::new(-dy, dx, dy * p[0] - dx * p[1])
-        };
-        let edges = [edge(a, b), edge(b, c), edge(c, a)];
-        let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-        let longest = if x1 - x0 > y1 - y0 { x1 - x0 } else { y1 - y0 };
-        let doubt = f64::from(edge_doubt(longest as f32, self.point_error));
-        let key = (DVec3::Z * (a[2] * area) + edges[2] * (b[2] - a[2]) + edges[0] * (c[2] - a[2])) / area;
-        let least = if k0.abs() < k1.abs() { k0.abs() } else { k1.abs() };
-        let is_key_sure = 8.0 * doubt * (k1 - k0) <= KEY_ERROR / 4.0 * least * area.abs();
-        if !is_key_sure || area == 0.0 {
-            if let Some(corners) = tile.mesh.triangle(id) {
-                Facet::draw(tile, id, &corners);
-            }
-            return;
+        let mut any = 0;
+        for k in 0..PAD {
+            let x = start + k as f32;
+            let least = min_f32(min_f32(e0 + d0 * x, e1 + d1 * x), e2 + d2 * x);
+            let key = k0 + dk * x;
+            let (old, old_id) = (keys[k], ids[k]);
+            let tolerance = (2.0 * KEY_ERROR as f32) * max_f32(key.abs(), old.abs());
+            let is_empty = old_id == SKY;
+            let possible = (least >= -doubt) & (x >= from) & (x <= to);
+            let is_sure = least > doubt;
+            let wins = possible & is_sure & (is_empty | (key - old > tolerance));
+            let loses = is_sure & !is_empty & (old - key > tolerance);
+            let is_open = possible & !wins & !loses;
+            keys[k] = if wins { key } else { old };
+            ids[k] = if wins { id } else { old_id };
+            open[k] = if is_open { 1 + u32::from(is_sure) } else { 0 };
+            any |= open[k];
         }
-        let sign = area.signum();
-        let shape = TriangleShape { edges: edges.map(|e| e * sign), edge_error: doubt, key };
-        let facet = Facet::of_shape(id, &shape, (true, least), (f64::NEG_INFINITY, f64::INFINITY));
-        facet.fill(tile, from, to);
+        any != 0
+    }
+
+    /// Decides the samples that were left open.
+    #[cold]
+    fn settle(
+        &self,
+        tile: &mut Tile,
+        (lane, id): (usize, u32),
+        (c, r): (usize, usize),
+        near: &Near,
+        open: &[u32; PAD],
+    ) {
+        for (k, how) in open.iter().enumerate() {
+            match how {
+                1 => tile.decide(c + k, r, id),
+                2 => {
+                    let (key, by_column) = self.key.of(lane, near.row as f32);
+                    tile.offer(c + k, r, key + by_column * ((c + k) as f32 - near.first as f32), id);
+                }
+                _ => {}
+            }
+        }
     }
 }
 
@@ -332,41 +502,64 @@ fn alternating_corners(grid: &Grid, (i, j): (usize, usize), south: &Points, nort
     corners
 }
 
-/// Projects the posts of a node, row by row; compiled for the widest vectors of the machine at hand.
-struct Project<'a> {
-    view: &'a TileView,
-    grid: &'a Grid,
+/// [`Patch::draw_grid`] compiled for the widest vectors of the machine at hand.
+struct DrawGrid<'p, 'a, 't, 'g> {
+    patch: &'p Patch,
+    tile: &'t mut Tile<'a>,
+    grid: &'g Grid,
     node: Node,
-    to: &'a mut [Points; LANES],
 }
 
-impl pulp::WithSimd for Project<'_> {
+impl pulp::WithSimd for DrawGrid<'_, '_, '_, '_> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: pulp::Simd>(self, _: S) {
-        let (columns, rows) = self.grid.cells(self.node);
-        let lines = GridLines::new(self.view, self.grid, (columns.start, rows.start));
-        for (points, j) in self.to.iter_mut().zip(rows.start..=rows.end) {
-            points.project(&lines.line(j), &lines.heights(self.grid, &columns, j));
+        let Self { patch, tile, grid, node } = self;
+        let (columns, rows) = grid.cells(node);
+        let lines = GridLines::new(&tile.view, grid, (columns.start, rows.start));
+        let mut posts = [Points::NONE; 2];
+        posts[0].project(&lines.line(rows.start), &lines.heights(grid, &columns, rows.start));
+        let mut sorted = Sorted::NOTHING;
+        for j in rows.clone() {
+            let place = (j - rows.start) % 2;
+            posts[1 - place].project(&lines.line(j + 1), &lines.heights(grid, &columns, j + 1));
+            let first = grid.first_triangle(columns.start, j);
+            let (south, north) = (&posts[place], &posts[1 - place]);
+            let (sw, se) = (south.from::<0>(), south.from::<1>());
+            let (nw, ne) = (north.from::<0>(), north.from::<1>());
+            let own;
+            let halves = match grid.diagonal() {
+                Diagonal::SwNe => [[sw, se, ne], [sw, ne, nw]],
+                Diagonal::NwSe => [[sw, se, nw], [se, ne, nw]],
+                Diagonal::Alternating => {
+                    own = alternating_corners(grid, (columns.start, j), south, north);
+                    [[sw, se, own[0].from::<0>()], [own[1].from::<0>(), ne, nw]]
+                }
+            };
+            for (half, corners) in (0..).zip(&halves) {
+                patch.draw_sixteen(tile, corners, (first + half, 2), &mut sorted);
+            }
         }
     }
 }
 
-/// [`Patch::sort`] compiled for the widest vectors of the machine at hand.
-struct Sort<'a> {
-    patch: &'a Patch,
-    view: &'a TileView,
-    corners: &'a [Sixteen<'a>; 3],
-    sorted: &'a mut Sorted,
+/// [`Patch::draw_sixteen`] compiled for the widest vectors of the machine at hand.
+struct DrawSixteen<'p, 'a, 't> {
+    patch: &'p Patch,
+    tile: &'t mut Tile<'a>,
+    corners: &'p [Points; 3],
+    start: u32,
 }
 
-impl pulp::WithSimd for Sort<'_> {
+impl pulp::WithSimd for DrawSixteen<'_, '_, '_> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: pulp::Simd>(self, _: S) {
-        self.patch.sort(self.view, self.corners, self.sorted);
+        let Self { patch, tile, corners, start } = self;
+        let corners = corners.each_ref().map(|points| points.from::<0>());
+        patch.draw_sixteen(tile, &corners, (start, 1), &mut Sorted { ..Sorted::NOTHING });
     }
 }
 
@@ -377,6 +570,13 @@ impl pulp::WithSimd for Sort<'_> {
 fn edge_doubt(longest: f32, point_error: f32) -> f32 {
     let side = longest + 2e-3;
     side * (8.0 * point_error + 10.0 * (f32::EPSILON / 2.0) * side)
+}
+
+/// As [`edge_doubt`], of an edge function that is made for all samples in the box: its two slopes and four sums add 11 roundings.
+#[inline(always)]
+fn fill_doubt(longest: f32, point_error: f32) -> f32 {
+    let side = longest + 2e-3;
+    side * (8.0 * point_error + 24.0 * (f32::EPSILON / 2.0) * side)
 }
 
 /// The lines of posts of a grid in one column of nodes.

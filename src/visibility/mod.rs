@@ -15,7 +15,7 @@ mod tests;
 pub use device::Machine;
 pub use footprint::{FootprintPlane, PixelFootprint};
 pub use hit::{Hit, hit};
-pub use sight::Sight;
+pub use sight::{Planes, Sight};
 
 use crate::parallel;
 use crate::raster::{Counts, Facet, Lattice, MISSING, Patch, Samples, Tile, TileView, outcodes};
@@ -84,12 +84,21 @@ impl Visible {
 
     /// The triangles of all samples, rows from the top.
     pub fn triangles(&self) -> Vec<u32> {
-        self.gather(SKY, |samples| &samples.ids)
+        let mut all = vec![SKY; self.lattice.columns * self.lattice.rows];
+        self.write_triangles(&mut all);
+        all
+    }
+
+    /// Writes the triangles of all samples, rows from the top.
+    pub(super) fn write_triangles(&self, all: &mut [u32]) {
+        self.gather(all, |samples| &samples.ids);
     }
 
     /// The depth keys of all samples (see [`Tile`]), rows from the top.
     pub fn keys(&self) -> Vec<f32> {
-        self.gather(f32::NEG_INFINITY, |samples| &samples.keys)
+        let mut all = vec![f32::NEG_INFINITY; self.lattice.columns * self.lattice.rows];
+        self.gather(&mut all, |samples| &samples.keys);
+        all
     }
 
     /// What was done in all tiles.
@@ -97,17 +106,18 @@ impl Visible {
         self.tiles.iter().fold(Counts::default(), |sum, tile| sum.plus(tile.counts))
     }
 
-    fn gather<T: Copy>(&self, empty: T, of: impl Fn(&Samples) -> &Vec<T>) -> Vec<T> {
-        let mut all = vec![empty; self.lattice.columns * self.lattice.rows];
-        let tiling = self.tiling();
-        for (k, tile) in self.tiles.iter().enumerate() {
-            // A tile that has not been drawn has a stride of 0, and no rows.
-            let rows = of(&tile.samples).chunks(tile.samples.stride().max(1));
-            for (to, from) in tiling.rows(k).zip(rows) {
-                all[to].copy_from_slice(&from[..tile.width]);
+    /// Writes what tiles hold to where it lies in the lattice; a row of tiles is a piece of work.
+    fn gather<T: Copy + Send + Sync>(&self, all: &mut [T], of: impl Fn(&Samples) -> &Vec<T> + Send + Sync) {
+        let (columns, across) = (self.lattice.columns.max(1), self.tiling().across());
+        parallel::for_each_chunk(all, self.tile * columns, |row, lattice_rows| {
+            for tile in &self.tiles[row * across..(row + 1) * across] {
+                // A tile that has not been drawn has a stride of 0, and no rows.
+                let rows = of(&tile.samples).chunks(tile.samples.stride().max(1));
+                for (to, from) in lattice_rows.chunks_mut(columns).zip(rows) {
+                    to[tile.column..tile.column + tile.width].copy_from_slice(&from[..tile.width]);
+                }
             }
-        }
-        all
+        });
     }
 }
 

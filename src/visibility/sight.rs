@@ -2,7 +2,7 @@
 
 use super::hit::on_plane;
 use super::{Hit, Machine, Visible, hit};
-use crate::predicate::TrianglePlane;
+use crate::predicate::{TrianglePlane, quick_hit_parameter};
 use crate::raster::device::PolygonOffset;
 use crate::raster::{Counts, Lattice};
 use crate::scene::Device;
@@ -61,7 +61,7 @@ impl<'a> Sight<'a> {
         } else {
             self.visible.see(self.frame, self.mesh);
         }
-        self.ids = self.visible.triangles();
+        self.visible.write_triangles(&mut self.ids);
     }
 
     /// The lattice.
@@ -107,15 +107,15 @@ impl<'a> Sight<'a> {
     }
 
     /// The plan points of a row of samples, infinite where the sky is seen; the same as those of [`Sight::hit`].
-    pub fn plan_of_row(&self, row: usize, plan: &mut [Plan]) {
+    pub fn plan_of_row(&self, row: usize, plan: &mut [Plan], planes: &mut Planes) {
         match self.mesh.drape() {
-            Drape::Vertical => self.points_of_row((0, row), plan),
-            Drape::Affine => self.draped_row(row, plan),
+            Drape::Vertical => self.points_of_row((0, row), plan, planes),
+            Drape::Affine => self.draped_row(row, plan, planes),
         }
     }
 
     /// As [`Sight::plan_of_row`], of a mesh with plan points of its own.
-    fn draped_row(&self, row: usize, plan: &mut [Plan]) {
+    fn draped_row(&self, row: usize, plan: &mut [Plan], planes: &mut Planes) {
         let sky = Plan::new(f64::INFINITY, f64::INFINITY);
         let of_hit = |column| self.hit(column, row).map_or(sky, |hit| hit.plan);
         if self.machine.is_some() {
@@ -123,7 +123,7 @@ impl<'a> Sight<'a> {
             return;
         }
         let mut world = vec![World::default(); plan.len()];
-        self.world_of_row((0, row), &mut world);
+        self.world_of_row((0, row), &mut world, planes);
         let start = row * self.visible.lattice.columns;
         let mut column = 0;
         for run in self.ids[start..start + plan.len()].chunk_by(|a, b| a == b) {
@@ -148,54 +148,35 @@ impl<'a> Sight<'a> {
 
     /// The surface points of neighbours in a row from (column, row) on, infinite where the sky is seen; the same as those of
     /// [`Sight::hit`].
-    pub fn world_of_row(&self, from: (usize, usize), points: &mut [World]) {
-        self.points_of_row(from, points);
+    pub fn world_of_row(&self, from: (usize, usize), points: &mut [World], planes: &mut Planes) {
+        self.points_of_row(from, points, planes);
     }
 
-    fn points_of_row<P: From<World>>(&self, (first, row): (usize, usize), points: &mut [P]) {
+    fn points_of_row<P: From<World>>(
+        &self,
+        (first, row): (usize, usize),
+        points: &mut [P],
+        planes: &mut Planes,
+    ) {
         if self.machine.is_some() {
-            let sky = || P::from(World::new(f64::INFINITY, f64::INFINITY, f64::INFINITY));
+            let sky = || P::from(nowhere());
             for (k, to) in points.iter_mut().enumerate() {
                 *to = self.hit(first + k, row).map_or_else(sky, |hit| P::from(hit.world));
             }
             return;
         }
-        pulp::Arch::new().dispatch(Neighbours { sight: self, first, row, points });
-    }
-
-    /// The surface points of neighbours in a row that see one plane, as [`super::hit()`] computes them.
-    #[inline(always)]
-    fn points_of_run<P: From<World>>(
-        &self,
-        (column, row): (usize, usize),
-        plane: &TrianglePlane,
-        points: &mut [P],
-    ) {
-        let (frame, lattice) = (self.frame, &self.visible.lattice);
-        let mut all_sure = true;
-        for (k, to) in points.iter_mut().enumerate() {
-            let ray = frame.ray(lattice.at(column + k, row));
-            let (t, is_sure) = plane.quick_hit_parameter(&ray);
-            *to = P::from(ray.from + (ray.through - ray.from) * t);
-            all_sure &= is_sure;
-        }
-        if !all_sure {
-            self.points_of_grazing_run((column, row), plane, points);
+        let arch = pulp::Arch::new();
+        for (k, points) in points.chunks_mut(TOGETHER).enumerate() {
+            arch.dispatch(Neighbours { sight: self, at: (first + TOGETHER * k, row), points, planes });
         }
     }
 
-    /// The same, of a run in which a point is not precise enough in plain doubles.
+    /// The surface point of a sample on a plane.
     #[cold]
-    fn points_of_grazing_run<P: From<World>>(
-        &self,
-        (column, row): (usize, usize),
-        plane: &TrianglePlane,
-        points: &mut [P],
-    ) {
-        for (k, to) in points.iter_mut().enumerate() {
-            let ray = self.frame.ray(self.visible.lattice.at(column + k, row));
-            *to = P::from(on_plane(self.frame, &ray, plane).0);
-        }
+    fn grazing_point(&self, (column, row): (usize, usize)) -> World {
+        let ray = self.frame.ray(self.visible.lattice.at(column, row));
+        let triangle = self.mesh.triangle(self.triangle(column, row));
+        triangle.map_or_else(nowhere, |triangle| on_plane(self.frame, &ray, &TrianglePlane::new(&triangle)).0)
     }
 
     /// What was done.
@@ -204,12 +185,53 @@ impl<'a> Sight<'a> {
     }
 }
 
-/// The surface points of neighbours in a row from column `first` on, compiled for the widest vectors of the machine at hand.
+/// Where the sky is seen.
+fn nowhere() -> World {
+    World::new(f64::INFINITY, f64::INFINITY, f64::INFINITY)
+}
+
+/// Samples whose points are found together.
+const TOGETHER: usize = 64;
+
+/// Planes of triangles that were seen lately: the rows of samples below see many of them again.
+#[derive(Debug)]
+pub struct Planes {
+    /// By the last digits of their triangles' numbers.
+    known: Vec<(u32, [f64; 9])>,
+}
+
+impl Default for Planes {
+    /// None.
+    fn default() -> Self {
+        Self { known: vec![(SKY, [0.0; 9]); Self::COUNT] }
+    }
+}
+
+impl Planes {
+    const COUNT: usize = 256;
+
+    /// The numbers of a triangle's plane; all 0 for none.
+    #[inline(always)]
+    fn numbers(&mut self, mesh: &Mesh, id: u32) -> &[f64; 9] {
+        // A triangle's number tells little more than its column: neighbours in both directions are to have places of their own.
+        let place = &mut self.known[(id ^ id >> 7) as usize % Self::COUNT];
+        if place.0 != id {
+            *place = (id, Self::made(mesh, id));
+        }
+        &place.1
+    }
+
+    fn made(mesh: &Mesh, id: u32) -> [f64; 9] {
+        mesh.triangle(id).map_or([0.0; 9], |triangle| TrianglePlane::new(&triangle).numbers())
+    }
+}
+
+/// The surface points of up to [`TOGETHER`] neighbours in a row, compiled for the widest vectors of the machine at hand.
 struct Neighbours<'a, P> {
     sight: &'a Sight<'a>,
-    first: usize,
-    row: usize,
+    at: (usize, usize),
     points: &'a mut [P],
+    planes: &'a mut Planes,
 }
 
 impl<P: From<World>> pulp::WithSimd for Neighbours<'_, P> {
@@ -217,21 +239,42 @@ impl<P: From<World>> pulp::WithSimd for Neighbours<'_, P> {
 
     #[inline(always)]
     fn with_simd<S: pulp::Simd>(self, _: S) {
-        let Self { sight, first, row, points } = self;
-        // Neighbours often see the same triangle: its plane is made once.
-        let start = row * sight.visible.lattice.columns + first;
+        let Self { sight, at: (column, row), points, planes } = self;
+        let (frame, lattice) = (sight.frame, &sight.visible.lattice);
+        let start = row * lattice.columns + column;
         let ids = &sight.ids[start..start + points.len()];
-        let mut column = 0;
-        for run in ids.chunk_by(|a, b| a == b) {
-            let points = &mut points[column..column + run.len()];
-            let triangle = if run[0] == SKY { None } else { sight.mesh.triangle(run[0]) };
-            match triangle {
-                None => points.fill_with(|| P::from(World::new(f64::INFINITY, f64::INFINITY, f64::INFINITY))),
-                Some(triangle) => {
-                    sight.points_of_run((first + column, row), &TrianglePlane::new(&triangle), points);
+        if ids.iter().all(|id| *id == SKY) {
+            return points.fill_with(|| P::from(nowhere()));
+        }
+        let mut numbers = [[0.0; TOGETHER]; 9];
+        let mut own = [0.0; 9];
+        let mut last = SKY;
+        for (k, id) in ids.iter().enumerate() {
+            if *id != last {
+                own = if *id == SKY { [0.0; 9] } else { *planes.numbers(sight.mesh, *id) };
+                last = *id;
+            }
+            for (numbers, own) in numbers.iter_mut().zip(own) {
+                numbers[k] = own;
+            }
+        }
+        let mut all_sure = true;
+        for (k, to) in points.iter_mut().enumerate() {
+            let ray = frame.ray(lattice.at(column + k, row));
+            let (t, is_sure) = quick_hit_parameter(&ray, &numbers.each_ref().map(|n| n[k]));
+            *to = P::from(ray.from + (ray.through - ray.from) * t);
+            all_sure &= is_sure;
+        }
+        if !all_sure {
+            // The sky's numbers are not sure of anything, nor are those of planes that are grazed.
+            for (k, (to, id)) in points.iter_mut().zip(ids).enumerate() {
+                let ray = frame.ray(lattice.at(column + k, row));
+                if *id == SKY {
+                    *to = P::from(nowhere());
+                } else if !quick_hit_parameter(&ray, &numbers.each_ref().map(|n| n[k])).1 {
+                    *to = P::from(sight.grazing_point((column + k, row)));
                 }
             }
-            column += run.len();
         }
     }
 }

@@ -101,7 +101,7 @@ proptest! {
     #[test]
     fn a_parameter_is_no_farther_off_than_its_bound(hit in hit()) {
         let Hit { ray, triangle } = hit;
-        let found = Parameter::new(&ray, &TrianglePlane::new(&triangle));
+        let found = Parameter::of(&ray, &triangle);
         if found.error.is_finite() {
             let exact = hit.parameter().expect("a finite bound tells that the ray is not in the plane");
             let bound = rational(found.error);
@@ -115,7 +115,7 @@ proptest! {
         let Hit { ray, triangle: [a, b, c] } = hit;
         let (start, along, u, v) = (a - ray.from, ray.through - ray.from, b - a, c - a);
         if is_clear([start, u, v]) && is_clear([along, u, v]) {
-            prop_assert!(TrianglePlane::new(&hit.triangle).quick_hit_parameter(&ray).1);
+            prop_assert!(quick_hit_parameter(&ray, &TrianglePlane::new(&hit.triangle).numbers()).1);
         }
     }
 

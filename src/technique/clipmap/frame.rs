@@ -18,7 +18,7 @@ use crate::raster::Lattice;
 use crate::resolve::{Paint, code_values};
 use crate::space::{Plan, ViewFrame, World};
 use crate::terrain::Mesh;
-use crate::visibility::{self, Hit, Sight};
+use crate::visibility::{self, Hit, Planes, Sight};
 use std::sync::Arc;
 
 /// Draws a frame of a view; says what the cache did.
@@ -203,7 +203,7 @@ impl<'a> FramePainter<'a> {
     fn readings(&self, y: usize) -> RowReadings {
         let width = self.view.width();
         let mut points = vec![Plan::default(); width];
-        self.painter.sight.plan_of_row(y, &mut points);
+        self.painter.sight.plan_of_row(y, &mut points, &mut Planes::default());
         let mut row = RowReadings { readings: Vec::with_capacity(width), ..RowReadings::default() };
         // Neighbours often touch the same tiles.
         let (mut plane, mut last) = (None, [NO_TILE; 4]);
@@ -341,7 +341,7 @@ fn nearest(sight: &Sight, view: &ViewFrame) -> Option<Hit> {
     let lattice = *sight.lattice();
     let rows = parallel::map_indices(lattice.rows, |row| {
         let mut points = vec![World::default(); lattice.columns];
-        sight.world_of_row((0, row), &mut points);
+        sight.world_of_row((0, row), &mut points, &mut Planes::default());
         let points = points.into_iter().enumerate().filter(|(_, at)| at.is_finite());
         points.map(|(column, at)| (view.depth(at), [column, row])).fold(None, nearer)
     });

@@ -22,7 +22,7 @@ use crate::stage::Stage;
 use crate::technique::dynamic_line::{Antialiasing, Corners, LineOverlaps, Settings};
 use crate::terrain::{Mesh, SKY};
 use crate::tiling::TilePlace;
-use crate::visibility::{FootprintPlane, PixelFootprint, Sight};
+use crate::visibility::{FootprintPlane, PixelFootprint, Planes, Sight};
 
 /// The most entries of the lists of a tile (at 24 bytes).
 pub const MOST_ENTRIES: usize = 1 << 23;
@@ -222,9 +222,9 @@ impl<T: Real> FrameContext<'_, T> {
     /// The surface points of a rectangle.
     fn points(&self, place: TilePlace) -> Vec<World> {
         let ([x, y], [width, height]) = (place.corner, place.size);
-        let mut points = vec![World::default(); width * height];
+        let (mut points, mut planes) = (vec![World::default(); width * height], Planes::default());
         for (row, points) in points.chunks_mut(width).enumerate() {
-            self.sight.world_of_row((x, y + row), points);
+            self.sight.world_of_row((x, y + row), points, &mut planes);
         }
         points
     }

@@ -7,6 +7,7 @@ use super::view::Entry;
 use crate::math;
 use crate::raster::TileView;
 use crate::space::{Lens, World};
+use crate::visibility::Planes;
 use std::ops::Range;
 
 /// The surface points of a tile that volumes may touch, in blocks, and where they lie.
@@ -18,9 +19,9 @@ pub fn seen(context: &FrameContext, view: &TileView, entries: &[Entry]) -> (Samp
     }
     let mut origin = None;
     if context.way != Way::Machine {
-        let mut points = vec![World::default(); view.width];
+        let (mut points, mut planes) = (vec![World::default(); view.width], Planes::default());
         for r in rows_of(view, entries) {
-            context.sight.world_of_row((view.column, view.row + r), &mut points);
+            context.sight.world_of_row((view.column, view.row + r), &mut points, &mut planes);
             origin = origin.or_else(|| points.iter().copied().find(|p| p.is_finite()));
             let Some(origin) = origin else { continue };
             let from = r / ROWS * view.width.div_ceil(COLUMNS);
@@ -68,7 +69,9 @@ impl pulp::WithSimd for Close<'_> {
 
     #[inline(always)]
     fn with_simd<S: pulp::Simd>(self, _: S) {
-        self.blocks.iter_mut().for_each(Block::close);
+        for block in self.blocks {
+            block.close();
+        }
     }
 }
 

@@ -5,7 +5,7 @@ use crate::buffer::Values;
 use crate::raster::Lattice;
 use crate::space::{Plan, World};
 use crate::stage::Stage;
-use crate::visibility::Sight;
+use crate::visibility::{Planes, Sight};
 
 /// The surface points of a stage's pixels.
 fn surface(stage: &Stage) -> Vec<World> {
@@ -15,7 +15,7 @@ fn surface(stage: &Stage) -> Vec<World> {
     sight.see();
     let mut points = vec![World::default(); view.width() * view.height()];
     for (row, points) in points.chunks_mut(view.width()).enumerate() {
-        sight.world_of_row((0, row), points);
+        sight.world_of_row((0, row), points, &mut Planes::default());
     }
     points
 }
