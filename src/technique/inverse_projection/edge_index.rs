@@ -19,6 +19,9 @@ use std::ops::Range;
 /// Most cells of the grid.
 const MAX_CELLS: f64 = (1u32 << 24) as f64;
 
+/// Most cells that are searched for the edges of several pixels at once.
+const MOST_SHARED_CELLS: usize = 16;
+
 /// The edges of a draw list's areas, and the grid over them.
 #[derive(Debug)]
 pub struct EdgeIndex<'l> {
@@ -48,6 +51,36 @@ pub struct Winding {
     pub area: AreaId,
     /// The number of turns, counter-clockwise positive.
     pub turns: i32,
+}
+
+/// The areas that wind around a point, kept as the point moves on.
+#[derive(Debug)]
+pub struct Around {
+    at: Plan,
+    windings: Vec<Winding>,
+}
+
+impl Around {
+    /// Around no point yet.
+    pub fn nowhere() -> Self {
+        Self { at: Plan::new(f64::NAN, f64::NAN), windings: Vec::new() }
+    }
+
+    /// The windings that differ from 0, in the areas' order.
+    pub fn windings(&self) -> &[Winding] {
+        &self.windings
+    }
+
+    /// Adds to an area's turns, of which none may be left.
+    fn add(&mut self, area: AreaId, turns: i32) {
+        match self.windings.binary_search_by_key(&area, |w| w.area) {
+            Ok(at) if self.windings[at].turns + turns == 0 => {
+                self.windings.remove(at);
+            }
+            Ok(at) => self.windings[at].turns += turns,
+            Err(at) => self.windings.insert(at, Winding { area, turns }),
+        }
+    }
 }
 
 impl<'l> EdgeIndex<'l> {
@@ -217,6 +250,26 @@ impl<'l> EdgeIndex<'l> {
         found.dedup();
     }
 
+    /// Collects the edges that may have a point in a rectangle, each once, in order; `false`: that would be to search too many cells.
+    pub fn edges_in(&self, bounds: &PlanBox, found: &mut Vec<u32>) -> bool {
+        found.clear();
+        let (low, high) = (bounds.min - self.origin, bounds.max - self.origin);
+        let columns = self.cells_between(low.x, high.x, self.columns);
+        let rows = self.cells_between(low.y, high.y, self.rows);
+        if columns.len() * rows.len() > MOST_SHARED_CELLS {
+            return false;
+        }
+        for row in rows {
+            for column in columns.clone() {
+                self.take_near(self.members_of(column, row), bounds, found);
+            }
+        }
+        found.retain(|&edge| !passes_by(self.edge(edge), bounds));
+        found.sort_unstable();
+        found.dedup();
+        true
+    }
+
     /// The cell around a point when neither an edge nor an area has a part in it.
     #[inline]
     pub fn empty_cell(&self, p: Plan) -> Option<PlanBox> {
@@ -275,6 +328,32 @@ impl<'l> EdgeIndex<'l> {
         }
         if changed {
             found.retain(|w| w.turns != 0);
+        }
+    }
+
+    /// Moves to a point.
+    #[inline]
+    pub fn move_to(&self, p: Plan, around: &mut Around) {
+        if around.at != p {
+            self.windings_at(p, &mut around.windings);
+            around.at = p;
+        }
+    }
+
+    /// Moves straight on to a point; `edges` has all edges that meet the way.
+    #[inline]
+    pub fn move_straight(&self, to: Plan, edges: &[u32], around: &mut Around) {
+        let from = around.at;
+        // Beyond the grid nothing is known.
+        if self.cell_of(from).is_none() || self.cell_of(to).is_none() {
+            return;
+        }
+        around.at = to;
+        for edge in edges.iter().map(|&edge| self.edge(edge)) {
+            let turns = turns_straight(edge, from, to);
+            if turns != 0 {
+                around.add(edge.area, turns);
+            }
         }
     }
 
@@ -481,6 +560,42 @@ fn turns_between(edge: &Edge, from: Plan, to: Plan) -> i32 {
     i32::from(is_left(edge, to)) - i32::from(is_left(edge, from))
 }
 
+/// How an area's winding changes along the straight way between two points, both moved as in [`is_left`].
+#[inline]
+fn turns_straight(edge: &Edge, from: Plan, to: Plan) -> i32 {
+    let turns = turns_between(edge, from, to);
+    if turns == 0 {
+        return 0;
+    }
+    // The way moves east and less north: what lies on it comes to lie on its left when it leads north, or west.
+    let way = to - from;
+    let moves_off = if way.y != 0.0 { way.y > 0.0 } else { way.x < 0.0 };
+    let is_left_of_way = |end: Plan| {
+        let side = orient2d(from, to, end);
+        if side != 0.0 { side > 0.0 } else { moves_off }
+    };
+    if is_left_of_way(edge.a) == is_left_of_way(edge.b) { 0 } else { turns }
+}
+
+/// Whether a rectangle surely lies on one side of an edge's line.
+#[inline]
+fn passes_by(edge: &Edge, bounds: &PlanBox) -> bool {
+    let along = edge.b - edge.a;
+    // The corners farthest to the line's left and to its right.
+    let (x, y) = (
+        if along.y > 0.0 { (bounds.min.x, bounds.max.x) } else { (bounds.max.x, bounds.min.x) },
+        if along.x > 0.0 { (bounds.max.y, bounds.min.y) } else { (bounds.min.y, bounds.max.y) },
+    );
+    // How far to the left a corner lies, times the edge's length, and what that may be off: three roundings of each product, and one more.
+    let side = |corner: Plan| {
+        let to = corner - edge.a;
+        let (p, q) = (along.x * to.y, along.y * to.x);
+        (p - q, 4.0 * f64::EPSILON * (p.abs() + q.abs()))
+    };
+    let ((left, left_error), (right, right_error)) = (side(Plan::new(x.0, y.0)), side(Plan::new(x.1, y.1)));
+    left < -left_error || right > right_error
+}
+
 /// Where the grid lies and how fine it is.
 struct Layout {
     origin: Plan,
@@ -593,6 +708,45 @@ mod tests {
                     prop_assert_eq!(turns, expected, "area {:?} at {:?}", area, p);
                     prop_assert_eq!(index.winding_of(area, *p), expected);
                 }
+            }
+        }
+
+        #[test]
+        fn windings_are_the_same_whichever_way_a_point_was_come_to(
+            rings in prop::collection::vec(
+                prop::collection::vec((coordinate(), coordinate()).prop_map(|(x, y)| Plan::new(x, y)), 1..9), 1..5),
+            points in prop::collection::vec((coordinate(), coordinate()).prop_map(|(x, y)| Plan::new(x, y)), 40),
+        ) {
+            let list = list_of(&rings);
+            let bounds = PlanBox { min: Plan::new(-3.0, -3.0), max: Plan::new(3.0, 3.0) };
+            let index = EdgeIndex::new(&list, &bounds).unwrap();
+            let all: Vec<u32> = (0..index.edge_count() as u32).collect();
+            let (mut around, mut expected) = (Around::nowhere(), Vec::new());
+            for p in points.iter().chain(rings.iter().flatten()) {
+                index.move_straight(*p, &all, &mut around);
+                index.move_to(*p, &mut around);
+                index.windings_at(*p, &mut expected);
+                prop_assert_eq!(around.windings(), &expected[..], "at {:?}", p);
+            }
+        }
+
+        #[test]
+        fn the_edges_in_a_rectangle_are_all_that_have_a_point_in_it(
+            rings in prop::collection::vec(
+                prop::collection::vec((coordinate(), coordinate()).prop_map(|(x, y)| Plan::new(x, y)), 1..9), 1..5),
+            corners in prop::collection::vec((coordinate(), coordinate()).prop_map(|(x, y)| Plan::new(x, y)), 2),
+        ) {
+            let list = list_of(&rings);
+            let bounds = PlanBox { min: Plan::new(-9.0, -9.0), max: Plan::new(9.0, 9.0) };
+            let index = EdgeIndex::new(&list, &bounds).unwrap();
+            let rectangle = PlanBox::around(corners);
+            let (low, high) = (rectangle.min, rectangle.max);
+            let sides = [low, Plan::new(high.x, low.y), high, Plan::new(low.x, high.y)];
+            let (mut found, quad) = (Vec::new(), Quadrilateral(sides));
+            if index.edges_in(&rectangle, &mut found) {
+                let edges = (0..index.edge_count() as u32).filter(|&k| quad.meets(&rectangle, index.edge(k).a, index.edge(k).b));
+                let missed: Vec<u32> = edges.filter(|edge| found.binary_search(edge).is_err()).collect();
+                prop_assert!(missed.is_empty(), "{:?} are not among {:?}", missed, found);
             }
         }
     }

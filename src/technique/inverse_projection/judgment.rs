@@ -1,10 +1,9 @@
-//! Is a sample in an area? (She 3.5, Fig. 9, Codes A and B; the winding number as an option.)
+//! Is a sample in an area? (She 3.5, Fig. 9, Codes A and B.)
 
-use super::edge_index::EdgeIndex;
 use super::expansion::{AreaId, Edge};
 use crate::space::Plan;
-use crate::technique::inverse_projection::PointInPolygon;
 use glam::DVec2;
+use std::ops::Range;
 
 /// An edge that meets the pixel at hand, with what Codes A and B ask of it made once for all samples.
 #[derive(Debug, Clone, Copy)]
@@ -29,7 +28,7 @@ impl NearEdge {
     /// Code A: +1 where the sum of the vectors from the sample to the edge's ends points along the edge's outward normal
     /// (cos of their angle at least 0), else -1.
     #[inline(always)]
-    fn code_a(&self, sample: Plan) -> i32 {
+    fn code_a(&self, sample: Plan) -> i64 {
         let towards = (self.a - sample) + (self.b - sample);
         if towards.dot(self.outward) >= 0.0 { 1 } else { -1 }
     }
@@ -42,30 +41,25 @@ impl NearEdge {
     }
 }
 
-/// She's FLAG for a sample and the edges of one area that meet the pixel: positive inside, else outside.
-#[inline]
-pub fn flag(sample: Plan, edges: &[NearEdge]) -> i32 {
-    edges.iter().map(|edge| if edge.is_correlated(sample) { edge.code_a(sample) } else { 0 }).sum()
+/// An area that is partly in a pixel.
+#[derive(Debug, Clone)]
+pub struct Part {
+    /// The area.
+    pub area: AreaId,
+    /// Its edges that meet the pixel, as a range of the pixel's.
+    pub near: Range<usize>,
 }
 
-/// Judges samples of one pixel by the rule of the scene.
-#[derive(Debug, Clone, Copy)]
-pub struct Judge<'a> {
-    /// Areas and edges.
-    pub index: &'a EdgeIndex<'a>,
-    /// The rule.
-    pub rule: PointInPolygon,
-}
-
-impl Judge<'_> {
-    /// Whether a sample lies in an area, of whose edges `near` meet the pixel.
-    #[inline]
-    pub fn contains(&self, area: AreaId, near: &[NearEdge], sample: Plan) -> bool {
-        match self.rule {
-            PointInPolygon::EdgeNormals => flag(sample, near) > 0,
-            PointInPolygon::Winding => self.index.rule_of(area).contains(self.index.winding_of(area, sample)),
+/// She's FLAG of each sample for the edges of one area that meet the pixel: positive inside, else outside.
+#[inline(always)]
+pub fn flags<const N: usize>(samples: &[Plan; N], edges: &[NearEdge]) -> [i64; N] {
+    let mut flags = [0; N];
+    for edge in edges {
+        for (flag, sample) in flags.iter_mut().zip(samples) {
+            *flag += if edge.is_correlated(*sample) { edge.code_a(*sample) } else { 0 };
         }
     }
+    flags
 }
 
 #[cfg(test)]
@@ -84,15 +78,15 @@ mod tests {
     #[test]
     fn a_sample_inside_a_straight_line_has_both_its_edges_for_it() {
         let line = [edge((0.0, -1.0), (9.0, -1.0)), edge((9.0, 1.0), (0.0, 1.0))];
-        assert_eq!(flag(Plan::new(4.0, 0.5), &line), 2);
-        assert_eq!(flag(Plan::new(4.0, 1.5), &line), 0, "one for, one against: outside");
+        assert_eq!(flags(&[Plan::new(4.0, 0.5)], &line), [2]);
+        assert_eq!(flags(&[Plan::new(4.0, 1.5)], &line), [0], "one for, one against: outside");
     }
 
     #[test]
     fn an_edge_whose_pedal_lies_beyond_its_end_is_not_asked() {
         // Fig. 10, right: the edge ends before the sample; asked, it would call the sample inside.
         let stub = [edge((0.0, -1.0), (1.0, -1.0))];
-        assert_eq!(flag(Plan::new(3.0, 0.0), &stub), 0);
+        assert_eq!(flags(&[Plan::new(3.0, 0.0)], &stub), [0]);
         assert_eq!(stub[0].code_a(Plan::new(3.0, 0.0)), 1, "Code A alone");
     }
 }

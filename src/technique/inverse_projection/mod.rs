@@ -5,7 +5,7 @@
 //! 1. preprocess: lines are expanded to polygons of edges with normals (`expansion`, 3.1);
 //! 2. the depth buffer gives each pixel a quadrilateral in the plan (`quadrilateral`, 3.2);
 //! 3. pixels are N (no area), F (wholly in areas) or P (an edge meets the quadrilateral) (`pixel`, 3.3);
-//! 4. P pixels take n x n samples, bilinear in the quadrilateral (3.4), judged by edge normals (`judgment`, 3.5)
+//! 4. P pixels take n x n samples, bilinear in the quadrilateral (`samples`, 3.4), judged by edge normals (`judgment`, 3.5)
 //!    and averaged.
 //!
 //! Where the paper is silent:
@@ -25,6 +25,7 @@ mod frame;
 mod judgment;
 mod pixel;
 mod quadrilateral;
+mod samples;
 mod settings;
 mod step;
 mod structures;

@@ -1,22 +1,26 @@
 //! One pixel: its quadrilateral, its class, its samples, their mean.
 
-use super::edge_index::{EdgeIndex, Winding};
+use super::edge_index::{Around, EdgeIndex};
 use super::expansion::AreaId;
-use super::judgment::{Judge, NearEdge};
+use super::judgment::{NearEdge, Part};
 use super::quadrilateral::Quadrilateral;
+use super::samples::{Places, Within};
 use super::step::{EdgeOf, PixelClass, Refusal, Step};
 use crate::canvas::{Backdrop, GBuffer, LastGround, Record};
 use crate::raster::Lattice;
 use crate::resolve::{Paint, Stack};
 use crate::space::{Plan, PlanBox, ViewFrame};
 use crate::stage::Stage;
-use crate::technique::inverse_projection::{Corners, Settings, Silhouette};
+use crate::technique::inverse_projection::{Corners, PointInPolygon, Settings, Silhouette};
 use crate::terrain::Mesh;
 use crate::visibility::hit;
 use std::ops::Range;
 
 /// Up to so many areas partly in a pixel, samples are told apart by which of them they lie in.
 const FEW: usize = 4;
+
+/// So many neighbours in a row are looked at together for the edges around them.
+const NEIGHBOURS: usize = 16;
 
 /// A quadrilateral's side may be so many times longer than the longer of the sides that the planes of its two ends
 /// would give it, before it counts as spanning a silhouette.
@@ -30,7 +34,8 @@ pub struct PixelPainter<'a> {
     mesh: &'a Mesh,
     view: &'a ViewFrame,
     settings: &'a Settings,
-    judge: Judge<'a>,
+    index: &'a EdgeIndex<'a>,
+    places: Places,
     backdrop: Backdrop<'a>,
     /// The paint of each style of items.
     paints: Vec<Paint>,
@@ -72,18 +77,32 @@ pub struct Lists {
     ground: LastGround,
     /// A part of the plan that no edge and no area has a part in.
     empty: PlanBox,
+    neighbourhood: Neighbourhood,
+    /// What winds around the centre of the pixel, or of the one before.
+    around: Around,
     near: Vec<u32>,
     /// The near edges made ready for many samples.
     ready: Vec<NearEdge>,
-    windings: Vec<Winding>,
     involved: Vec<Involved>,
+    /// The areas with an edge in the pixel, in draw order.
+    parts: Vec<Part>,
+    within: Within,
+}
+
+/// Neighbours in a row, and the edges that may meet the quadrilaterals of any of them.
+struct Neighbourhood {
+    row: usize,
+    columns: Range<usize>,
+    edges: Vec<u32>,
+    /// Whether they lie close together; if not, each looks for its own edges.
+    is_close: bool,
 }
 
 /// An area that has a part in a pixel.
 struct Involved {
     area: AreaId,
-    /// Its edges that meet the pixel, as a range of the list of near edges; empty: the whole pixel lies in the area.
-    near: Range<usize>,
+    /// Its place among the areas with an edge in the pixel; `None`: the whole pixel lies in the area.
+    part: Option<usize>,
 }
 
 /// What a pixel's centre sees.
@@ -94,16 +113,13 @@ struct Centre {
 }
 
 impl Lists {
-    /// The areas with an edge in the pixel.
-    fn partly(&self) -> impl Iterator<Item = &Involved> {
-        self.involved.iter().filter(|involved| !involved.near.is_empty())
-    }
-
     /// The areas with a part in the pixel, as a step.
     fn areas(&self) -> Step {
-        let (whole, partly): (Vec<&Involved>, _) = self.involved.iter().partition(|i| i.near.is_empty());
-        let numbers = |areas: Vec<&Involved>| areas.iter().map(|involved| involved.area).collect();
-        Step::Areas { whole: numbers(whole), partly: numbers(partly) }
+        let whole = self.involved.iter().filter(|involved| involved.part.is_none());
+        Step::Areas {
+            whole: whole.map(|involved| involved.area).collect(),
+            partly: self.parts.iter().map(|part| part.area).collect(),
+        }
     }
 }
 
@@ -122,7 +138,8 @@ impl<'a> PixelPainter<'a> {
             mesh,
             view,
             settings,
-            judge: Judge { index, rule: settings.point_in_polygon },
+            index,
+            places: Places::new(settings.samples),
             paints: styles.map(|style| backdrop.compositor.paint(style.paint)).collect(),
             backdrop,
             keeps_quads,
@@ -146,10 +163,13 @@ impl<'a> PixelPainter<'a> {
         Lists {
             ground: self.backdrop.no_ground(),
             empty: PlanBox::EMPTY,
+            neighbourhood: Neighbourhood { row: 0, columns: 0..0, edges: Vec::new(), is_close: false },
+            around: Around::nowhere(),
             near: Vec::new(),
             ready: Vec::new(),
-            windings: Vec::new(),
             involved: Vec::new(),
+            parts: Vec::new(),
+            within: Within::default(),
         }
     }
 
@@ -185,7 +205,7 @@ impl<'a> PixelPainter<'a> {
         if !self.keeps_quads && lists.empty.contains(&bounds) {
             return Pixel { paint: ground, class: PixelClass::N, edges: 0, quad };
         }
-        let may_meet_edges = self.judge.index.has_edges_near(&bounds);
+        let may_meet_edges = self.index.has_edges_near(&bounds);
         let is_doubtful =
             (may_meet_edges || self.keeps_quads) && self.settings.silhouette == Silhouette::Centre;
         if is_doubtful && self.spans_silhouette(at) {
@@ -195,12 +215,14 @@ impl<'a> PixelPainter<'a> {
         }
         lists.near.clear();
         if may_meet_edges {
-            self.classify(&quad, lists);
-        } else if let Some(empty) = self.judge.index.empty_cell(plan) {
+            self.classify(at, (&quad, &bounds), lists);
+        } else if let Some(empty) = self.index.empty_cell(plan) {
             lists.empty = empty;
         }
         if lists.near.is_empty() {
-            return self.whole(quad, &centre, lists, record);
+            let pixel = self.whole(quad, &centre, lists, record);
+            self.move_on(&quad, lists);
+            return pixel;
         }
         let (samples, edges) = (u64::from(self.settings.samples * self.settings.samples), lists.near.len());
         counts.samples += samples;
@@ -208,6 +230,7 @@ impl<'a> PixelPainter<'a> {
         record.step(|| Step::NearEdges(lists.near.iter().map(|&edge| self.edge_of(edge)).collect()));
         record.step(|| Step::Class(PixelClass::P));
         let paint = self.mean(&quad, &centre, lists, record);
+        self.move_on(&quad, lists);
         Pixel { paint, class: PixelClass::P, edges: edges as u32, quad }
     }
 
@@ -254,16 +277,42 @@ impl<'a> PixelPainter<'a> {
     }
 
     /// She 3.3: finds the edges that meet the quadrilateral; none: the pixel is N or F.
-    fn classify(&self, quad: &Quadrilateral, lists: &mut Lists) {
-        self.judge.index.edges_near(quad, &mut lists.near);
+    fn classify(&self, at: (usize, usize), (quad, bounds): (&Quadrilateral, &PlanBox), lists: &mut Lists) {
+        let around = &mut lists.neighbourhood;
+        if around.row != at.1 || !around.columns.contains(&at.0) {
+            self.look_around(at, around);
+        }
+        if around.is_close {
+            lists.near.extend_from_slice(&around.edges);
+        } else {
+            self.index.edges_near(quad, &mut lists.near);
+        }
         lists.near.retain(|&e| {
-            let edge = self.judge.index.edge(e);
-            quad.meets(edge.a, edge.b)
+            let edge = self.index.edge(e);
+            quad.meets(bounds, edge.a, edge.b)
         });
     }
 
+    /// Finds the edges around a pixel and its neighbours to the right.
+    fn look_around(&self, (column, row): (usize, usize), around: &mut Neighbourhood) {
+        around.row = row;
+        around.columns = column..self.view.width().min(column + NEIGHBOURS);
+        let mut bounds = PlanBox::EMPTY;
+        for quad in around.columns.clone().filter_map(|column| self.range((column, row))) {
+            bounds.include_box(&quad.bounds());
+        }
+        around.is_close = self.index.edges_in(&bounds, &mut around.edges);
+    }
+
+    /// What winds around the next pixel's centre: it is a corner of this one's quadrilateral, so that whatever lies between meets that.
+    fn move_on(&self, quad: &Quadrilateral, lists: &mut Lists) {
+        if self.corners.is_none() {
+            self.index.move_straight(quad.0[1], &lists.near, &mut lists.around);
+        }
+    }
+
     fn edge_of(&self, edge: u32) -> EdgeOf {
-        let edge = self.judge.index.edge(edge);
+        let edge = self.index.edge(edge);
         EdgeOf { area: edge.area, from: edge.a, to: edge.b }
     }
 
@@ -277,7 +326,7 @@ impl<'a> PixelPainter<'a> {
     ) -> Pixel {
         lists.near.clear();
         self.involve(centre.plan, lists);
-        let is_covered = lists.involved.iter().any(|i| self.judge.index.painted_by(i.area).is_some());
+        let is_covered = lists.involved.iter().any(|i| self.index.painted_by(i.area).is_some());
         let class = if is_covered { PixelClass::F } else { PixelClass::N };
         record.step(|| Step::Class(class));
         record.step(|| lists.areas());
@@ -296,69 +345,75 @@ impl<'a> PixelPainter<'a> {
         self.involve(centre.plan, lists);
         record.step(|| lists.areas());
         lists.ready.clear();
-        lists.ready.extend(lists.near.iter().map(|&e| NearEdge::new(self.judge.index.edge(e))));
-        let n = self.settings.samples;
-        let sum = if lists.partly().count() <= FEW {
-            self.sum_of_kinds(quad, centre.ground, lists, record)
-        } else {
-            let mut sum = Paint::CLEAR;
-            quad.for_each_sample(n, |at| {
-                let is_in = |k: usize| self.is_in(&lists.involved[k], at, lists);
-                record.step(|| {
-                    let within = lists.partly().filter(|involved| self.is_in(involved, at, lists));
-                    Step::Sample { at, within: within.map(|involved| involved.area).collect() }
-                });
-                sum = sum.plus(self.compose(centre.ground, &lists.involved, is_in));
+        lists.ready.extend(lists.near.iter().map(|&e| NearEdge::new(self.index.edge(e))));
+        let at = (&self.places, quad);
+        match self.settings.point_in_polygon {
+            PointInPolygon::EdgeNormals => lists.within.judge(at, &lists.parts, &lists.ready),
+            PointInPolygon::Winding => lists.within.wind(at, &lists.parts, self.index),
+        }
+        for k in 0..self.places.count() {
+            record.step(|| {
+                let parts = lists.parts.iter().enumerate();
+                let within = parts.filter(|(part, _)| lists.within.holds(*part, k));
+                let within = within.map(|(_, part)| part.area).collect();
+                Step::Sample { at: self.places.at(quad, k), within }
             });
-            sum
+        }
+        let sum = if lists.parts.len() <= FEW {
+            self.sum_of_kinds(centre.ground, lists)
+        } else {
+            self.sum_of_samples(centre.ground, lists)
         };
-        let mean = sum.divided_by(f64::from(n * n));
+        let mean = sum.divided_by(self.places.count() as f64);
         record.step(|| Step::Mean(mean));
         mean
     }
 
     /// The sum of the samples' colours where few areas are partly in the pixel: samples in the same areas have the same colour,
     /// which is composed once.
-    fn sum_of_kinds<R: Record<Step>>(
-        &self,
-        quad: &Quadrilateral,
-        ground: Paint,
-        lists: &Lists,
-        record: &mut R,
-    ) -> Paint {
+    fn sum_of_kinds(&self, ground: Paint, lists: &Lists) -> Paint {
         let mut counts = [0u32; 1 << FEW];
-        quad.for_each_sample(self.settings.samples, |at| {
-            let mut kind = 0;
-            for (bit, involved) in lists.partly().enumerate() {
-                kind |= usize::from(self.is_in(involved, at, lists)) << bit;
-            }
-            counts[kind] += 1;
-            record.step(|| {
-                let within = lists.partly().enumerate().filter(|(bit, _)| kind >> bit & 1 == 1);
-                Step::Sample { at, within: within.map(|(_, involved)| involved.area).collect() }
-            });
-        });
+        let samples = self.places.count();
+        if lists.parts.len() == 1 {
+            let held = (0..samples).map(|k| lists.within.first_parts(k) as u32).sum();
+            (counts[0], counts[1]) = (samples as u32 - held, held);
+        } else {
+            (0..samples).for_each(|k| counts[lists.within.first_parts(k) as usize] += 1);
+        }
         let mut sum = Paint::CLEAR;
         for (kind, count) in counts.into_iter().enumerate().filter(|(_, count)| *count > 0) {
-            let partial_before =
-                |at: usize| lists.involved[..at].iter().filter(|i| !i.near.is_empty()).count();
-            let is_in = |at: usize| lists.involved[at].near.is_empty() || kind >> partial_before(at) & 1 == 1;
+            let is_in = |at: usize| lists.involved[at].part.is_none_or(|part| kind >> part & 1 == 1);
             sum = sum.plus(self.compose(ground, &lists.involved, is_in).times(f64::from(count)));
+        }
+        sum
+    }
+
+    /// The sum of the samples' colours, one by one; what lies in the same areas as the one before has its colour.
+    fn sum_of_samples(&self, ground: Paint, lists: &Lists) -> Paint {
+        let (mut sum, mut paint) = (Paint::CLEAR, Paint::CLEAR);
+        for k in 0..self.places.count() {
+            if k == 0 || !lists.within.are_alike(k - 1, k) {
+                let is_in =
+                    |at: usize| lists.involved[at].part.is_none_or(|part| lists.within.holds(part, k));
+                paint = self.compose(ground, &lists.involved, is_in);
+            }
+            sum = sum.plus(paint);
         }
         sum
     }
 
     /// Lists the areas with a part in the pixel, in draw order: those whose edges meet it, and those that contain all of it.
     fn involve(&self, plan: Plan, lists: &mut Lists) {
-        let index = self.judge.index;
-        index.windings_at(plan, &mut lists.windings);
+        let index = self.index;
+        index.move_to(plan, &mut lists.around);
         lists.involved.clear();
+        lists.parts.clear();
         let mut start = 0;
-        let mut windings = lists.windings.iter().peekable();
+        let mut windings = lists.around.windings().iter().peekable();
         let mut take_whole_below = |limit: AreaId, involved: &mut Vec<Involved>| {
             while let Some(w) = windings.next_if(|w| w.area <= limit) {
                 if w.area < limit && index.rule_of(w.area).contains(w.turns) {
-                    involved.push(Involved { area: w.area, near: 0..0 });
+                    involved.push(Involved { area: w.area, part: None });
                 }
             }
         };
@@ -366,7 +421,8 @@ impl<'a> PixelPainter<'a> {
             let area = index.edge(lists.near[start]).area;
             let end = start + lists.near[start..].partition_point(|&e| index.edge(e).area == area);
             take_whole_below(area, &mut lists.involved);
-            lists.involved.push(Involved { area, near: start..end });
+            lists.involved.push(Involved { area, part: Some(lists.parts.len()) });
+            lists.parts.push(Part { area, near: start..end });
             start = end;
         }
         take_whole_below(AreaId::LAST, &mut lists.involved);
@@ -376,24 +432,16 @@ impl<'a> PixelPainter<'a> {
     fn compose(&self, ground: Paint, involved: &[Involved], is_in: impl Fn(usize) -> bool) -> Paint {
         let mut stack = Stack::on(ground);
         for (at, Involved { area, .. }) in involved.iter().enumerate() {
-            let Some(style) = self.judge.index.painted_by(*area) else { continue };
-            let cut = self.judge.index.cut_of(*area);
+            let Some(style) = self.index.painted_by(*area) else { continue };
+            let cut = self.index.cut_of(*area);
             let is_kept = |(area, wanted): (AreaId, bool)| {
                 involved.binary_search_by_key(&area, |i| i.area).is_ok_and(&is_in) == wanted
             };
             if is_in(at) && cut.is_none_or(is_kept) {
                 let paint = self.paints[style as usize];
-                stack.draw(self.judge.index.group_of(style), |below| {
-                    self.backdrop.compositor.over(below, paint)
-                });
+                stack.draw(self.index.group_of(style), |below| self.backdrop.compositor.over(below, paint));
             }
         }
         stack.finished()
-    }
-
-    #[inline]
-    fn is_in(&self, involved: &Involved, sample: Plan, lists: &Lists) -> bool {
-        involved.near.is_empty()
-            || self.judge.contains(involved.area, &lists.ready[involved.near.clone()], sample)
     }
 }

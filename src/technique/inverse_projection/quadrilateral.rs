@@ -58,23 +58,22 @@ impl Quadrilateral {
         (west <= east).then_some((west, east))
     }
 
-    /// Whether a segment has a point in it or on its border.
-    pub fn meets(&self, a: Plan, b: Plan) -> bool {
-        let bounds = self.bounds();
+    /// Whether a segment has a point in it or on its border; `bounds` are its own.
+    #[inline]
+    pub fn meets(&self, bounds: &PlanBox, a: Plan, b: Plan) -> bool {
         if !bounds.meets(&PlanBox::around([a, b])) {
             return false;
         }
-        // All corners strictly on one side of the segment's line?
-        let (mut all_left, mut all_right) = (true, true);
-        for p in self.0 {
-            let side = orient2d(a, b, p);
-            all_left &= side > 0.0;
-            all_right &= side < 0.0;
-        }
-        if all_left || all_right {
+        // Where the corners lie of the segment's line.
+        let of_line = self.0.map(|p| orient2d(a, b, p));
+        if of_line.iter().all(|side| *side > 0.0) || of_line.iter().all(|side| *side < 0.0) {
             return false;
         }
-        self.sides().iter().any(|(p, q)| segments_meet(a, b, *p, *q)) || self.contains(a)
+        let meets_side = |k: usize| {
+            let next = (k + 1) % 4;
+            segments_meet((a, b), (self.0[k], self.0[next]), (of_line[k], of_line[next]))
+        };
+        (0..4).any(meets_side) || self.contains(a)
     }
 
     /// Whether a point lies in it (crossings of a ray to the east, half-open).
@@ -94,29 +93,17 @@ impl Quadrilateral {
         };
         Plan::new(mix(a.x, b.x, c.x, d.x), mix(a.y, b.y, c.y, d.y))
     }
-
-    /// She 3.4: calls `visit` with the n x n positions of mean sampling, rows from the lower edge.
-    #[inline(always)]
-    pub fn for_each_sample(&self, n: u32, mut visit: impl FnMut(Plan)) {
-        let at = |k: u32| (f64::from(k) + 0.5) / f64::from(n);
-        for row in 0..n {
-            for column in 0..n {
-                visit(self.sample(at(column), at(row)));
-            }
-        }
-    }
 }
 
-/// Whether two closed segments share a point.
-fn segments_meet(a: Plan, b: Plan, p: Plan, q: Plan) -> bool {
-    let (ap, aq) = (orient2d(a, b, p), orient2d(a, b, q));
-    let (pa, pb) = (orient2d(p, q, a), orient2d(p, q, b));
+/// Whether two closed segments share a point, a b and p q, of whose ends the latter two lie so of the former's line.
+#[inline]
+fn segments_meet((a, b): (Plan, Plan), (p, q): (Plan, Plan), (of_p, of_q): (f64, f64)) -> bool {
     let apart = |s: f64, t: f64| (s > 0.0 && t > 0.0) || (s < 0.0 && t < 0.0);
-    if apart(ap, aq) || apart(pa, pb) {
+    if apart(of_p, of_q) || apart(orient2d(p, q, a), orient2d(p, q, b)) {
         return false;
     }
     // On one line: they meet when their boxes do.
-    ap != 0.0 || aq != 0.0 || PlanBox::around([a, b]).meets(&PlanBox::around([p, q]))
+    of_p != 0.0 || of_q != 0.0 || PlanBox::around([a, b]).meets(&PlanBox::around([p, q]))
 }
 
 #[cfg(test)]
@@ -128,17 +115,11 @@ mod tests {
     }
 
     #[test]
-    fn the_samples_of_a_square_are_the_middles_of_its_parts() {
-        let square = quad([(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0)]);
-        let mut samples = Vec::new();
-        square.for_each_sample(2, |p| samples.push((p.x, p.y)));
-        assert_eq!(samples, [(0.5, 0.5), (1.5, 0.5), (0.5, 1.5), (1.5, 1.5)]);
-    }
-
-    #[test]
     fn a_segment_that_passes_through_inside_or_along_a_side_meets_a_quadrilateral() {
         let square = quad([(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0)]);
-        let meets = |a: (f64, f64), b: (f64, f64)| square.meets(Plan::new(a.0, a.1), Plan::new(b.0, b.1));
+        let meets = |a: (f64, f64), b: (f64, f64)| {
+            square.meets(&square.bounds(), Plan::new(a.0, a.1), Plan::new(b.0, b.1))
+        };
         assert!(meets((-1.0, 1.0), (3.0, 1.5)), "through");
         assert!(meets((0.5, 0.5), (1.0, 1.0)), "inside");
         assert!(meets((0.5, 0.0), (5.0, 0.0)), "along a side");
