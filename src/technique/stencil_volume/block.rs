@@ -98,6 +98,19 @@ impl Block {
         ends.filter(|v| v.is_finite()).fold(0.0, max_f32)
     }
 
+    /// The least and the greatest coordinates of its points; inverted where all is sky.
+    #[inline(always)]
+    pub fn reaches(&self) -> ([f32; 3], [f32; 3]) {
+        (self.low, self.high)
+    }
+
+    /// The coordinates of the points of row `r`, NaN for the sky and beyond the tile.
+    #[inline(always)]
+    pub fn points(&self, r: usize) -> Option<[&[f32; COLUMNS]; 3]> {
+        let start = r * COLUMNS;
+        Some([self.x[start..].first_chunk()?, self.y[start..].first_chunk()?, self.z[start..].first_chunk()?])
+    }
+
     /// Whether a point of the block may lie in a box (relative to the tile's origin) that is `slack` larger.
     #[inline(always)]
     pub fn meets(&self, low: &[f64; 3], high: &[f64; 3], slack: f64) -> bool {
@@ -139,14 +152,7 @@ impl Block {
             [at(&face.edges[0]), at(&face.edges[1]), at(&face.edges[2]), at(&face.edges[3])];
         let [sx, sy, sz, constant] = face.side;
         let (doubt, slack, columns) = (face.doubt, face.slack, self.columns as f32);
-        let start = r * COLUMNS;
-        let (Some(px), Some(py), Some(pz)) = (
-            self.x[start..].first_chunk::<COLUMNS>(),
-            self.y[start..].first_chunk::<COLUMNS>(),
-            self.z[start..].first_chunk::<COLUMNS>(),
-        ) else {
-            return false;
-        };
+        let Some([px, py, pz]) = self.points(r) else { return false };
         let mut any = 0;
         for lane in 0..COLUMNS {
             let l = lane as f32;

@@ -91,12 +91,13 @@ impl Outline {
         ]
     }
 
-    fn wall(a: Plan, b: Plan, (low, high): (f64, f64)) -> Self {
+    /// The wall over the line between two corners of a ring.
+    pub fn wall(a: Plan, b: Plan, (low, high): (f64, f64)) -> Self {
         Self { corners: [nadir(a, low), nadir(b, low), nadir(b, high), nadir(a, high)], count: 4, up: 0 }
     }
 
     /// A cap's part: `up` is 1 for the top cap, -1 for the bottom one, whose corners are taken in reverse.
-    fn level(ring: &[Plan], height: f64, up: i32, turn: f64) -> Self {
+    pub fn level(ring: &[Plan], height: f64, up: i32, turn: f64) -> Self {
         let mut corners = [nadir(ring[0], height); 4];
         let count = ring.len();
         for (k, corner) in corners.iter_mut().take(count).enumerate() {
@@ -136,7 +137,7 @@ impl Outline {
     }
 
     /// From which side the lens sees the face: 1 or -1; 0: edge-on; `None`: rays differ, or doubles do not tell.
-    fn seen_by(&self, frame: &ViewFrame) -> Option<i32> {
+    pub fn seen_by(&self, frame: &ViewFrame) -> Option<i32> {
         let [a, b, ..] = self.corners;
         let sign = |v: f64| if v == 0.0 { 0 } else { v.signum() as i32 };
         match frame.lens() {
@@ -362,8 +363,8 @@ impl Setup<'_> {
         Edge { function: e * scale, doubt: error * scale + EVALUATION_DOUBT }
     }
 
-    /// The function whose sign is the depth test's, and how small it must not be.
-    fn side(&self, outline: &Outline, facing: i32) -> ([f32; 4], f32) {
+    /// The function whose sign is the depth test's for a face that is seen from one side, and how small it must not be.
+    pub fn side(&self, outline: &Outline, facing: i32) -> ([f32; 4], f32) {
         let SampleFrame { origin, reach, error } = self.place;
         let [a, b, ..] = outline.corners;
         let o = f64::from(facing);

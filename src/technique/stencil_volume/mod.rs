@@ -4,7 +4,7 @@
 //! Input: a [`Stage`]. Output: a picture whose features are masks that faces of polyhedra have counted:
 //! 1. extrusion: vector data becomes polyhedra between levels just below and above the terrain (`extrusion`, `stroke`, `heights`; 4.1);
 //! 2. the view: which method counts each polyhedron (`view`, 4.2.1);
-//! 3. counting: the faces' fragments before or behind the terrain go into the stencil (`face`, `fragments`, `block`, `stencil`; 3.1, 4.2.1);
+//! 3. counting: the faces' fragments before or behind the terrain go into the stencil (`face`, `fragments`, `solid`, `block`, `stencil`; 3.1, 4.2.1);
 //! 4. the mask is applied through the polyhedra's boxes and zeroed on the way (`passes`, 4.2.2).
 //!
 //! With exact mathematics (the default device) the mask is the footprint: a sample is in it exactly when its surface
@@ -24,6 +24,7 @@ mod heights;
 mod passes;
 mod points;
 mod settings;
+mod solid;
 mod stencil;
 mod step;
 mod stroke;

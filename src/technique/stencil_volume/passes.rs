@@ -3,8 +3,9 @@
 //! Input: the volumes that may touch the tile. Output: the tile's colours and, where they are asked for, its stencil planes. Refuses: nothing.
 //!
 //! Counting is done in one of three ways, all with the same mask where they all apply:
-//! - *in passing* ([`Way::Sparse`]): the filter and the exact predicates, only in blocks whose surface points may lie in the volume.
-//!   Elsewhere the faces that a line crosses before (or behind) its point cancel, so that nothing is lost while counts wrap;
+//! - *in passing* ([`Way::Sparse`]): the filter and the exact predicates, only in blocks whose surface points may lie in the volume, and
+//!   of a volume of one convex ring only near its faces. Elsewhere the faces that a line crosses before (or behind) its point cancel, or
+//!   leave one in the volume, so that nothing is lost while counts wrap;
 //! - *in full* ([`Way::Full`]): the same in every block that the volume's picture touches, fragment by fragment in order, the
 //!   mask applied through the boxes of the volumes (4.2.2). For planes to look at, and wherever something is asked for that does not cancel;
 //! - *on a machine* ([`Way::Machine`]): fragments and depth test of the imitated graphics processor.
@@ -12,7 +13,8 @@
 use super::block::{COLUMNS, ROWS, SIZE};
 use super::context::Way;
 use super::face::{Face, Fragment, Outline};
-use super::fragments::Sparse;
+use super::fragments::{Convex, Sparse};
+use super::solid::Solid;
 use super::stencil::{Method, passes};
 use super::step::Step;
 use super::tile::{Tile, sample_of};
@@ -141,18 +143,32 @@ impl<R: Record<Step>> Tile<'_, R> {
         let high = [volume.plan.max.x - o.x, volume.plan.max.y - o.y, volume.high - o.z];
         let slack = 2.0 * self.place.error + self.place.reach * f64::from(f32::EPSILON);
         let ((c0, r0), (c1, r1)) = entry.samples_in(&self.view);
-        let met: Vec<usize> = (r0 / ROWS..=r1 / ROWS)
-            .flat_map(|y| (c0 / COLUMNS..=c1 / COLUMNS).map(move |x| (x, y)))
-            .map(|(x, y)| y * self.blocks_a_row + x)
-            .filter(|&b| self.blocks[b].meets(&low, &high, slack))
-            .collect();
-        if met.is_empty() {
-            return;
+        let mut met = std::mem::take(&mut self.met);
+        met.clear();
+        for y in r0 / ROWS..=r1 / ROWS {
+            let row = y * self.blocks_a_row;
+            let blocks = row + c0 / COLUMNS..=row + c1 / COLUMNS;
+            met.extend(blocks.filter(|&b| self.blocks[b].meets(&low, &high, slack)));
         }
-        let faces = self.set_up(entry);
+        if !met.is_empty() {
+            self.count_in_blocks(entry, &met, (r0, r1));
+        }
+        self.met = met;
+    }
+
+    /// Counts a volume in the blocks that it may meet.
+    fn count_in_blocks(&mut self, entry: &Entry, blocks: &[usize], rows: (usize, usize)) {
+        let volume = self.context.volume(entry.volume);
         let method = self.context.method_of(entry.volume);
         let arch = self.context.arch;
-        arch.dispatch(Sparse { tile: self, faces: &faces, method, blocks: &met });
+        let ring = self.context.extrusion.rings_of(volume).next().filter(|_| volume.is_box);
+        if let Some(ring) = ring {
+            self.counts.faces += ring.len() as u64 + 2;
+            let solid = Solid::new(&self.setup(), ring, (volume.low, volume.high));
+            return arch.dispatch(Convex { tile: self, volume, solid, method, blocks, rows });
+        }
+        let faces = self.set_up(entry);
+        arch.dispatch(Sparse { tile: self, faces: &faces, method, blocks });
         self.faces = faces;
     }
 

@@ -65,6 +65,8 @@ pub struct Tile<'a, R = ()> {
     pub counts: Counts,
     /// Room for the faces of a volume.
     pub faces: Vec<Face>,
+    /// Room for the blocks that a volume may meet.
+    pub met: Vec<usize>,
     /// What takes the steps on the way to the samples' colours.
     pub record: R,
     ground: LastGround,
@@ -88,6 +90,7 @@ impl<'a, R> Tile<'a, R> {
             touches: Touches::new(context.view.width(), context.wants_items),
             counts: Counts::default(),
             faces: Vec::new(),
+            met: Vec::new(),
             record,
             ground: context.backdrop.no_ground(),
             view,
