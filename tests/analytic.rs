@@ -179,6 +179,32 @@ fn without_any_budget_all_pixels_are_samples_and_the_same_as_plain_supersampling
 }
 
 #[test]
+fn a_pixel_of_many_triangles_needs_no_samples_where_no_border_lies_in_it() {
+    let terrain = HILLS.replace("33, 33", "129, 129").replace("cell_m = 10.0", "cell_m = 2.5");
+    let small = ["image.width=6", "image.height=4", "terrain.shade=hillshade"];
+    // From above, so that nothing hides anything; the fill covers all.
+    let camera = "eye = [0, -1, 300], target = [0, 0, 0], fov_y_deg = 30";
+    let fill = "[[layer]]\nfill = { color = \"#ff0000\", opacity = 0.5 }\nfeatures = [{ polygon = [[-900, -900], [900, -900], [900, 900], [-900, 900]] }]\n";
+    let stage = stage(&scene(&terrain, camera, fill), &small);
+    is_right_on(&stage, 1e-9);
+    let frame = drawing::frame_of(Kind::Analytic, &stage, &[]);
+    assert!(drawing::count(&frame, "fragments") > 24 * 64, "more than are told apart");
+}
+
+#[test]
+fn a_wide_line_near_the_eye_makes_samples_of_those_pixels_alone_that_its_border_crosses() {
+    let camera = "eye = [0, -100, 30], target = [0, 0, 20], fov_y_deg = 60";
+    let line = "[[layer]]\nline = { color = \"#ff0000\", width_px = 60 }\nfeatures = [{ line = [[2, -400], [2, 300]] }]\n";
+    let stage = stage(&scene(HILLS, camera, line), &["camera.near_m=0.1"]);
+    let frame = drawing::frame_of(Kind::Analytic, &stage, &["color", "fallback"]);
+    let (worst, sampled) = beyond(&truth_of(&stage), &frame);
+    assert!(worst <= 2.0 / 255.0, "{worst}");
+    assert_eq!(drawing::count(&frame, "bent_widths"), sampled as u64);
+    // Two borders of 64 rows, some of them in two columns.
+    assert!((1..=4 * 64).contains(&sampled), "{sampled}");
+}
+
+#[test]
 fn a_crowd_of_edges_is_sampled_and_counted() {
     // A star of 400 points around a pixel.
     let star: Vec<String> = (0..400)

@@ -98,18 +98,110 @@ pub(super) fn common(one: &[DVec2], other: &[DVec2]) -> Vec<DVec2> {
     now
 }
 
+/// Divides a polygon into what lies inside of a line and what lies outside of it.
+#[inline]
+fn divide(polygon: &[DVec2], side: &Side, [inside, outside]: [&mut Vec<DVec2>; 2]) {
+    let Some(mut before) = polygon.last().copied() else { return };
+    let mut was = side.at(before);
+    for &p in polygon {
+        let is = side.at(p);
+        if (was < 0.0 && is > 0.0) || (was > 0.0 && is < 0.0) {
+            // As `cut` finds it.
+            let is_first = (before.x, before.y) < (p.x, p.y);
+            let (a, b, of_a, of_b) = if is_first { (before, p, was, is) } else { (p, before, is, was) };
+            let between = a + (b - a) * (of_a / (of_a - of_b));
+            inside.push(between);
+            outside.push(between);
+        }
+        if is >= 0.0 {
+            inside.push(p);
+        }
+        if is <= 0.0 {
+            outside.push(p);
+        }
+        (before, was) = (p, is);
+    }
+}
+
 /// What of a polygon lies outside of another, as convex pieces.
 pub(super) fn without(polygon: &[DVec2], hole: &[DVec2], mut piece: impl FnMut(&[DVec2])) {
     let (mut rest, mut next, mut outside) = (polygon.to_vec(), Vec::new(), Vec::new());
     for side in sides(hole) {
         outside.clear();
-        cut(&rest, &side.turned(), &mut outside);
+        next.clear();
+        divide(&rest, &side, [&mut next, &mut outside]);
         if area(&outside) > NOTHING {
             piece(&outside);
         }
-        next.clear();
-        cut(&rest, &side, &mut next);
         std::mem::swap(&mut rest, &mut next);
+    }
+}
+
+/// Convex pieces of a polygon that loses parts; memory that is used again.
+#[derive(Debug, Default)]
+pub(super) struct Pieces {
+    corners: Vec<DVec2>,
+    ends: Vec<usize>,
+    /// The same, as they are being made.
+    next: (Vec<DVec2>, Vec<usize>),
+    room: [Vec<DVec2>; 3],
+}
+
+impl Pieces {
+    /// A polygon as its only piece.
+    pub(super) fn set(&mut self, polygon: &[DVec2]) {
+        self.corners.clear();
+        self.corners.extend_from_slice(polygon);
+        self.ends.clear();
+        self.ends.push(polygon.len());
+    }
+
+    /// Whether nothing is left.
+    pub(super) fn is_empty(&self) -> bool {
+        self.ends.is_empty()
+    }
+
+    /// The pieces.
+    pub(super) fn rings(&self) -> impl Iterator<Item = &[DVec2]> {
+        let mut first = 0;
+        self.ends.iter().map(move |end| {
+            let ring = &self.corners[first..*end];
+            first = *end;
+            ring
+        })
+    }
+
+    /// Takes away what another polygon covers.
+    pub(super) fn lose(&mut self, hole: &[DVec2]) {
+        let (mut corners, mut ends) = std::mem::take(&mut self.next);
+        let [mut rest, mut next, mut outside] = std::mem::take(&mut self.room);
+        corners.clear();
+        ends.clear();
+        let mut keep = |piece: &[DVec2]| {
+            corners.extend_from_slice(piece);
+            ends.push(corners.len());
+        };
+        for ring in self.rings() {
+            if are_apart(ring, hole) {
+                keep(ring);
+                continue;
+            }
+            rest.clear();
+            rest.extend_from_slice(ring);
+            for side in sides(hole) {
+                outside.clear();
+                next.clear();
+                divide(&rest, &side, [&mut next, &mut outside]);
+                if area(&outside) > NOTHING {
+                    keep(&outside);
+                }
+                std::mem::swap(&mut rest, &mut next);
+            }
+        }
+        self.room = [rest, next, outside];
+        self.next = (corners, ends);
+        std::mem::swap(&mut self.corners, &mut self.next.0);
+        std::mem::swap(&mut self.ends, &mut self.next.1);
     }
 }
 
@@ -149,6 +241,20 @@ mod tests {
             prop_assert!(both < 1e-9 || !are_apart(&pixel, &triangle));
             prop_assert!((area(&common(&triangle, &pixel)) - both).abs() < 1e-12);
         }
+    }
+
+    #[test]
+    fn what_holes_leave_of_a_polygon_adds_up_with_them() {
+        let mut pieces = Pieces::default();
+        pieces.set(&square(0.0, 0.0, 1.0));
+        let left = |pieces: &Pieces| pieces.rings().map(area).sum::<f64>();
+        pieces.lose(&square(0.25, 0.25, 0.5));
+        assert!((left(&pieces) - 0.75).abs() < 1e-15);
+        // Half of it lies in the hole before.
+        pieces.lose(&square(0.5, 0.25, 0.5));
+        assert!((left(&pieces) - 0.625).abs() < 1e-15);
+        pieces.lose(&square(-1.0, -1.0, 3.0));
+        assert!(pieces.is_empty());
     }
 
     #[test]

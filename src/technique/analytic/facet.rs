@@ -6,8 +6,8 @@
 
 use super::convex::{Side, cut};
 use crate::math;
-use crate::space::{Lens, Plan, PlanBox, ViewFrame};
-use crate::terrain::SurfaceTriangle;
+use crate::resolve::Paint;
+use crate::space::{Lens, Plan, PlanBox, ViewFrame, World};
 use glam::{DVec2, DVec3};
 
 /// A triangle seen from less than this from its edge covers nothing: the determinant's share of its terms.
@@ -19,37 +19,73 @@ const SAME_KEY: f64 = 1e-12;
 /// Triangles that reach over no more pixels are bounded by their corners, not by what is seen of them.
 const SMALL: f64 = 2.0;
 
+/// Triangles that reach farther, pixels from a tile's corner, are cut by their sides' lines: their corners' places have too few bits.
+const FAR: f64 = 4096.0;
+
+/// A corner of a triangle of the terrain, in screen coordinates that are counted from a tile's corner.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Corner {
+    /// Homogeneous.
+    homogeneous: DVec3,
+    depth: f64,
+    /// How near it is: the larger, the nearer. Of a central lens 1 / depth, of a parallel one -depth; linear in the screen.
+    pub(super) key: f64,
+    /// On the screen, if it lies before the eye.
+    pub(super) screen: DVec2,
+}
+
+impl Corner {
+    pub(super) fn new(view: &ViewFrame, origin: DVec2, world: World) -> Self {
+        let h = view.homogeneous(world - view.eye()) + view.homogeneous_eye();
+        let homogeneous = DVec3::new(h.x - origin.x * h.z, h.y - origin.y * h.z, h.z);
+        let depth = view.depth(world);
+        let screen = homogeneous.truncate() / homogeneous.z;
+        let key = if matches!(view.lens(), Lens::Central { .. }) { 1.0 / depth } else { -depth };
+        Self { homogeneous, depth, key, screen }
+    }
+
+    /// Whether no plane cuts off anything near it.
+    pub(super) fn is_between_planes(&self, view: &ViewFrame) -> bool {
+        self.depth >= view.near() && self.depth < view.far()
+    }
+
+    /// Whether it lies clearly before the eye, so that its place on the screen and its key count.
+    pub(super) fn is_before(&self, view: &ViewFrame) -> bool {
+        self.depth >= 0.5 * view.near() || matches!(view.lens(), Lens::Parallel { .. })
+    }
+}
+
 /// A triangle of the terrain in screen coordinates that are counted from a tile's corner.
 #[derive(Debug, Clone)]
 pub(super) struct Facet {
     /// Its number.
     pub(super) id: u32,
-    /// How near it is: the larger, the nearer. Of a central lens 1 / depth, of a parallel one -depth; linear in the screen.
+    /// How near it is, as corners have it.
     pub(super) key: Side,
-    /// Weights of the corners from (x, y, 1), up to a factor.
+    /// The least and the most key of its corners; no bounds where one of them is not before the eye.
+    pub(super) keys: [f64; 2],
+    /// Weights of the corners from (x, y, 1), up to a factor: its sides as lines of the screen.
     weights: [DVec3; 3],
+    /// What keeps it beyond the near plane and before the far one, where it reaches over them.
+    planes: [Option<Side>; 2],
+    corners: [DVec3; 3],
     plan: [Plan; 3],
+    /// The box around it in the plan.
+    bounds: PlanBox,
     is_central: bool,
     /// Whether it reaches over hardly more than a pixel.
     pub(super) is_small: bool,
+    /// The terrain's paint on it, where that is the same everywhere on it.
+    pub(super) ground: Paint,
 }
 
 /// Where a triangle lies on the screen.
 #[derive(Debug, Clone)]
 pub(super) struct Outline {
-    /// Its sides, lines of the screen.
-    sides: [Side; 3],
-    /// What keeps it beyond the near plane and before the far one, where it reaches over them.
-    planes: [Option<Side>; 2],
+    /// Its corners, where they have places that can be trusted and no plane cuts it.
+    pub(super) corners: Option<[DVec2; 3]>,
     /// The columns and rows that it may reach: x from, y from, x to, y to.
     pub(super) reach: [f64; 4],
-}
-
-impl Outline {
-    /// The lines of the screen that bound it.
-    pub(super) fn bounds(&self) -> impl Iterator<Item = &Side> + Clone {
-        self.sides.iter().chain(self.planes.iter().flatten())
-    }
 }
 
 /// Homogeneous screen coordinates from plan points of a triangle's plane.
@@ -61,9 +97,9 @@ pub(super) struct FromPlan {
 }
 
 impl FromPlan {
-    /// Of a triangle, with the screen counted from `origin`.
-    pub(super) fn new(view: &ViewFrame, origin: DVec2, triangle: &SurfaceTriangle) -> Self {
-        let ([a, b, c], plan) = (corners(view, origin, triangle), triangle.plan());
+    /// Of a triangle.
+    pub(super) fn new(facet: &Facet) -> Self {
+        let ([a, b, c], plan) = (facet.corners, facet.plan);
         let (along, other) = (plan[1] - plan[0], plan[2] - plan[0]);
         let area = along.perp_dot(other);
         let (u, v) = (b - a, c - a);
@@ -86,15 +122,10 @@ impl FromPlan {
 }
 
 impl Facet {
-    /// A triangle in a view, with the screen counted from `origin`, and where it lies; `None`: it is seen edge-on.
-    pub(super) fn new(
-        view: &ViewFrame,
-        origin: DVec2,
-        id: u32,
-        triangle: &SurfaceTriangle,
-    ) -> Option<(Self, Outline)> {
-        let corners = corners(view, origin, triangle);
-        let depths = triangle.world.map(|corner| view.depth(corner));
+    /// The triangle between three corners with their plan points; `None`: it is seen edge-on. Its ground is clear so far.
+    pub(super) fn new(view: &ViewFrame, id: u32, of: &[Corner; 3], plan: [Plan; 3]) -> Option<Self> {
+        let corners = of.map(|corner| corner.homogeneous);
+        let depths = of.map(|corner| corner.depth);
         let [a, b, c] = corners;
         let normals = [b.cross(c), c.cross(a), a.cross(b)];
         let det = a.dot(normals[0]);
@@ -109,26 +140,56 @@ impl Facet {
             false => -(weights[0] * depths[0] + weights[1] * depths[1] + weights[2] * depths[2]),
         };
         let key = line(key);
-        let outline = Outline {
-            sides: weights.map(unit),
-            planes: planes(view, key, &depths, is_central),
-            reach: reach(view, &corners, &depths, is_central),
+        let keys = match of.iter().all(|corner| corner.is_before(view)) {
+            true => [
+                math::min(math::min(of[0].key, of[1].key), of[2].key),
+                math::max(math::max(of[0].key, of[1].key), of[2].key),
+            ],
+            false => [f64::NEG_INFINITY, f64::INFINITY],
         };
-        let [x0, y0, x1, y1] = outline.reach;
-        let is_small = x1 - x0 <= SMALL && y1 - y0 <= SMALL;
-        Some((Self { id, key, weights, plan: triangle.plan(), is_central, is_small }, outline))
+        let [x0, y0, x1, y1] = reach(view, of);
+        Some(Self {
+            id,
+            key,
+            keys,
+            weights,
+            planes: planes(view, key, &depths, is_central),
+            corners,
+            plan,
+            bounds: PlanBox::around(plan),
+            is_central,
+            is_small: x1 - x0 <= SMALL && y1 - y0 <= SMALL,
+            ground: Paint::CLEAR,
+        })
     }
 
-    /// The greatest key in a square of the screen around a point.
+    /// Where it lies on the screen, of the same corners.
+    pub(super) fn outline(&self, view: &ViewFrame, of: &[Corner; 3]) -> Outline {
+        let reach = reach(view, of);
+        let is_exact = self.planes == [None; 2] && reach.iter().all(|v| v.abs() <= FAR);
+        Outline { corners: is_exact.then(|| of.map(|corner| corner.screen)), reach }
+    }
+
+    /// The lines of the screen that bound it.
+    pub(super) fn sides(&self) -> impl Iterator<Item = Side> + Clone + '_ {
+        self.weights.iter().map(|row| line(*row)).chain(self.planes.iter().flatten().copied())
+    }
+
+    /// Whether it has a point of the screen.
+    pub(super) fn holds(&self, at: DVec2) -> bool {
+        self.sides().all(|side| side.at(at) >= 0.0)
+    }
+
+    /// The greatest key that it has in a square of the screen around a point.
     #[inline]
     pub(super) fn nearest_in(&self, middle: DVec2, half: f64) -> f64 {
-        self.key.at(middle) + half * self.key.normal.abs().element_sum()
+        math::min(self.key.at(middle) + half * self.key.normal.abs().element_sum(), self.keys[1])
     }
 
     /// The least key there.
     #[inline]
     pub(super) fn farthest_in(&self, middle: DVec2, half: f64) -> f64 {
-        self.key.at(middle) - half * self.key.normal.abs().element_sum()
+        math::max(self.key.at(middle) - half * self.key.normal.abs().element_sum(), self.keys[0])
     }
 
     /// The plan point of a point of the screen.
@@ -141,9 +202,13 @@ impl Facet {
         a + ((b - a) * (of_b * share) + (c - a) * (of_c * share))
     }
 
-    /// The box around it in the plan.
-    pub(super) fn plan_box(&self) -> PlanBox {
-        PlanBox::around(self.plan)
+    /// A box around what a square of the screen sees of it in the plan.
+    pub(super) fn plan_in(&self, square: [DVec2; 4]) -> PlanBox {
+        if self.is_small || (self.is_central && square.iter().any(|p| self.key.at(*p) <= 0.0)) {
+            return self.bounds;
+        }
+        // Where all of the square has a place on its plane, that is a homography's.
+        self.bounds.common(&super::boxes::with_hem(&PlanBox::around(square.map(|p| self.plan_at(p)))))
     }
 
     /// The smallest way in the plan of a pixel's way on the screen, metres, around a point.
@@ -179,33 +244,19 @@ impl Facet {
     }
 }
 
-/// The homogeneous coordinates of a triangle's corners, counted from `origin`.
-fn corners(view: &ViewFrame, origin: DVec2, triangle: &SurfaceTriangle) -> [DVec3; 3] {
-    triangle.world.map(|corner| {
-        let h = view.homogeneous(corner - view.eye()) + view.homogeneous_eye();
-        DVec3::new(h.x - origin.x * h.z, h.y - origin.y * h.z, h.z)
-    })
-}
-
 /// A row that is multiplied with (x, y, 1), as a line.
+#[inline(always)]
 fn line(row: DVec3) -> Side {
     Side { normal: row.truncate(), offset: row.z }
 }
 
-/// The same in pixels, where it is a line that has pixels.
-fn unit(row: DVec3) -> Side {
-    let length = row.truncate().length();
-    line(if length > 0.0 { row / length } else { row })
-}
-
 /// The columns and rows that a triangle may reach; all where it comes near the eye's plane.
-fn reach(view: &ViewFrame, corners: &[DVec3; 3], depths: &[f64; 3], is_central: bool) -> [f64; 4] {
-    if is_central && depths.iter().any(|depth| *depth < 0.5 * view.near()) {
+fn reach(view: &ViewFrame, corners: &[Corner; 3]) -> [f64; 4] {
+    if corners.iter().any(|corner| !corner.is_before(view)) {
         return [f64::NEG_INFINITY, f64::NEG_INFINITY, f64::INFINITY, f64::INFINITY];
     }
-    let points = corners.map(|h| h.truncate() / h.z);
-    let low = points[0].min(points[1]).min(points[2]);
-    let high = points[0].max(points[1]).max(points[2]);
+    let [a, b, c] = corners.map(|corner| corner.screen);
+    let (low, high) = (a.min(b).min(c), a.max(b).max(c));
     [low.x, low.y, high.x, high.y]
 }
 
@@ -217,6 +268,34 @@ fn planes(view: &ViewFrame, key: Side, depths: &[f64; 3], is_central: bool) -> [
     let beyond_near = Side { normal: -key.normal, offset: key_of(view.near()) - key.offset };
     let before_far = Side { normal: key.normal, offset: key.offset - key_of(view.far()) };
     [nearer.then_some(beyond_near), farther.then_some(before_far)]
+}
+
+/// Which of two triangles is nearer.
+pub(super) enum Order {
+    /// The new one.
+    Nearer,
+    /// The old one.
+    Farther,
+}
+
+/// Which of two triangles is clearly the nearer one wherever two polygons of them overlap; `None`: they are not clearly apart.
+pub(super) fn order(new: &Facet, old: &Facet, polygons: [&[DVec2]; 2]) -> Option<Order> {
+    for polygon in polygons {
+        let (mut most, mut least, mut size) = (f64::NEG_INFINITY, f64::INFINITY, 0.0);
+        for p in polygon {
+            let (of_new, of_old) = (new.key.at(*p), old.key.at(*p));
+            let difference = of_new - of_old;
+            (most, least) = (math::max(difference, most), math::min(difference, least));
+            size = math::max(of_new.abs() + of_old.abs(), size);
+        }
+        if least > SAME_KEY * size {
+            return Some(Order::Nearer);
+        }
+        if most < -SAME_KEY * size {
+            return Some(Order::Farther);
+        }
+    }
+    None
 }
 
 /// What of a polygon that two triangles cover the first is nearer in, and what of it the second.
@@ -249,7 +328,8 @@ pub(super) fn split_by_key(new: &Facet, old: &Facet, polygon: &[DVec2]) -> [Vec<
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::space::{Screen, Viewpoint, World};
+    use crate::space::{Screen, Viewpoint};
+    use crate::terrain::SurfaceTriangle;
     use crate::visibility::hit;
 
     fn views() -> [ViewFrame; 2] {
@@ -275,8 +355,9 @@ mod tests {
         ]);
         let origin = DVec2::new(64.0, 128.0);
         for view in views() {
-            let (facet, _) = Facet::new(&view, origin, 7, &triangle).unwrap();
-            let from_plan = FromPlan::new(&view, origin, &triangle);
+            let corners = triangle.world.map(|corner| Corner::new(&view, origin, corner));
+            let facet = Facet::new(&view, 7, &corners, triangle.plan()).unwrap();
+            let from_plan = FromPlan::new(&facet);
             for at in [DVec2::new(100.5, 200.25), DVec2::new(256.0, 112.0)] {
                 let screen = Screen::new(at.x + origin.x, at.y + origin.y);
                 let seen = hit(&view, &view.ray(screen), &triangle);
@@ -295,6 +376,7 @@ mod tests {
         let view = views()[1];
         let eye = view.eye();
         let corners = [eye, eye + view.forward() * 100.0, eye + (view.forward() + view.up()) * 100.0];
-        assert!(Facet::new(&view, DVec2::ZERO, 0, &SurfaceTriangle::vertical(corners)).is_none());
+        let of = corners.map(|corner| Corner::new(&view, DVec2::ZERO, corner));
+        assert!(Facet::new(&view, 0, &of, corners.map(World::plan)).is_none());
     }
 }

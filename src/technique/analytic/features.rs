@@ -47,7 +47,7 @@ pub(super) struct Edge {
     pub(super) item: u32,
     pub(super) from: Plan,
     pub(super) to: Plan,
-    bounds: PlanBox,
+    pub(super) bounds: PlanBox,
 }
 
 impl Edge {
@@ -77,6 +77,29 @@ impl Stroked {
         let Segment { from, to, .. } = self.segment;
         let reach = crate::math::min(from.x, to.x) - self.bounds.min.x;
         self.bounds.meets(plan) && comes_near([from, to], reach, plan)
+    }
+}
+
+impl Stroked {
+    /// Whether a point of a box may be no farther from it than so many metres.
+    pub(super) fn comes_within(&self, reach: f64, plan: &PlanBox) -> bool {
+        let Segment { from, to, .. } = self.segment;
+        // Far more than rounding.
+        let reach = reach * (1.0 + 1e-9);
+        PlanBox::around([from, to]).grown(reach).meets(plan) && comes_near([from, to], reach, plan)
+    }
+
+    /// Whether all of a convex polygon is clearly no farther from it than so many metres.
+    pub(super) fn holds_within(&self, reach: f64, polygon: &[Plan]) -> bool {
+        let Segment { from, to, .. } = self.segment;
+        let reach = reach * (1.0 - 1e-9);
+        let (along, squared) = (to - from, (to - from).length_squared());
+        reach > 0.0
+            && polygon.iter().all(|p| {
+                let share =
+                    if squared > 0.0 { ((*p - from).dot(along) / squared).clamp(0.0, 1.0) } else { 0.0 };
+                (*p - from - along * share).length_squared() < reach * reach
+            })
     }
 }
 
@@ -169,12 +192,9 @@ impl<'s> Features<'s> {
     }
 }
 
-/// What is added to the winding number by going straight from one point to another over an edge.
+/// What is added to the winding number by going straight from one point to another over an edge whose box the way meets.
 #[inline]
 pub(super) fn crossing(edge: &Edge, from: Plan, to: Plan) -> i32 {
-    if !edge.bounds.meets(&PlanBox::around([from, to])) {
-        return 0;
-    }
     let is_left = |p: Plan| orient2d(edge.from, edge.to, p) >= 0.0;
     let (was, is) = (is_left(from), is_left(to));
     if was == is {

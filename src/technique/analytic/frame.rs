@@ -122,6 +122,7 @@ fn counts(pixels: &[Pixel]) -> Vec<(&'static str, u64)> {
         ("sampled_pixels", of_class(SAMPLED)),
         ("crowded_by_fragments", of_fallback(1)),
         ("crowded_by_edges", of_fallback(2)),
+        ("bent_widths", of_fallback(3)),
         ("fragments", pixels.iter().map(|pixel| u64::from(pixel.fragments)).sum()),
         ("edges", pixels.iter().map(|pixel| u64::from(pixel.edges)).sum()),
     ]

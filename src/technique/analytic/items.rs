@@ -7,6 +7,7 @@ use super::features::Edge;
 use super::look::{Look, Looks, even_half};
 use super::near::{Local, Near};
 use super::pieces::{self, HalfWidth, Pieces, stroke_pieces};
+use super::step::Fallback;
 use crate::math;
 use crate::predicate::orient2d;
 use crate::resolve::{Compositor, Paint, Stack};
@@ -64,6 +65,19 @@ impl Entry {
     }
 }
 
+/// Half a stroke's width in a fragment, metres.
+#[derive(Debug, Clone, Copy)]
+struct Span {
+    /// As linear in the plan.
+    half: HalfWidth,
+    /// How far that is off at most.
+    bend: f64,
+    /// Not more than the least.
+    least: f64,
+    /// The most.
+    most: f64,
+}
+
 /// What was found out about a fragment.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Painted {
@@ -103,11 +117,16 @@ impl Lists {
                 false
             }
             Held::All => {
-                self.rings.truncate(first);
-                self.corners.truncate(self.rings.last().copied().unwrap_or(0));
+                self.forget_rings(first);
                 true
             }
         }
+    }
+
+    /// Forgets the pieces from a number on.
+    fn forget_rings(&mut self, first: usize) {
+        self.rings.truncate(first);
+        self.corners.truncate(self.rings.last().copied().unwrap_or(0));
     }
 }
 
@@ -118,31 +137,32 @@ pub(super) struct Items<'a> {
     pub(super) mesh: &'a Mesh,
     pub(super) looks: &'a Looks<'a>,
     pub(super) compositor: Compositor,
-    /// Where the tile begins, from whose corner the screen is counted.
-    pub(super) origin: DVec2,
     /// The most parts of edges in a fragment.
     pub(super) crowd: usize,
 }
 
 impl Items<'_> {
-    /// The mean paint of a fragment over a ground of one paint; `None`: its edges are too many.
+    /// The mean paint of a fragment over a ground of one paint.
+    ///
+    /// # Errors
+    /// Why areas cannot tell.
     pub(super) fn paint(
         &self,
         place: &Place,
         near: &Near,
         ground: Paint,
         lists: &mut Lists,
-    ) -> Option<Painted> {
+    ) -> Result<Painted, Fallback> {
         lists.sets.clear();
         self.classify(place, near, lists)?;
         if lists.entries.iter().any(Entry::is_partial) {
-            return self.measure(place, near, ground, lists);
+            return self.measure(place, near, ground, lists).ok_or(Fallback::Crowd);
         }
         let paint = self.composed(near, lists, 0, ground);
         if lists.wants_sets {
             lists.sets.push((items_of(near, &lists.entries, 0), 1.0));
         }
-        Some(Painted { paint, class: Class::Point, edges: 0 })
+        Ok(Painted { paint, class: Class::Point, edges: 0 })
     }
 
     /// The paint of a fragment of a block all of whose items cover all of it.
@@ -167,7 +187,7 @@ impl Items<'_> {
     }
 
     /// Finds the items that cover some of a fragment, from the top down to one that hides the others.
-    fn classify(&self, place: &Place, near: &Near, lists: &mut Lists) -> Option<()> {
+    fn classify(&self, place: &Place, near: &Near, lists: &mut Lists) -> Result<(), Fallback> {
         lists.entries.clear();
         lists.edges.clear();
         lists.rings.clear();
@@ -205,56 +225,68 @@ impl Items<'_> {
             }
         }
         lists.entries.reverse();
-        Some(())
+        Ok(())
     }
 
-    /// Adds the pieces of an item's stroke that cut a fragment; none where one holds it. Returns whether the stroke may cover any of it; `None`:
-    /// its width is not nearly linear there.
+    /// Adds the pieces of an item's stroke that cut a fragment; none where one holds it. Returns whether the stroke may cover any of it.
     fn add_pieces(
         &self,
         (near, of, look): (&Near, &Local, &Look),
         place: &Place,
         (bounds, finest): (&PlanBox, &dyn Fn() -> f64),
         lists: &mut Lists,
-    ) -> Option<bool> {
-        let Some(line) = &look.line else { return Some(false) };
+    ) -> Result<bool, Fallback> {
+        let Some(line) = &look.line else { return Ok(false) };
         if of.is_held {
-            return Some(true);
+            return Ok(true);
         }
         let first = lists.rings.len();
         for (ring, around) in near.pieces(of) {
             if around.meets(bounds) && lists.add_ring(ring, place.plan, first) {
-                return Some(true);
+                return Ok(true);
             }
         }
         let mut strokes = near.strokes(of).iter().filter(|stroked| stroked.meets(bounds)).peekable();
         if strokes.peek().is_none() {
-            return Some(lists.rings.len() > first);
+            return Ok(lists.rings.len() > first);
         }
-        let (half, bend) = self.half_width(line, place);
+        let width = self.width(line, place);
         let finest = finest();
         let around = pieces::Near { plan: *bounds, sagitta: SAGITTA * finest };
         for stroked in strokes {
+            // Near the eye a width in pixels grows too fast for pieces, but most fragments are clearly in the stroke or clearly not.
+            if !stroked.comes_within(width.most, bounds) {
+                continue;
+            }
+            if stroked.holds_within(width.least, place.plan) {
+                lists.forget_rings(first);
+                return Ok(true);
+            }
             lists.pieces.clear();
-            if !stroke_pieces(&stroked.segment, line, &half, &around, &mut lists.pieces) {
-                return None;
+            if !stroke_pieces(&stroked.segment, line, &width.half, &around, &mut lists.pieces) {
+                return Err(Fallback::Width);
             }
             let pieces = std::mem::take(&mut lists.pieces);
             let is_held = pieces.rings().any(|ring| lists.add_ring(ring, place.plan, first));
             lists.pieces = pieces;
             if is_held {
-                return Some(true);
+                return Ok(true);
             }
         }
         let is_cut = lists.rings.len() > first;
-        (!is_cut || bend <= BEND * finest).then_some(is_cut)
+        if is_cut && width.bend > BEND * finest { Err(Fallback::Width) } else { Ok(is_cut) }
     }
 
-    /// Half a stroke's width near a place, and how far it is off: of one in pixels the tangent of how it grows with the distance from the eye
+    /// Half a stroke's width in a place: of one in pixels the tangent of how it grows with the distance from the eye
     /// (Zechmeister 2020, eq. 4.1).
-    fn half_width(&self, line: &Line, place: &Place) -> (HalfWidth, f64) {
+    fn width(&self, line: &Line, place: &Place) -> Span {
         let at = if let [at] = place.plan { *at } else { place.facet.plan_at(place.inside()) };
-        let even = |half: f64| (HalfWidth { at, half, gradient: DVec2::ZERO }, 0.0);
+        let even = |half: f64| Span {
+            half: HalfWidth { at, half, gradient: DVec2::ZERO },
+            bend: 0.0,
+            least: half,
+            most: half,
+        };
         if let Some(half) = even_half(line, self.view.lens()) {
             return even(half);
         }
@@ -276,8 +308,15 @@ impl Items<'_> {
         }
         let gradient = DVec2::new(middle.dot(east), middle.dot(north)) * (growth / distance);
         let half = HalfWidth { at, half: growth * distance, gradient };
-        let off = place.plan.iter().map(|p| growth * away(*p).length() - half.of(*p));
-        (half, off.fold(0.0, |most, off| math::max(off, most)))
+        let (mut bend, mut least, mut most) = (0.0, f64::INFINITY, 0.0);
+        for p in place.plan {
+            let away = away(*p);
+            bend = math::max(growth * away.length() - half.of(*p), bend);
+            // A distance is convex: corners have the most, and their tangents less than the least.
+            most = math::max(growth * away.length(), most);
+            least = math::min(growth * (away.dot(middle) / distance), least);
+        }
+        Span { half, bend, least, most }
     }
 
     /// The mean paint of a fragment that edges cut.
@@ -304,8 +343,7 @@ impl Items<'_> {
         lists.projected.extend(place.screen.iter().map(|p| *p - place.pixel));
         cover.begin(&lists.projected);
         let least = 0.5 * place.facet.least_w(place.screen);
-        let triangle = self.mesh.surface_triangle(place.facet.id)?;
-        let from_plan = FromPlan::new(self.view, self.origin, &triangle);
+        let from_plan = FromPlan::new(place.facet);
         let is_mirrored = from_plan.is_mirrored();
         let map = (&from_plan, place.pixel);
         let partial = lists.entries.iter().filter(|entry| entry.is_partial());

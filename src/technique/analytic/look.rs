@@ -38,6 +38,7 @@ pub(super) struct Look {
 pub(super) struct Looks<'s> {
     list: &'s DrawList,
     of_styles: Vec<Look>,
+    mode: BlendMode,
 }
 
 impl<'s> Looks<'s> {
@@ -53,7 +54,12 @@ impl<'s> Looks<'s> {
             },
             is_opaque: mode == BlendMode::Over && style.group.is_none() && style.paint.0[3] >= 1.0,
         };
-        Self { list, of_styles: list.styles().iter().map(look).collect() }
+        Self { list, of_styles: list.styles().iter().map(look).collect(), mode }
+    }
+
+    /// Whether what is composed is linear in what lies below; sums of light stop at 1.
+    pub(super) fn is_linear(&self) -> bool {
+        self.mode == BlendMode::Over
     }
 
     /// That of an item.

@@ -11,6 +11,7 @@
 //! Pixels with more fragments or edges than the settings allow are sampled, and counted. Refuses: nothing that can be drawn.
 
 mod boxes;
+mod cells;
 mod convex;
 mod coverage;
 mod facet;

@@ -87,22 +87,63 @@ impl Near {
             let turns = turns[own.start as usize..own.end as usize].iter().map(|(_, turn)| turn).sum();
             self.keep(looks, Local { item, turns, edges, strokes, pieces: 0..0, is_held: false });
         }
+        self.look_anew();
     }
 
     /// What of what matters to a box matters to a smaller one in it.
     pub(super) fn narrow(&self, looks: &Looks, plan: &PlanBox, out: &mut Self) {
         out.clear(plan);
+        let corners = corners_of(plan);
         for local in &self.items {
             let (edges, strokes) = (out.edges.len() as u32, out.strokes.len() as u32);
             let turns = self.turns_at(local, out.at);
             let near = self.edges(local).iter().filter(|edge| edge.meets(plan));
             out.edges.extend(near);
-            let near = self.strokes(local).iter().filter(|stroked| stroked.meets(plan));
-            out.strokes.extend(near);
+            let mut is_held = local.is_held;
+            let pieces = out.pieces.len() as u32;
+            for (ring, around) in self.pieces(local) {
+                if !around.meets(plan) {
+                    continue;
+                }
+                match held(ring, &corners) {
+                    Held::None => {}
+                    Held::Some => {
+                        out.corners.extend_from_slice(ring);
+                        out.pieces.push((out.corners.len() as u32, *around));
+                    }
+                    Held::All => is_held = true,
+                }
+                if is_held {
+                    out.forget_pieces(pieces);
+                    break;
+                }
+            }
+            if !is_held {
+                let near = self.strokes(local).iter().filter(|stroked| stroked.meets(plan));
+                out.strokes.extend(near);
+            }
             let (edges, strokes) = (edges..out.edges.len() as u32, strokes..out.strokes.len() as u32);
-            out.keep(looks, Local { item: local.item, turns, edges, strokes, pieces: 0..0, is_held: false });
+            let pieces = pieces..out.pieces.len() as u32;
+            out.keep(looks, Local { item: local.item, turns, edges, strokes, pieces, is_held });
         }
-        out.is_plain = out.items.iter().all(Local::is_plain);
+        out.look_anew();
+    }
+
+    /// Whether no edge, segment or piece may meet a box, so that each item covers all of it or nothing.
+    pub(super) fn is_clear(&self, plan: &PlanBox) -> bool {
+        !self.edges.iter().any(|edge| edge.meets(plan))
+            && !self.pieces.iter().any(|(_, around)| around.meets(plan))
+            && !self.strokes.iter().any(|stroked| stroked.meets(plan))
+    }
+
+    /// Forgets the pieces from a number on.
+    fn forget_pieces(&mut self, first: u32) {
+        self.pieces.truncate(first as usize);
+        self.corners.truncate(self.pieces.last().map_or(0, |(end, _)| *end as usize));
+    }
+
+    fn look_anew(&mut self) {
+        self.is_plain = self.items.iter().all(Local::is_plain);
     }
 
     /// Whether an item has a stroke near.
@@ -127,7 +168,7 @@ impl Near {
             }
             self.items.push(local);
         }
-        self.is_plain = self.items.iter().all(Local::is_plain);
+        self.look_anew();
     }
 
     /// An item with the pieces of its stroke in place of its segments; `None`: it covers nothing of the box.
@@ -183,10 +224,11 @@ impl Near {
         let look = looks.of(local.item);
         let is_in = look.area.is_none_or(|area| area.holds(local.turns));
         let has_edges = !local.edges.is_empty();
-        if (look.line.is_some() && local.strokes.is_empty()) || !(has_edges || is_in) {
+        let is_stroked = local.is_held || !(local.strokes.is_empty() && local.pieces.is_empty());
+        if (look.line.is_some() && !is_stroked) || !(has_edges || is_in) {
             return;
         }
-        if look.line.is_none() && !has_edges && look.is_opaque {
+        if (look.line.is_none() || local.is_held) && !has_edges && look.is_opaque {
             self.items.clear();
         }
         self.items.push(local);
@@ -209,7 +251,12 @@ impl Near {
 
     /// How often the border of an item's area turns around a place in the box.
     pub(super) fn turns_at(&self, of: &Local, at: Plan) -> i32 {
-        of.turns + self.edges(of).iter().map(|edge| crossing(edge, self.at, at)).sum::<i32>()
+        if of.edges.is_empty() {
+            return of.turns;
+        }
+        let way = PlanBox::around([self.at, at]);
+        let crossed = self.edges(of).iter().filter(|edge| edge.bounds.meets(&way));
+        of.turns + crossed.map(|edge| crossing(edge, self.at, at)).sum::<i32>()
     }
 }
 

@@ -1,8 +1,7 @@
 //! What the samples of a pixel see that is not told by areas.
 
-use super::convex::holds;
-use super::facet::Facet;
-use super::sheet::{Fragment, Sheet};
+use super::facet::{Corner, Facet};
+use super::sheet::Sheet;
 use crate::canvas::GBuffer;
 use crate::space::{Plan, ViewFrame};
 use crate::terrain::{Mesh, SKY};
@@ -23,14 +22,15 @@ pub(super) fn seen_sample<'s>(
     if id == SKY {
         return None;
     }
-    let (facet, _) = Facet::new(view, origin, id, &mesh.surface_triangle(id)?)?;
+    let triangle = mesh.surface_triangle(id)?;
+    let corners = triangle.world.map(|corner| Corner::new(view, origin, corner));
+    let facet = Facet::new(view, id, &corners, triangle.plan())?;
     Some((Cow::Owned(facet), seen.plan(column, row)))
 }
 
 /// What a point of a pixel sees by the pixel's fragments.
 pub(super) fn fragment_at(sheet: &Sheet, at: [usize; 2], screen: DVec2) -> Sample<'_> {
-    let held = |fragment: &&Fragment| holds(sheet.corners(fragment, at, &mut [DVec2::ZERO; 4]), screen);
-    let held = sheet.fragments(at).iter().find(held).map(|fragment| fragment.facet);
-    let facet = &sheet.facets[held.or_else(|| sheet.whole(at))? as usize];
+    let fragment = sheet.fragments(at).find(|fragment| sheet.holds(fragment, screen))?;
+    let facet = &sheet.facets[fragment.facet as usize];
     Some((Cow::Borrowed(facet), facet.plan_at(screen)))
 }

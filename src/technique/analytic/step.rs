@@ -18,6 +18,15 @@ pub enum Step {
         /// The terrain's own paint there.
         ground: Paint,
     },
+    /// No border of an item lies in the pixel: the mean of the ground that it sees is enough.
+    Ground {
+        /// How many parts of triangles it sees.
+        triangles: u32,
+        /// Their share of the pixel.
+        area: f64,
+        /// Their mean paint.
+        ground: Paint,
+    },
     /// What cuts the fragment before.
     Edges {
         /// How many parts of edges.
@@ -53,8 +62,10 @@ pub enum Step {
 pub enum Fallback {
     /// More parts of triangles, or of an image's texels, than `fragments`.
     Fragments,
-    /// More parts of edges than `crowd`, more items than a set has bits, or a width in pixels that is not linear enough in the plan.
+    /// More parts of edges than `crowd`, or more items than a set has bits.
     Crowd,
+    /// A border of a stroke cuts it whose width in pixels is not linear enough in the plan there.
+    Width,
 }
 
 impl crate::technique::Step for Step {
@@ -78,6 +89,14 @@ impl fmt::Display for Step {
                 )?;
                 corners.iter().try_for_each(|[x, y]| write!(f, " ({x:.4}, {y:.4})"))
             }
+            Self::Ground { triangles, area, ground } => {
+                let parts = if *triangles == 1 { "part of a triangle" } else { "parts of triangles" };
+                let share = 100.0 * area;
+                write!(
+                    f,
+                    "no border lies in the pixel: {share:.2} % of it see {triangles} {parts}, ground {ground}"
+                )
+            }
             Self::Edges { edges, class } => {
                 let form = match class {
                     Class::Point => "a point tells for all of it",
@@ -98,10 +117,11 @@ impl fmt::Display for Step {
             }
             Self::Sampled { why, samples } => {
                 let what = match why {
-                    Fallback::Fragments => "parts of triangles",
-                    Fallback::Crowd => "parts of edges, or a width in pixels bends or grows too fast",
+                    Fallback::Fragments => "too many parts of triangles",
+                    Fallback::Crowd => "too many parts of edges",
+                    Fallback::Width => "a width in pixels bends or grows too fast",
                 };
-                write!(f, "too many {what}: {samples} samples tell instead")
+                write!(f, "{what}: {samples} samples tell instead")
             }
             Self::Sky { area } => write!(f, "{:.2} % of the pixel see the sky", 100.0 * area),
             Self::Mean(paint) => write!(f, "the mean of the parts is {paint}"),

@@ -1,6 +1,5 @@
 //! A tile of the picture: what its pixels see, which items are near its blocks, each pixel's paint.
 
-use super::boxes::with_hem;
 use super::convex::{area, middle};
 use super::coverage::Class;
 use super::facet::Facet;
@@ -11,7 +10,7 @@ use super::look::Looks;
 use super::near::Near;
 use super::samples::{fragment_at, seen_sample};
 use super::settings::Settings;
-use super::sheet::{BLOCK, FULL, Fragment, Sheet, square};
+use super::sheet::{BLOCK, FULL, Sheet};
 use super::step::{Fallback, Step};
 use super::texels::Texels;
 use crate::buffer::Touches;
@@ -43,8 +42,12 @@ pub(super) struct Room {
     sheet: Sheet,
     tile: Near,
     block: Near,
+    pixel: Near,
+    /// A box of the block in which what `pixel` has is all that there is, if it covers all of its pixel.
+    clear: Option<PlanBox>,
     lists: Lists,
     plan: Vec<Plan>,
+    polygon: [Vec<DVec2>; 2],
     /// What each block sees of the plan.
     boxes: Vec<PlanBox>,
     /// The tile's corner.
@@ -71,6 +74,7 @@ fn number_of(why: Fallback) -> u8 {
     match why {
         Fallback::Fragments => 1,
         Fallback::Crowd => 2,
+        Fallback::Width => 3,
     }
 }
 
@@ -140,8 +144,8 @@ impl<'a> Painter<'a> {
     /// Decides one pixel of a tile as [`Self::tile`] does.
     pub(super) fn one<R: Record<Step>>(&self, place: &TilePlace, at: [usize; 2], record: &mut R) -> Paint {
         let mut room = Room::default();
-        let samples = self.see(place, &mut room);
         room.lists.wants_sets = true;
+        let samples = self.see(place, &mut room);
         let mut blocks = blocks(place).enumerate();
         if let Some((k, block)) = blocks.find(|(_, block)| pixels_of(block).any(|(x, y)| [x, y] == at)) {
             self.look_near(k, &block, &mut room);
@@ -155,88 +159,48 @@ impl<'a> Painter<'a> {
         let budget = if is_sampled { 0 } else { self.settings.fragments as usize };
         room.sheet.reset(place.size, budget);
         room.origin = DVec2::new(place.corner[0] as f64, place.corner[1] as f64);
-        if budget > 0 {
-            gather::see(self.view, self.mesh, place, &mut room.sheet);
-        }
-        let whole = TilePlace { corner: [0, 0], size: place.size };
-        let is_crowded = pixels_of(&whole).any(|(x, y)| room.sheet.is_crowded([x, y]));
-        let samples = is_crowded.then(|| {
-            let lattice = Lattice::samples(place.corner, place.size, self.settings.samples as usize);
-            GBuffer::new(self.view, self.mesh, &Device::default(), lattice, lattice.columns.max(lattice.rows))
-        });
+        let is_constant = self.backdrop.is_constant_on_triangles();
+        let ground = |id| match is_constant {
+            true => self.backdrop.paint_at(&mut self.backdrop.no_ground(), id, Plan::default),
+            false => Paint::CLEAR,
+        };
+        gather::see(self.view, self.mesh, place, &ground, &mut room.sheet);
         room.boxes.clear();
         let mut plan = PlanBox::EMPTY;
         for block in blocks(place) {
-            let of_block = self.plan_of(&block, samples.as_ref(), &room.sheet);
+            let of_block = room.sheet.plan_of_block(block.corner);
             plan.include_box(&of_block);
             room.boxes.push(of_block);
         }
-        let most = self.widest(place, samples.is_some(), room);
-        room.tile.find(self.features, self.looks, &plan, most);
-        samples
+        room.tile.find(self.features, self.looks, &plan, self.widest(&room.sheet));
+        let whole = TilePlace { corner: [0, 0], size: place.size };
+        // A crowded pixel without a border needs its mean ground alone, and that may be known.
+        let is_bare = room.tile.is_plain() && !room.lists.wants_sets && self.is_linear(&room.tile);
+        let is_lost = |at| room.sheet.is_crowded(at) && !(is_bare && room.sheet.ground(at).is_some());
+        let has_lost = pixels_of(&whole).any(|(x, y)| is_lost([x, y]));
+        has_lost.then(|| {
+            let lattice = Lattice::samples(place.corner, place.size, self.settings.samples as usize);
+            GBuffer::new(self.view, self.mesh, &Device::default(), lattice, lattice.columns.max(lattice.rows))
+        })
     }
 
-    /// The box around all that the pixels of a block see of the plan.
-    fn plan_of(&self, block: &TilePlace, samples: Option<&GBuffer>, sheet: &Sheet) -> PlanBox {
-        let (mut plan, mut corners) = (PlanBox::EMPTY, [DVec2::ZERO; 4]);
-        let n = self.settings.samples as usize;
-        if let Some(facet) = sheet.whole(block.corner) {
-            let facet = &sheet.facets[facet as usize];
-            plan = PlanBox::around(square(block.corner, BLOCK).map(|p| facet.plan_at(p)));
-            return with_hem(&plan);
-        }
-        let mut before = None;
-        for (x, y) in pixels_of(block) {
-            for fragment in sheet.fragments([x, y]) {
-                let facet = &sheet.facets[fragment.facet as usize];
-                if facet.is_small {
-                    if before.replace(fragment.facet) != Some(fragment.facet) {
-                        plan.include_box(&facet.plan_box());
-                    }
-                    continue;
-                }
-                let points = sheet.corners(fragment, [x, y], &mut corners).iter().map(|p| facet.plan_at(*p));
-                points.filter(|p| p.is_finite()).for_each(|p| plan.include(p));
-            }
-            if let Some(seen) = samples.filter(|_| sheet.is_crowded([x, y])) {
-                let points = (0..n * n).map(|k| seen.plan(x * n + k % n, y * n + k / n));
-                points.filter(|p| p.is_finite()).for_each(|p| plan.include(p));
-            }
-        }
-        with_hem(&plan)
+    /// Whether items composed over the mean of some grounds are the mean of the items over each.
+    fn is_linear(&self, near: &Near) -> bool {
+        self.texels.is_none() && (self.looks.is_linear() || near.items.is_empty())
     }
 
     /// Half the width in the plan that a stroke of one pixel has at most where a tile sees the terrain.
-    fn widest(&self, place: &TilePlace, is_sampled: bool, room: &Room) -> f64 {
+    fn widest(&self, sheet: &Sheet) -> f64 {
         let Lens::Central { pixel } = self.view.lens() else { return 0.5 * self.view.lens().pixel() };
         if !self.features.has_dynamic() {
             return 0.0;
         }
-        let all = || self.mesh.farthest_from(self.view.eye());
-        if is_sampled {
-            return 0.5 * pixel * all();
-        }
-        let sheet = &room.sheet;
-        let mut least = f64::INFINITY;
-        for block in blocks(place) {
-            let mut look = |facet: u32, corners: &[DVec2]| {
-                let key = &sheet.facets[facet as usize].key;
-                least = corners.iter().map(|p| key.at(*p)).fold(least, |least, key| math::min(key, least));
-            };
-            if let Some(facet) = sheet.whole(block.corner) {
-                look(facet, &square(block.corner, BLOCK));
-            }
-            for (x, y) in pixels_of(&block) {
-                for fragment in sheet.fragments([x, y]) {
-                    look(fragment.facet, sheet.corners(fragment, [x, y], &mut [DVec2::ZERO; 4]));
-                }
-            }
-        }
-        let depth = 1.0 / least;
+        let all = self.mesh.farthest_from(self.view.eye());
+        let least = sheet.least_key();
         // The ray of the picture's corner is the longest.
         let (w, h) = (0.5 * pixel * self.view.width() as f64, 0.5 * pixel * self.view.height() as f64);
-        let farthest = math::min(depth * (1.0 + w * w + h * h).sqrt(), all());
-        0.5 * pixel * (1.0 + 1e-6) * farthest
+        let seen = if least > 0.0 { (1.0 + w * w + h * h).sqrt() / least } else { f64::INFINITY };
+        0.5 * pixel * (1.0 + 1e-6) * math::min(seen, all)
     }
 
     /// Finds what is near a block of a tile.
@@ -244,6 +208,7 @@ impl<'a> Painter<'a> {
         let Room { sheet, tile, block: near, lists, .. } = room;
         tile.narrow(self.looks, &room.boxes[number], near);
         lists.plain = None;
+        room.clear = None;
         if near.has_strokes() {
             let sagitta = SAGITTA * self.finest(block, sheet);
             near.make_pieces(self.looks, self.view.lens(), sagitta, &mut lists.pieces);
@@ -257,8 +222,7 @@ impl<'a> Painter<'a> {
         let mut least = f64::INFINITY;
         for at in places(y, height).into_iter().flat_map(|y| places(x, width).map(|x| [x, y])) {
             let middle = DVec2::new(at[0] as f64 + 0.5, at[1] as f64 + 0.5);
-            let whole = sheet.whole(at).map(Fragment::whole);
-            for fragment in sheet.fragments(at).iter().chain(&whole) {
+            for fragment in sheet.fragments(at) {
                 least = math::min(sheet.facets[fragment.facet as usize].finest_at(middle), least);
             }
         }
@@ -266,9 +230,8 @@ impl<'a> Painter<'a> {
         if least < f64::INFINITY { 0.5 * least } else { 0.01 * self.mesh.resolution() }
     }
 
-    fn items(&self, origin: DVec2) -> Items<'_> {
+    fn items(&self) -> Items<'_> {
         Items {
-            origin,
             view: self.view,
             mesh: self.mesh,
             looks: self.looks,
@@ -286,23 +249,24 @@ impl<'a> Painter<'a> {
         last: &mut LastGround,
         record: &mut R,
     ) -> Pixel {
-        let why = if room.sheet.is_crowded(at) {
-            Fallback::Fragments
-        } else {
-            match self.exact(at, room, last, record) {
-                Ok(pixel) => return pixel,
-                Err(why) => why,
-            }
+        if room.sheet.is_sky(at) {
+            record.step(|| Step::Sky { area: 1.0 });
+            record.step(|| Step::Mean(self.backdrop.sky));
+            return Pixel { paint: self.backdrop.sky, class: 0, edges: 0, fragments: 0, fallback: 0 };
+        }
+        let why = match self.exact(at, room, last, record) {
+            Ok(pixel) => return pixel,
+            Err(why) => why,
         };
         let paint = self.sampled(at, samples, room, last);
         let n = self.settings.samples as usize;
         record.step(|| Step::Sampled { why, samples: n * n });
         record.step(|| Step::Mean(paint));
-        let fragments = room.sheet.fragments(at).len() as u32;
+        let fragments = room.sheet.fragments(at).count() as u32;
         Pixel { paint, class: SAMPLED, edges: 0, fragments, fallback: number_of(why) }
     }
 
-    /// A pixel by its fragments.
+    /// A pixel by areas: of the ground alone where no border of an item lies in it.
     fn exact<R: Record<Step>>(
         &self,
         at: [usize; 2],
@@ -310,31 +274,84 @@ impl<'a> Painter<'a> {
         last: &mut LastGround,
         record: &mut R,
     ) -> Result<Pixel, Fallback> {
-        let Room { sheet, block, lists, plan, origin, .. } = room;
-        let items = self.items(*origin);
+        let Room { sheet, block, pixel: own, clear, lists, .. } = room;
+        if sheet.is_crowded(at) && sheet.ground(at).is_none() {
+            return Err(Fallback::Fragments);
+        }
+        let near = if block.is_plain() {
+            &*block
+        } else {
+            let plan = sheet.plan_of_pixel(at);
+            let mut joint = plan;
+            let goes_on = clear.is_some_and(|before| {
+                joint.include_box(&before);
+                block.is_clear(&joint)
+            });
+            if !goes_on {
+                block.narrow(self.looks, &plan, own);
+                lists.plain = None;
+            }
+            *clear = own.is_plain().then_some(plan);
+            &*own
+        };
+        if near.is_plain()
+            && self.is_linear(near)
+            && let Some((ground, covered, triangles)) = sheet.ground(at)
+        {
+            record.step(|| Step::Ground { triangles, area: covered, ground });
+            let painted = self.items().paint_plain(near, ground, lists);
+            record_sets(lists, record);
+            let sky = 1.0 - covered;
+            let paint = if sky > 0.0 {
+                record.step(|| Step::Sky { area: sky });
+                painted.paint.times(covered).plus(self.backdrop.sky.times(sky))
+            } else {
+                painted.paint
+            };
+            record.step(|| Step::Mean(paint));
+            return Ok(Pixel { paint, class: 0, edges: 0, fragments: triangles, fallback: 0 });
+        }
+        self.by_fragments(at, room, last, record)
+    }
+
+    /// A pixel by its fragments.
+    fn by_fragments<R: Record<Step>>(
+        &self,
+        at: [usize; 2],
+        room: &mut Room,
+        last: &mut LastGround,
+        record: &mut R,
+    ) -> Result<Pixel, Fallback> {
+        let Room { sheet, block, pixel: own, lists, plan, polygon, .. } = room;
+        if sheet.is_crowded(at) {
+            return Err(Fallback::Fragments);
+        }
+        let near = if block.is_plain() { &*block } else { &*own };
+        let items = self.items();
         let mut pixel = Pixel { paint: Paint::CLEAR, class: 0, edges: 0, fragments: 0, fallback: 0 };
-        let whole = sheet.whole(at).map(Fragment::whole);
         let mut covered = 0.0;
-        for fragment in sheet.fragments(at).iter().chain(&whole) {
-            let mut room = [DVec2::ZERO; 4];
+        for fragment in sheet.fragments(at) {
             let (facet, corners) =
-                (&sheet.facets[fragment.facet as usize], sheet.corners(fragment, at, &mut room));
+                (&sheet.facets[fragment.facet as usize], sheet.corners(&fragment, at, polygon));
             covered += fragment.area;
             pixel.fragments += 1;
+            if pixel.fragments > self.settings.fragments {
+                return Err(Fallback::Fragments);
+            }
             let mut add = |part: &[DVec2], record: &mut R| {
                 let (area, painted) =
-                    self.part(&items, (facet, part, at), block, (lists, plan), last, record)?;
+                    self.part(&items, (facet, part, at), near, (lists, plan), last, record)?;
                 pixel.paint = pixel.paint.plus(painted.paint.times(area));
                 pixel.class = pixel.class.max(class_of(painted.class));
                 pixel.edges += painted.edges as u32;
-                Some(())
+                Ok(())
             };
             match &self.texels {
-                None => add(corners, record).ok_or(Fallback::Crowd)?,
+                None => add(corners, record)?,
                 Some(texels) => {
                     let most = self.settings.fragments as usize;
                     let parts = texels.parts(facet, corners, most).ok_or(Fallback::Fragments)?;
-                    parts.iter().try_for_each(|part| add(part, record)).ok_or(Fallback::Crowd)?;
+                    parts.iter().try_for_each(|part| add(part, record))?;
                 }
             }
         }
@@ -357,11 +374,14 @@ impl<'a> Painter<'a> {
         (lists, plan): (&mut Lists, &mut Vec<Plan>),
         last: &mut LastGround,
         record: &mut R,
-    ) -> Option<(f64, Painted)> {
+    ) -> Result<(f64, Painted), Fallback> {
         // A triangle that stands upright in the plan is asked at its middle alone.
         let (area, middle) = (area(corners), [middle(corners)]);
         let screen = if facet.has_plan() { corners } else { &middle };
-        let ground = self.backdrop.paint_at(last, facet.id, || facet.plan_at(middle[0]));
+        let ground = match self.backdrop.is_constant_on_triangles() {
+            true => facet.ground,
+            false => self.backdrop.paint_at(last, facet.id, || facet.plan_at(middle[0])),
+        };
         record.step(|| Step::Fragment {
             triangle: facet.id,
             area,
@@ -377,10 +397,8 @@ impl<'a> Painter<'a> {
             items.paint(&Place { facet, screen, plan, pixel }, near, ground, lists)?
         };
         record.step(|| Step::Edges { edges: painted.edges, class: painted.class });
-        for (items, share) in &lists.sets {
-            record.step(|| Step::Covered { items: items.clone(), share: *share });
-        }
-        Some((area, painted))
+        record_sets(lists, record);
+        Ok((area, painted))
     }
 
     /// A pixel by samples in the middles of equal squares.
@@ -416,7 +434,14 @@ impl<'a> Painter<'a> {
         let Some((facet, plan)) = sample else { return self.backdrop.sky };
         let ground = self.backdrop.paint_at(last, facet.id, || plan);
         let place = Place { facet: &facet, screen: &[screen], plan: &[plan], pixel: screen };
-        self.items(*origin).paint(&place, block, ground, lists).map_or(ground, |painted| painted.paint)
+        self.items().paint(&place, block, ground, lists).map_or(ground, |painted| painted.paint)
+    }
+}
+
+/// Tells the sets of items that were found.
+fn record_sets<R: Record<Step>>(lists: &Lists, record: &mut R) {
+    for (items, share) in &lists.sets {
+        record.step(|| Step::Covered { items: items.clone(), share: *share });
     }
 }
 

@@ -6,6 +6,9 @@ use glam::DVec2;
 /// Shorter sides of a piece, in pixels, may have any direction: their ends are rounded.
 const SHORT: f64 = 1e-6;
 
+/// Corners nearer to one another, in pixels, are one.
+const SAME: f64 = 1e-9;
+
 /// A convex polygon that turns so that what is inside lies on the left of its sides.
 #[derive(Debug, Default)]
 pub(super) struct Convex {
@@ -18,7 +21,14 @@ impl Convex {
         let twice = twice_area(corners);
         self.area = 0.5 * twice.abs();
         self.corners.clear();
-        self.corners.extend_from_slice(corners);
+        // A side that is hardly longer than roundings has any direction, and its line would cut off what it should not.
+        let long = |a: DVec2, b: DVec2| a.distance_squared(b) > SAME * SAME;
+        let ends = corners.iter().zip(corners.iter().cycle().skip(1));
+        self.corners.extend(ends.filter(|(a, b)| long(**a, **b)).map(|(a, _)| *a));
+        if self.corners.len() < 3 {
+            self.corners.clear();
+            self.corners.extend_from_slice(corners);
+        }
         if twice < 0.0 {
             self.corners.reverse();
         }

@@ -215,6 +215,18 @@ fn edges_along_the_border_of_the_fragment_count_nowhere() {
 }
 
 #[test]
+fn a_side_of_no_length_to_speak_of_cuts_nothing_off() {
+    // Two corners that are one but for rounding, so that the side between them runs across the fragment.
+    let corners = points(&[[0.0, 0.5], [1e-15, 0.5 - 1e-15], [0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]);
+    let west: &[[f64; 2]] = &[[0.25, -1.0], [0.25, 2.0], [-1.0, 2.0], [-1.0, -1.0]];
+    let items = [fill(&[west], Rule::EvenOdd, true)];
+    let mut cover = Coverage::default();
+    assert_eq!(measured(&corners, &items, &mut cover), Some(Class::Half));
+    let off = deviation(&corners, &items, &cover);
+    assert!(off[0] < 1e-9 && off[1] < 1e-9, "{off:?} {:?}", cover.areas());
+}
+
+#[test]
 fn a_union_of_pieces_covers_a_point_once() {
     let a: &[[f64; 2]] = &[[-1.0, 0.25], [0.75, 0.25], [0.75, 0.5], [-1.0, 0.5]];
     let b: &[[f64; 2]] = &[[0.5, 0.25], [0.75, 0.25], [0.75, 2.0], [0.5, 2.0]];
