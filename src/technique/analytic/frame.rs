@@ -10,7 +10,7 @@ use crate::buffer::{Buffer, Plane, Values};
 use crate::canvas::{Backdrop, Frame, FrameOptions, GBuffer, Pixels, picture_plane, surface_plane};
 use crate::parallel::{self, Progress};
 use crate::raster::Lattice;
-use crate::resolve::{Paint, code_values};
+use crate::resolve::{Compositor, Paint, code_values};
 use crate::space::ViewFrame;
 use crate::terrain::Mesh;
 use crate::tiling::Tiling;
@@ -27,20 +27,25 @@ pub(super) fn draw(prepared: &Prepare, view: &ViewFrame, options: &FrameOptions)
     let tiling = Tiling::new(view.width(), view.height(), TILE);
     let numbers: Vec<usize> = (0..tiling.count()).collect();
     let progress = Progress::new(numbers.len(), options.progress);
+    let is_told = ["fragments", "class", "edges", "fallback"].iter().any(|name| options.wants(name));
     let tiles = parallel::map_with(&numbers, Room::default, |room, k| {
         let mut touches = options.touches(view.width());
         let pixels = painter.tile(&tiling.place(*k), room, &mut touches);
         progress.step();
-        (pixels, touches)
+        (Tile::new(pixels, painter.backdrop.compositor, [options.wants("color"), is_told]), touches)
     });
     let (tiles, found): (Vec<_>, Vec<_>) = tiles.into_iter().unzip();
     let mut touches = options.touches(view.width());
     found.into_iter().for_each(|part| touches.take(part));
     let sky = Pixel { paint: painter.backdrop.sky, class: 0, edges: 0, fragments: 0, fallback: 0 };
-    let pixels = tiling.assembled(sky, tiles.iter().map(Vec::as_slice));
-    drop(tiles);
-    let mut coded = Pixels::new(painter.backdrop.compositor, pixels.len(), options.wants("color"));
-    pixels.iter().for_each(|pixel| coded.push(pixel.paint));
+    let pixels = match is_told {
+        true => tiling.assembled(sky, tiles.iter().map(|tile| &tile.pixels[..])),
+        false => Vec::new(),
+    };
+    let colors = match options.wants("color") {
+        true => tiling.assembled([0.0; 4], tiles.iter().map(|tile| tile.coded.colors())),
+        false => Vec::new(),
+    };
     let wants_surface = ["depth", "triangle", "plan"].iter().any(|name| options.wants(name));
     let centres = wants_surface.then(|| {
         let lattice = Lattice::centres(view, 0);
@@ -48,12 +53,18 @@ pub(super) fn draw(prepared: &Prepare, view: &ViewFrame, options: &FrameOptions)
     });
     let size = tiling.size();
     let wanted = ORDER.into_iter().filter(|name| options.wants(name));
-    let own = wanted.filter_map(|name| plane(name, size, (&pixels, &coded), centres.as_ref()));
+    let own = wanted.filter_map(|name| plane(name, size, (&pixels, &colors), centres.as_ref()));
     let picks = touches.planes(view.height(), &|name| options.wants(name));
     Frame {
-        image: Buffer::from_values(size[0], size[1], coded.codes().to_vec()),
+        image: Buffer::from_values(
+            size[0],
+            size[1],
+            tiling.assembled([0; 4], tiles.iter().map(|tile| tile.coded.codes())),
+        ),
         planes: own.chain(picks).collect(),
-        counts: counts(&pixels),
+        counts: told(
+            tiles.iter().fold([0; COUNTS], |sum, tile| std::array::from_fn(|k| sum[k] + tile.counts[k])),
+        ),
     }
 }
 
@@ -95,7 +106,7 @@ fn painter<'a>(
 fn plane(
     name: &'static str,
     size: [usize; 2],
-    (pixels, coded): (&[Pixel], &Pixels),
+    (pixels, colors): (&[Pixel], &[[f64; 4]]),
     centres: Option<&GBuffer>,
 ) -> Option<Plane> {
     let numbers = |of: fn(&Pixel) -> u32| Values::U32(pixels.iter().map(of).collect());
@@ -105,25 +116,58 @@ fn plane(
         "class" => (1, bytes(|pixel| pixel.class)),
         "edges" => (1, numbers(|pixel| pixel.edges)),
         "fallback" => (1, bytes(|pixel| pixel.fallback)),
-        "color" => (4, Values::F64(coded.colors().as_flattened().to_vec())),
+        "color" => (4, Values::F64(colors.as_flattened().to_vec())),
         _ => return surface_plane(name, centres?.sight(), 0),
     };
     Some(picture_plane(name, size, components, values))
 }
 
-fn counts(pixels: &[Pixel]) -> Vec<(&'static str, u64)> {
-    let of_class = |class: u8| pixels.iter().filter(|pixel| pixel.class == class).count() as u64;
-    let of_fallback = |why: u8| pixels.iter().filter(|pixel| pixel.fallback == why).count() as u64;
-    vec![
-        ("point_pixels", of_class(0)),
-        ("half_plane_pixels", of_class(1)),
-        ("band_pixels", of_class(2)),
-        ("slab_pixels", of_class(3)),
-        ("sampled_pixels", of_class(SAMPLED)),
-        ("crowded_by_fragments", of_fallback(1)),
-        ("crowded_by_edges", of_fallback(2)),
-        ("bent_widths", of_fallback(3)),
-        ("fragments", pixels.iter().map(|pixel| u64::from(pixel.fragments)).sum()),
-        ("edges", pixels.iter().map(|pixel| u64::from(pixel.edges)).sum()),
-    ]
+/// How many counts there are.
+const COUNTS: usize = 10;
+
+/// A finished tile: code values, colours where they are wanted, pixels where their buffers are wanted.
+struct Tile {
+    coded: Pixels,
+    pixels: Vec<Pixel>,
+    counts: [u64; COUNTS],
+}
+
+impl Tile {
+    fn new(pixels: Vec<Pixel>, compositor: Compositor, [wants_colors, is_told]: [bool; 2]) -> Self {
+        let mut coded = Pixels::new(compositor, pixels.len(), wants_colors);
+        pixels.iter().for_each(|pixel| coded.push(pixel.paint));
+        let counts = counts(&pixels);
+        Self { coded, pixels: if is_told { pixels } else { Vec::new() }, counts }
+    }
+}
+
+/// What is counted in some pixels, in the order in which it is [`told`].
+fn counts(pixels: &[Pixel]) -> [u64; COUNTS] {
+    let mut counts = [0; COUNTS];
+    for pixel in pixels {
+        counts[pixel.class as usize] += 1;
+        if pixel.fallback > 0 {
+            counts[usize::from(SAMPLED + pixel.fallback)] += 1;
+        }
+        counts[8] += u64::from(pixel.fragments);
+        counts[9] += u64::from(pixel.edges);
+    }
+    counts
+}
+
+/// Counts with their names.
+fn told(counts: [u64; COUNTS]) -> Vec<(&'static str, u64)> {
+    let names = [
+        "point_pixels",
+        "half_plane_pixels",
+        "band_pixels",
+        "slab_pixels",
+        "sampled_pixels",
+        "crowded_by_fragments",
+        "crowded_by_edges",
+        "bent_widths",
+        "fragments",
+        "edges",
+    ];
+    names.into_iter().zip(counts).collect()
 }
