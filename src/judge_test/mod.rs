@@ -23,5 +23,5 @@ mod told;
 mod trial;
 mod variants;
 
-pub use tally::{Counts, Tightness};
+pub use tally::{Counts, OfScene, Tightness};
 pub use trial::{Plan, Trial, run};

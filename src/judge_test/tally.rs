@@ -11,7 +11,7 @@ use serde::Serialize;
 const SENSITIVITY: f64 = 0.99;
 const SENSITIVITY_OF_A_CLASS: f64 = 0.95;
 
-/// The most pixels that may be more than two code values apart: on average, and in any scene.
+/// The most pixels that may be more than two code values apart, in a range: on average, and in any scene.
 const WIDE: f64 = 0.01;
 const WIDE_IN_A_SCENE: f64 = 0.05;
 
@@ -30,15 +30,30 @@ pub struct Counts {
     pub missed: usize,
 }
 
-/// How narrow what is allowed is.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+/// How narrow what is allowed of a technique is.
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Tightness {
     /// The mean share of pixels that may be more than two code values apart.
     pub mean: f64,
+    /// The mean share of those that may be as far apart, but have to be one of a few colours.
+    pub one_of_few: f64,
     /// The largest share in a scene.
     pub worst: f64,
     /// That scene.
     pub scene: &'static str,
+    /// Each scene's shares.
+    pub scenes: Vec<OfScene>,
+}
+
+/// How narrow what is allowed of a scene is.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct OfScene {
+    /// Its name.
+    pub scene: &'static str,
+    /// The share of pixels that may be more than two code values apart, in a range.
+    pub wide: f64,
+    /// The share of those that have to be one of a few colours.
+    pub one_of_few: f64,
 }
 
 impl Counts {
@@ -88,9 +103,21 @@ impl Trial {
     pub(super) fn tightness(&self, kind: Option<Kind>) -> Option<Tightness> {
         let subjects: Vec<_> =
             self.subjects.iter().filter(|of| kind.is_none_or(|kind| kind == of.kind)).collect();
-        let worst = subjects.iter().max_by(|a, b| a.wide.total_cmp(&b.wide))?;
-        let mean = subjects.iter().map(|of| of.wide).sum::<f64>() / subjects.len() as f64;
-        Some(Tightness { mean, worst: worst.wide, scene: worst.scene })
+        let of = |of: &&super::trial::Judged| OfScene {
+            scene: of.scene,
+            wide: of.narrowness.wide,
+            one_of_few: of.narrowness.one_of_few,
+        };
+        let scenes: Vec<OfScene> = subjects.iter().map(of).collect();
+        let worst = scenes.iter().max_by(|a, b| a.wide.total_cmp(&b.wide))?;
+        let mean = |of: &dyn Fn(&OfScene) -> f64| scenes.iter().map(of).sum::<f64>() / scenes.len() as f64;
+        Some(Tightness {
+            mean: mean(&|of| of.wide),
+            one_of_few: mean(&|of| of.one_of_few),
+            worst: worst.wide,
+            scene: worst.scene,
+            scenes,
+        })
     }
 
     /// Of each usual comparator its name, the share of bugs that it fails, and the share of variants that it lets pass.
@@ -172,20 +199,25 @@ impl Trial {
     pub(super) fn loose(&self) -> Vec<String> {
         let mut loose = Vec::new();
         for kind in self.judged() {
-            let of = self.tightness(Some(kind)).filter(|of| of.mean > WIDE);
-            loose.extend(of.map(|of| {
-                format!(
-                    "{}: {:.2} % of all pixels are wide, more than {} %",
-                    kind.name(),
-                    of.mean * 100.0,
-                    WIDE * 100.0
-                )
-            }));
+            let Some(of) = self.tightness(Some(kind)) else { continue };
+            let percent = |share: f64| share * 100.0;
+            let name = kind.name();
+            if of.mean > WIDE {
+                loose.push(format!(
+                    "{name}: {:.2} % of all pixels are wide, more than {} %",
+                    percent(of.mean),
+                    percent(WIDE)
+                ));
+            }
+            for of in of.scenes.iter().filter(|of| of.wide > WIDE_IN_A_SCENE) {
+                loose.push(format!(
+                    "{} by {name}: {:.2} % of its pixels are wide, and {:.2} % one of few colours",
+                    of.scene,
+                    percent(of.wide),
+                    percent(of.one_of_few)
+                ));
+            }
         }
-        let wide = self.subjects.iter().filter(|of| of.wide > WIDE_IN_A_SCENE);
-        loose.extend(wide.map(|of| {
-            format!("{} by {}: {:.2} % of its pixels are wide", of.scene, of.kind.name(), of.wide * 100.0)
-        }));
         loose
     }
 }

@@ -77,11 +77,12 @@ impl Trial {
     pub fn text(&self) -> String {
         let told = self.told();
         let mut text = String::from(
-            "technique           class        bugs  caught  weak  missed  no change   caught   right    passed  wide, mean  worst\n",
+            "technique           class        bugs  caught  weak  missed  no change   caught   right    passed  wide, mean  few, mean  worst\n",
         );
         let wide = |of: &Option<Tightness>| {
-            of.map_or(String::new(), |of| {
-                format!("{:>8.2} %  {:.2} % ({})", of.mean * 100.0, of.worst * 100.0, of.scene)
+            of.as_ref().map_or(String::new(), |of| {
+                let [mean, few, worst] = [of.mean, of.one_of_few, of.worst].map(|share| share * 100.0);
+                format!("{mean:>8.2} %  {few:>7.2} %  {worst:.2} % ({})", of.scene)
             })
         };
         for of in told.techniques.iter().chain([&told.all]) {

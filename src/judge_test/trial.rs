@@ -4,7 +4,7 @@ use super::bugs::{self, Bug};
 use super::contrast;
 use super::drawing::Subject;
 use super::edit::Picture;
-use super::judging::{Said, everything, judge, wide};
+use super::judging::{Narrowness, Said, everything, judge, narrowness};
 use super::scenes::{SCENES, SmallScene};
 use super::variants::{MACHINES, Machine, VARIANTS, Variant};
 use crate::allowed::allowed;
@@ -50,8 +50,7 @@ pub struct Trial {
 pub(super) struct Judged {
     pub(super) kind: Kind,
     pub(super) scene: &'static str,
-    /// The share of pixels that may be more than two code values apart.
-    pub(super) wide: f64,
+    pub(super) narrowness: Narrowness,
 }
 
 /// A picture that the judge was shown.
@@ -125,7 +124,7 @@ fn of_subject(plan: &Plan, scene: &SmallScene, kind: Kind) -> Result<Trial> {
         }
         Err(error) => return Err(error),
     };
-    trial.subjects.push(Judged { kind, scene: scene.name, wide: wide(&allowed) });
+    trial.subjects.push(Judged { kind, scene: scene.name, narrowness: narrowness(&allowed) });
     let allowed = if plan.blind { everything(&allowed) } else { allowed };
     let trier = Trier { scene: scene.name, subject, right: &subject.right()?, allowed: &allowed };
     let bugs: Vec<&Bug> =
