@@ -37,6 +37,10 @@ pub(super) fn pictures(kind: Kind, view: &View, guesses: &[Guess]) -> Result<Pic
 
 /// What machines may choose once for a whole picture, from what is likely to what is coarse; at least one.
 pub(super) fn guesses(kind: Kind, device: &Device, view: &ViewFrame) -> Vec<Guess> {
+    if kind == Kind::Analytic {
+        // No rasterizer draws it.
+        return Envelope::of(device).into_iter().take(1).map(|of| Guess::of(of.unsnapped())).collect();
+    }
     let has_blends = matches!(kind, Kind::StencilVolume | Kind::GeometryOverlay);
     let has_far_plane = kind == Kind::StencilVolume && view.far().is_finite();
     let of_envelope = |envelope| {

@@ -6,7 +6,7 @@ use crate::space::{Lens, ViewFrame};
 /// What a machine may do and still draw a technique right.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Envelope {
-    /// Fractional bits to which it snaps vertices on the screen.
+    /// Fractional bits to which it snaps vertices on the screen; 0: it does not.
     pub subpixel_bits: u32,
     /// What it keeps depths in.
     pub depth: DepthFormat,
@@ -40,9 +40,18 @@ impl Envelope {
         }
     }
 
+    /// The same of what is calculated without a rasterizer: nothing is snapped.
+    #[must_use]
+    pub fn unsnapped(self) -> Self {
+        Self { subpixel_bits: 0, ..self }
+    }
+
     /// How far a vertex may stray on the screen along each axis, pixels: half a step of the grid that it is snapped to, and rounding.
     pub fn shift(&self) -> f64 {
-        0.5 / f64::from(1u32 << self.subpixel_bits) + SINGLE
+        match self.subpixel_bits {
+            0 => SINGLE,
+            bits => 0.5 / f64::from(1u32 << bits) + SINGLE,
+        }
     }
 
     /// How far what is not snapped may stray on the screen: the rounding of single precision, pixels.
@@ -88,6 +97,6 @@ mod tests {
     fn a_vertex_strays_by_half_a_step_of_its_grid() {
         let of = |subpixel_bits| Envelope { subpixel_bits, depth: DepthFormat::F32, filter_bits: 8 }.shift();
         assert!((of(4) - (1.0 / 32.0 + SINGLE)).abs() < 1e-15);
-        assert!(of(8) < of(4));
+        assert!(of(8) < of(4) && of(0) == SINGLE);
     }
 }

@@ -32,7 +32,10 @@ pub(super) struct Guess {
 impl Guess {
     /// By an envelope alone.
     pub(super) fn of(envelope: Envelope) -> Self {
-        let name = format!("{}-bit-vertices", envelope.subpixel_bits);
+        let name = match envelope.subpixel_bits {
+            0 => "single-precision".to_owned(),
+            bits => format!("{bits}-bit-vertices"),
+        };
         Self { name, envelope, has_coarse_blends: false, paints_sky: false }
     }
 
@@ -48,7 +51,10 @@ impl Guess {
 
     /// What it assumes, in a sentence.
     pub(super) fn says(&self) -> String {
-        let Envelope { subpixel_bits, .. } = self.envelope;
+        let vertices = match self.envelope.subpixel_bits {
+            0 => "nothing is snapped, and arithmetic is in single precision".to_owned(),
+            bits => format!("vertices are snapped to {bits} bits behind a pixel's point, or less"),
+        };
         let blends = match self.has_coarse_blends {
             true => {
                 ", and blends are of code values: colours and opacities are rounded before they are multiplied, and after"
@@ -61,6 +67,6 @@ impl Guess {
             }
             false => "",
         };
-        format!("vertices are snapped to {subpixel_bits} bits behind a pixel's point, or less{blends}{sky}")
+        format!("{vertices}{blends}{sky}")
     }
 }

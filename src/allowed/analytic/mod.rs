@@ -1,13 +1,16 @@
 //! Analytic coverage (ours): the right colour of each pixel, off by what borders may stray.
 //!
-//! The truth's certified interval is the mean over the pixel of what is seen and held. A machine that rounds vertices moves each border on
-//! the screen by no more than its shift, so that it paints no more of the pixel otherwise than strips along the borders: their length times
-//! how far they stray, times how far apart the pixel's paints are. Wherever that is more than all that the pixel's points may see and be held
-//! by, it is that. Pixels that a program may find too crowded may also be what samples make of them.
+//! The truth's certified interval is the mean over the pixel of what is seen and held. A program takes nothing from a rasterizer, so nothing is snapped: single
+//! precision moves each border on the screen by no more than a thousandth of a pixel, so that it paints no more of the pixel otherwise than strips along
+//! the borders, times how much changes across them. Wherever that is more than all that the pixel's points may see and be held by, it is that. Pixels that a
+//! program may find too crowded may also be what samples make of them. Buffers of pixels' centres are those of the device, whose vertices are snapped.
 
 mod borders;
+mod plane;
+mod round;
+mod strips;
 
-use super::envelope::COORDINATES;
+use super::envelope::{COORDINATES, Envelope};
 use super::model::{Guess, View};
 use super::picture;
 use super::pixel::{BLEND, Blending, ColorRange, PixelRange, widened};
@@ -21,8 +24,9 @@ use crate::resolve::{Compositor, encoded_from_linear, linear_from_encoded};
 use crate::scene::{BlendSpace, GroundColors};
 use crate::technique::analytic::Settings;
 use crate::truth::{Budget, Probe, Sample, certify, probe};
-use borders::{BEND, Borders, CHORD, Counter};
+use borders::{Borders, Counter, Square};
 use glam::DVec2;
+use strips::{BEND, CHORD};
 
 /// Sets of items have bits for so many.
 const MOST_ITEMS: usize = 64;
@@ -51,7 +55,9 @@ pub(super) fn pictures(settings: &Settings, view: &View, guesses: &[Guess]) -> P
     let (stage, frame) = (view.stage, view.frame);
     let compositor = Compositor::new(stage.scene.compositing);
     let progress = |share: f64| (view.progress)(0.5 * share);
-    let truth = certify(stage, frame, &Budget::default(), &progress);
+    // What is not known of the right colour is allowed, too.
+    let budget = Budget { width: 1.0 / 2040.0, ..Budget::default() };
+    let truth = certify(stage, frame, &budget, &progress);
     let looks = looks(settings, view, guesses);
     let samples =
         looks.values().iter().any(|look| look.may_be_sampled).then(|| sampled(settings, view, guesses));
@@ -120,7 +126,10 @@ fn strayed(
 fn looks(settings: &Settings, view: &View, guesses: &[Guess]) -> Buffer<Look> {
     let (stage, frame) = (view.stage, view.frame);
     let mesh = &*stage.mesh_for(frame);
-    let shift = guesses.iter().map(|guess| guess.envelope.shift()).fold(0.0, math::max);
+    // A border may stray into a square from so far beside it.
+    let shift = guesses.iter().map(|guess| guess.envelope.shift()).fold(0.0, math::max) + CHORD + BEND;
+    let of_device = Envelope::of(&stage.scene.device);
+    let snapped = of_device.iter().map(Envelope::shift).fold(0.0, math::max);
     let along = |depth: f64| guesses.last().map_or(0.0, |guess| guess.envelope.along(frame, depth));
     let footprints = Footprints::new(&stage.draw_list, PixelSize::of(frame, mesh), &|_| true);
     let imagery = match &stage.scene.ground.colors {
@@ -136,47 +145,43 @@ fn looks(settings: &Settings, view: &View, guesses: &[Guess]) -> Buffer<Look> {
         list: &stage.draw_list,
         strokes: Strokes::Style,
         spots: &spots,
-        shifts: &[THIRD + shift, shift],
+        shifts: &[THIRD + shift, snapped],
         depths_of_shifts: 0.0,
-        along: &along,
+        along: &|_| 0.0,
         share: COORDINATES,
     };
-    let counter = Counter { footprints: &footprints, imagery, mesh, frame, shift };
+    let counter = |guess: &Guess| {
+        let shift = guess.envelope.shift();
+        Counter { footprints: &footprints, imagery, mesh, frame, shift }
+    };
+    let counters: Vec<Counter> = guesses.iter().map(counter).collect();
     let judge = |at: [usize; 2], samples: &[Sample]| {
         let (pixel, centre) = samples.split_at(spots.len());
         let corner = DVec2::new(at[0] as f64, at[1] as f64);
-        let (borders, items) = (counter.borders((corner, 1.0), pixel), items(pixel));
+        let items = items(pixel);
         let paint = pixel.iter().map(Sample::paint).reduce(|a, b| a.hull(&b)).unwrap_or(PaintRange::ANY);
-        let square = |(spot, sample): (&[f64; 2], &Sample)| {
-            let corner = corner + DVec2::from_array(*spot) - DVec2::splat(THIRD);
-            (counter.borders((corner, 2.0 * THIRD), std::slice::from_ref(sample)), sample.paint())
-        };
-        let squares: Vec<(Borders, PaintRange)> = spots.iter().zip(pixel).map(square).collect();
-        let doubts = |guess: &Guess| {
-            let shift = guess.envelope.shift();
-            let whole = doubt_of(&borders, shift, 1.0, &paint);
-            let parts = squares.iter().map(|(of, paint)| doubt_of(of, shift, 1.0 / 9.0, paint));
-            let parts = parts.fold([0.0; 4], |sum, of| std::array::from_fn(|c| sum[c] + of[c]));
-            std::array::from_fn(|c| math::min(whole[c], parts[c]))
+        let squares = spots.iter().zip(pixel).map(|(spot, sample)| Square {
+            corner: corner + DVec2::from_array(*spot) - DVec2::splat(THIRD),
+            side: 2.0 * THIRD,
+            sample,
+        });
+        let squares: Vec<Square> = squares.collect();
+        let borders: Vec<Borders> =
+            counters.iter().map(|counter| counter.borders(corner, &squares)).collect();
+        let is_crowded = |of: &Borders| {
+            PARTS * of.parts > f64::from(settings.fragments) || of.edges > f64::from(settings.crowd)
         };
         Look {
             paint,
-            doubts: guesses.iter().map(doubts).collect(),
+            doubts: borders.iter().map(|of| of.doubt).collect(),
             may_be_sampled: samples_all(settings)
-                || PARTS * borders.parts > f64::from(settings.fragments)
-                || borders.edges > f64::from(settings.crowd)
+                || borders.iter().any(is_crowded)
                 || items.len() > MOST_ITEMS,
             items,
             centre: centre.last().map(|sample| Seen::of(sample, &along)).unwrap_or_default(),
         }
     };
     probe(stage, frame, &of, &judge, &|share| (view.progress)(0.5 + 0.25 * share))
-}
-
-/// How far each channel of the paint of a part of a pixel may be off, times the part's area.
-fn doubt_of(borders: &Borders, shift: f64, area: f64, paint: &PaintRange) -> [f64; 4] {
-    let doubt = math::min(borders.doubt(shift), area);
-    std::array::from_fn(|c| doubt * (paint.high[c] - paint.low[c]))
 }
 
 fn items(samples: &[Sample]) -> Vec<u32> {
