@@ -19,7 +19,7 @@ macro_rules! scenes {
 
 scenes! {
     "hills" "map" "oblique" "mosaic" "joins" "groups" "inside" "ridge" "planes" "utm" "thin" "wide" "linear" "additive" "four-bits"
-    "pixels" "plain-pixels" "levels" "samples" "colours"
+    "pixels" "plain-pixels" "levels" "samples" "colours" "fills"
 }
 
 #[cfg(test)]
