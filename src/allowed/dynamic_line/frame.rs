@@ -6,7 +6,7 @@ use super::order::{merged, once_each, unsorted};
 use super::patch::Patch;
 use crate::allowed::composition::{Composed, Composer, Laid};
 use crate::allowed::model::{Guess, Judged, View};
-use crate::allowed::pixel::{BLEND, ColorRange, PixelRange};
+use crate::allowed::pixel::{BLEND, ColorRange, PixelRange, widened};
 use crate::allowed::stages::stages;
 use crate::allowed::surface::{Surface, Surfaces, surfaces};
 use crate::allowed::{picture, static_decal};
@@ -310,7 +310,6 @@ fn of_filtered(filtered: &Filtered) -> PixelRange {
         let by = |v: f64| if a > 0.0 { math::min(v / a, 1.0) } else { 0.0 };
         [by(r), by(g), by(b), a]
     };
-    let around = |[low, high]: ColorRange, slack: f64| [low.map(|v| v - slack), high.map(|v| v + slack)];
     match filtered {
         Filtered::Between([low, high]) => {
             // A straight channel falls as the alpha grows.
@@ -321,13 +320,13 @@ fn of_filtered(filtered: &Filtered) -> PixelRange {
                     _ => none,
                 })
             };
-            let all = around([ends(low, high[3], 0.0), ends(high, low[3], 1.0)], slack);
+            let all = widened([ends(low, high[3], 0.0), ends(high, low[3], 1.0)], slack);
             PixelRange { all, ..PixelRange::default() }
         }
         Filtered::Each(each) => {
             let each: Vec<(ColorRange, [f64; 4])> = each
                 .iter()
-                .map(|(color, weight)| (around([straight(*color); 2], slack + weight), straight(*color)))
+                .map(|(color, weight)| (widened([straight(*color); 2], slack + weight), straight(*color)))
                 .collect();
             let all = each.iter().skip(1).fold(each[0].0, |all, (of, _)| {
                 let least = std::array::from_fn(|c| math::min(all[0][c], of[0][c]));
