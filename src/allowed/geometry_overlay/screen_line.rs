@@ -57,7 +57,8 @@ impl ScreenLine {
         Self { ends, stray, depths: [0.0; 2], doubt: 0.0 }
     }
 
-    /// Between which depths its fragment at a pixel's centre lies: that of the centre, projected on it.
+    /// Between which depths its fragment at a pixel's centre lies: that of the centre, projected on it (OpenGL 2.1, 3.4.1) or, as machines have it that set up
+    /// a wide line as a parallelogram, of the place as far along its longer axis.
     pub(super) fn depth_at(&self, centre: Plan) -> Range {
         let [a, b] = self.ends;
         let (along, from) = (b - a, centre - a);
@@ -69,7 +70,16 @@ impl ScreenLine {
         let product = from.dot(along);
         let ends = [product - doubt, product + doubt];
         let by = |v: f64| [v / (shortest * shortest), v / (longest * longest)];
-        let shares = [by(ends[0]), by(ends[1])].concat();
+        let mut shares = [by(ends[0]), by(ends[1])].concat();
+        let longer = math::max(along.x.abs(), along.y.abs());
+        for (from, along) in [(from.x, along.x), (from.y, along.y)] {
+            let [least, most] =
+                [math::max(along.abs() - off, math::min(along.abs(), self.stray)), along.abs() + off];
+            if along != 0.0 && most >= longer {
+                let from = from * along.signum();
+                shares.extend([from - off, from + off].iter().flat_map(|from| [from / least, from / most]));
+            }
+        }
         let low = shares.iter().copied().fold(f64::INFINITY, math::min);
         let high = shares.iter().copied().fold(f64::NEG_INFINITY, math::max);
         let [first, last] = self.depths;
