@@ -4,6 +4,7 @@
 mod drawing;
 mod judged;
 
+use drapery::buffer::Buffer;
 use drapery::scene_file::{Override, SceneFile};
 use drapery::stage::Stage;
 use drapery::technique::Kind;
@@ -139,6 +140,51 @@ fn who_chose_otherwise_is_told_what() {
             .collect();
         assert_eq!(fit, [choice]);
     }
+}
+
+#[test]
+fn every_bundle_of_the_conformance_set_tells_what_is_allowed_and_a_right_picture_is() {
+    let changes = ["image.width=80", "image.height=60", "device.precision=f32", "device.subpixel_bits=8"];
+    let changes: Vec<Override> = changes.iter().map(|change| Override::parse(change).unwrap()).collect();
+    let mut failed = Vec::new();
+    for case in &drapery::export::conformance::CASES {
+        let opened = case.open(&changes).unwrap();
+        for kind in case.techniques {
+            let all = allowed_of(*kind, &opened.stage);
+            match best(&all, &frame_of(*kind, &opened.stage, &[]).image) {
+                0 => {}
+                outside => failed.push(format!("{} by {}: {outside}", case.name, kind.name())),
+            }
+        }
+    }
+    assert!(failed.is_empty(), "{failed:#?}");
+}
+
+#[test]
+fn a_translucent_sky_may_come_out_of_a_target_that_holds_premultiplied_codes() {
+    let text = hills().replacen(
+        "eye = [40, -420, 260], target = [0, 0, 40]",
+        "eye = [40, -420, 60], target = [0, 0, 90]",
+        1,
+    );
+    let sky = [0.5, 0.69, 1.0, 0.5];
+    let codes = sky.map(|v: f64| (v * 255.0 + 0.5).floor());
+    let background =
+        format!("image.background=\"#{}\"", codes.map(|code| format!("{:02x}", code as u8)).concat());
+    let all = allowed_of(Kind::StencilVolume, &stage(&text, &[&background]));
+    // A code value of green as it is held, premultiplied, and brought back.
+    let held = (codes[1] * codes[3] / 255.0 + 0.5).floor();
+    let back = (held * 255.0 / codes[3] + 0.5).floor();
+    assert_ne!(back, codes[1], "the sky shows what rounding does");
+    let right = frame_of(Kind::StencilVolume, &stage(&text, &[&background]), &[]).image;
+    let with_sky = |green: u8| {
+        let pixels = right.values().iter().map(|p| if p[3] < 255 { [p[0], green, p[2], p[3]] } else { *p });
+        Buffer::from_values(right.width(), right.height(), pixels.collect())
+    };
+    assert_eq!(best(&all, &with_sky(back as u8)), 0);
+    let skies = right.values().iter().filter(|pixel| pixel[3] < 255).count();
+    let failing = best(&all, &with_sky(back as u8 - 4));
+    assert!(skies > 100 && 2 * failing > skies, "five codes off are not rounding: {failing} of {skies}");
 }
 
 /// Every scene among the goldens, by every machine that is allowed: some minutes of a release build.
