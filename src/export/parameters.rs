@@ -8,7 +8,7 @@ use crate::raster::device;
 use crate::scene::{self, GroundColors, Scene};
 use crate::space::{Lens, PlanBox, ViewFrame};
 use crate::technique::{self, Kind};
-use crate::terrain::Mesh;
+use crate::terrain::{Lattice, Mesh};
 use std::collections::BTreeMap;
 
 /// The whole file. Everything is scene-local but `origin`, which is where the scene's zero point lies.
@@ -40,12 +40,33 @@ pub struct Parameters {
     pub camera: Camera,
     /// The rectangle that the terrain lies in: west, south, east, north.
     pub terrain: [f64; 4],
+    /// How far apart its posts are, metres of the plan: the smaller side of a grid's cells, whatever of it the view has; of scattered points the side of the
+    /// square that two triangles cover on the average.
+    pub terrain_resolution: f64,
+    /// Where the posts of a grid are; absent of scattered points, and on a globe.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub posts: Option<PostParameters>,
     /// The terrain's own colour.
     pub ground: GroundParameters,
     /// On which values colours are composed: `encoded` or `linear`.
     pub compositing_space: &'static str,
     /// How: `over` or `additive`.
     pub compositing_mode: &'static str,
+}
+
+/// The posts of a grid over the plane, whatever of them a level-of-detail mesh has: columns eastwards, rows northwards.
+#[derive(Debug, serde::Serialize)]
+pub struct PostParameters {
+    /// Posts in a row.
+    pub columns: usize,
+    /// Posts in a column.
+    pub rows: usize,
+    /// The plan point of the south-western post, column 0 and row 0.
+    pub first: [f64; 2],
+    /// The step to the next column.
+    pub east: [f64; 2],
+    /// The step to the next row.
+    pub north: [f64; 2],
 }
 
 /// The ellipsoid of a scene on a globe, and where the world's zero is.
@@ -156,6 +177,8 @@ impl Parameters {
             },
             camera: Camera::new(view, mesh, &scene.device),
             terrain: sides(&mesh.plan_bounds()),
+            terrain_resolution: mesh.resolution(),
+            posts: PostParameters::of(mesh),
             ground,
             compositing_space: scene.compositing.space.word(),
             compositing_mode: scene.compositing.mode.word(),
@@ -170,6 +193,20 @@ impl Parameters {
         let text = serde_json::to_string_pretty(self);
         Ok(text.map_err(|error| Error::internal(format!("parameters.json: {error}")).caused_by(error))?
             + "\n")
+    }
+}
+
+impl PostParameters {
+    fn of(mesh: &Mesh) -> Option<Self> {
+        let Lattice::Plane(grid) = mesh.lattice()? else { return None };
+        let posts = grid.posts();
+        Some(Self {
+            columns: posts.columns(),
+            rows: posts.rows(),
+            first: [posts.first.x, posts.first.y],
+            east: posts.east().to_array(),
+            north: posts.north().to_array(),
+        })
     }
 }
 
