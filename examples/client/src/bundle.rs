@@ -28,9 +28,9 @@ impl Bundle {
             let of = &feature["properties"];
             let layer = of["layer-number"].as_u64().unwrap_or(0);
             if of["fill-invert"].as_bool() == Some(true) {
-                inverted.insert(layer, of.clone());
+                inverted.insert(layer, feature.clone());
             } else {
-                features.insert((layer, of["feature"].as_u64().unwrap_or(0)), of.clone());
+                features.insert((layer, of["feature"].as_u64().unwrap_or(0)), feature.clone());
             }
         }
         Ok(Self { folder: folder.to_owned(), parameters: json("parameters.json")?, features, inverted })
@@ -58,12 +58,36 @@ impl Bundle {
         Ok((values, sizes[1..].iter().product::<usize>().max(1)))
     }
 
+    /// A picture of the bundle as red, green, blue and alpha of eight bits, its width and its height; none where it has none.
+    pub fn picture(&self, name: &str) -> Result<Option<(Vec<u8>, usize, usize)>, String> {
+        let Ok(bytes) = std::fs::read(self.folder.join(name)) else { return Ok(None) };
+        let wrong = |error: png::DecodingError| format!("{name}: {error}");
+        let mut decoder = png::Decoder::new(std::io::Cursor::new(bytes));
+        decoder
+            .set_transformations(png::Transformations::normalize_to_color8() | png::Transformations::ALPHA);
+        let mut reader = decoder.read_info().map_err(wrong)?;
+        let mut texels = vec![0; reader.output_buffer_size().ok_or("a picture that is too large")?];
+        let frame = reader.next_frame(&mut texels).map_err(wrong)?;
+        let texels = match frame.color_type {
+            png::ColorType::GrayscaleAlpha => {
+                texels.chunks_exact(2).flat_map(|p| [p[0], p[0], p[0], p[1]]).collect()
+            }
+            _ => texels,
+        };
+        Ok(Some((texels, frame.width as usize, frame.height as usize)))
+    }
+
     /// The table `T.NAME.npy` of the technique.
     pub fn own(&self, name: &str) -> Result<Vec<f64>, String> {
         Ok(self.table(&format!("{}.{name}.npy", self.technique()))?.0)
     }
 
     pub fn properties(&self, layer: u64, feature: u64) -> Result<&Value, String> {
+        Ok(&self.feature(layer, feature)?["properties"])
+    }
+
+    /// A feature of a layer; `u32::MAX`: what is outside of all.
+    pub fn feature(&self, layer: u64, feature: u64) -> Result<&Value, String> {
         let inverted = || self.inverted.get(&layer).filter(|_| feature == u64::from(u32::MAX));
         let found = self.features.get(&(layer, feature)).or_else(inverted);
         found.ok_or_else(|| format!("no feature {feature} of layer {layer}"))
@@ -72,7 +96,8 @@ impl Bundle {
     /// The opacity of a layer as a whole.
     pub fn layer_opacity(&self, layer: u64) -> f64 {
         let of = self.features.range((layer, 0)..(layer + 1, 0)).map(|(_, of)| of).next();
-        of.or(self.inverted.get(&layer)).and_then(|of| of["layer-opacity"].as_f64()).unwrap_or(1.0)
+        let of = of.or(self.inverted.get(&layer));
+        of.and_then(|of| of["properties"]["layer-opacity"].as_f64()).unwrap_or(1.0)
     }
 
     pub fn number(&self, path: &[&str]) -> Option<f64> {

@@ -6,6 +6,12 @@ use std::ptr::{null, null_mut};
 
 pub type Enum = u32;
 
+pub const FUNC_ADD: Enum = 0x8006;
+pub const MIN: Enum = 0x8007;
+pub const SCISSOR_TEST: Enum = 0xC11;
+pub const TEXTURE_2D_ARRAY: Enum = 0x8C1A;
+pub const LINES: Enum = 1;
+pub const POLYGON_OFFSET_FILL: Enum = 0x8037;
 pub const TRIANGLES: Enum = 4;
 pub const LESS: Enum = 0x201;
 pub const GREATER: Enum = 0x204;
@@ -22,6 +28,8 @@ pub const BACK: Enum = 0x405;
 pub const FRONT_AND_BACK: Enum = 0x408;
 pub const DEPTH_TEST: Enum = 0xB71;
 pub const STENCIL_TEST: Enum = 0xB90;
+pub const CULL_FACE: Enum = 0xB44;
+pub const ALL_BARRIERS: u32 = u32::MAX;
 pub const BLEND: Enum = 0xBE2;
 pub const DITHER: Enum = 0xBD0;
 pub const DEPTH_CLAMP: Enum = 0x864F;
@@ -41,7 +49,6 @@ pub const DECR_WRAP: Enum = 0x8508;
 pub const RGBA8: Enum = 0x8058;
 pub const SRGB8_ALPHA8: Enum = 0x8C43;
 pub const RGBA32F: Enum = 0x8814;
-pub const RG32F: Enum = 0x8230;
 pub const R32F: Enum = 0x822E;
 pub const R32UI: Enum = 0x8236;
 pub const DEPTH24_STENCIL8: Enum = 0x88F0;
@@ -54,6 +61,7 @@ pub const DEPTH_STENCIL_ATTACHMENT: Enum = 0x821A;
 pub const TEXTURE_2D: Enum = 0xDE1;
 pub const TEXTURE0: Enum = 0x84C0;
 pub const TEXTURE_BUFFER: Enum = 0x8C2A;
+pub const SHADER_STORAGE_BUFFER: Enum = 0x90D2;
 pub const ARRAY_BUFFER: Enum = 0x8892;
 pub const STATIC_DRAW: Enum = 0x88E4;
 pub const COLOR: Enum = 0x1800;
@@ -101,12 +109,17 @@ unsafe extern "C" {
     pub fn glUseProgram(program: u32);
     pub fn glUniformMatrix4fv(at: i32, count: i32, transpose: u8, from: *const f32);
     pub fn glUniform4f(at: i32, x: f32, y: f32, z: f32, w: f32);
+    pub fn glUniform3f(at: i32, x: f32, y: f32, z: f32);
     pub fn glUniform2f(at: i32, x: f32, y: f32);
+    pub fn glUniform1f(at: i32, x: f32);
     pub fn glUniform1i(at: i32, x: i32);
     pub fn glGenVertexArrays(count: i32, to: *mut u32);
     pub fn glBindVertexArray(array: u32);
     pub fn glGenBuffers(count: i32, to: *mut u32);
     pub fn glBindBuffer(target: Enum, buffer: u32);
+    pub fn glBindBufferBase(target: Enum, at: u32, buffer: u32);
+    pub fn glBufferSubData(target: Enum, from: isize, size: isize, values: *const c_void);
+    pub fn glGetBufferSubData(target: Enum, from: isize, size: isize, to: *mut c_void);
     pub fn glBufferData(target: Enum, size: isize, from: *const c_void, usage: Enum);
     pub fn glVertexAttribPointer(
         at: u32,
@@ -117,11 +130,31 @@ unsafe extern "C" {
         offset: *const c_void,
     );
     pub fn glEnableVertexAttribArray(at: u32);
+    pub fn glDisableVertexAttribArray(at: u32);
+    pub fn glBlendEquation(mode: Enum);
+    pub fn glScissor(x: i32, y: i32, width: i32, height: i32);
+    pub fn glTexStorage3D(target: Enum, levels: i32, format: Enum, width: i32, height: i32, depth: i32);
+    pub fn glFramebufferTextureLayer(target: Enum, attachment: Enum, texture: u32, level: i32, layer: i32);
+    pub fn glLineWidth(width: f32);
+    pub fn glPolygonOffset(factor: f32, units: f32);
+    pub fn glMemoryBarrier(barriers: u32);
+    pub fn glCullFace(face: Enum);
     pub fn glGenTextures(count: i32, to: *mut u32);
     pub fn glActiveTexture(unit: Enum);
     pub fn glBindTexture(target: Enum, texture: u32);
     pub fn glTexBuffer(target: Enum, format: Enum, buffer: u32);
     pub fn glTexStorage2D(target: Enum, levels: i32, format: Enum, width: i32, height: i32);
+    pub fn glTexSubImage2D(
+        target: Enum,
+        level: i32,
+        x: i32,
+        y: i32,
+        width: i32,
+        height: i32,
+        format: Enum,
+        kind: Enum,
+        from: *const c_void,
+    );
     pub fn glTexParameteri(target: Enum, name: Enum, value: i32);
     pub fn glGenFramebuffers(count: i32, to: *mut u32);
     pub fn glBindFramebuffer(target: Enum, framebuffer: u32);
@@ -203,6 +236,20 @@ pub fn program(vertex: &str, fragment: &str) -> Result<u32, String> {
 pub fn uniform(program: u32, name: &str) -> i32 {
     let name = CString::new(name).expect("names have no zeros");
     unsafe { glGetUniformLocation(program, name.as_ptr()) }
+}
+
+/// A texture of so many square layers.
+pub fn layers(side: usize, count: usize) -> u32 {
+    let mut texture = 0;
+    unsafe {
+        glGenTextures(1, &mut texture);
+        glBindTexture(TEXTURE_2D_ARRAY, texture);
+        glTexStorage3D(TEXTURE_2D_ARRAY, 1, RGBA32F, side as i32, side as i32, count as i32);
+        for filter in [TEXTURE_MIN_FILTER, TEXTURE_MAG_FILTER] {
+            glTexParameteri(TEXTURE_2D_ARRAY, filter, NEAREST as i32);
+        }
+    }
+    texture
 }
 
 /// Calls that fail say so here, at the end of the frame.

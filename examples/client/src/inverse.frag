@@ -1,5 +1,4 @@
-#version 450 core
-uniform samplerBuffer edges, sides, areas, mesh;
+uniform samplerBuffer edges, sides, areas;
 uniform sampler2D plan;
 uniform usampler2D ids;
 uniform mat4 clip_from_world;
@@ -12,16 +11,7 @@ vec2 Q[4];
 uint seen[4];
 ivec2 at[4];
 
-// Corner k of triangle id, and the triangle's colour: eight numbers a corner.
-vec3 corner(uint id, int k) {
-  int from = (int(id) * 3 + k) * 4;
-  return vec3(texelFetch(mesh, from).xy, texelFetch(mesh, from + 1).x);
-}
-vec3 ground(uint id) {
-  int from = int(id) * 12;
-  return vec3(texelFetch(mesh, from + 1).y, texelFetch(mesh, from + 2).xy);
-}
-vec2 corner_plan(uint id, int k) { return texelFetch(mesh, (int(id) * 3 + k) * 4 + 3).xy; }
+vec2 corner_plan(uint id, int k) { int at = (int(id) * 3 + k) * 8 + 6; return vec2(mesh(at), mesh(at + 1)); }
 
 // How far from `from` the ray of a pixel's centre meets a triangle's plane; infinite where it does not.
 double reached(vec2 from, uint id, ivec2 pixel) {
@@ -73,9 +63,10 @@ vec2 place(int k) {
   return mix(mix(Q[0], Q[1], s.x), mix(Q[3], Q[2], s.x), s.y);
 }
 
+// Along a ray to the west.
 int winding_of(vec2 a, vec2 b, vec2 p) {
-  if ((a.y > p.y) == (b.y > p.y) || (turn(a, b, p) > 0.0) != (b.y > a.y)) return 0;
-  return b.y > a.y ? 1 : -1;
+  if ((a.y > p.y) == (b.y > p.y) || (turn(a, b, p) > 0.0) == (b.y > a.y)) return 0;
+  return b.y > a.y ? -1 : 1;
 }
 
 // Which samples an area holds, a bit each.
@@ -127,7 +118,7 @@ void main() {
   for (int k = 0; k < 4 && !refused && by_centre == 1; k++) refused = spans(k, (k + 1) & 3);
   vec2 low = min(min(Q[0], Q[1]), min(Q[2], Q[3])), high = max(max(Q[0], Q[1]), max(Q[2], Q[3]));
   vec4 found[25], below[25];
-  for (int k = 0; k < n * n; k++) found[k] = vec4(ground(seen[0]), 1.0);
+  for (int k = 0; k < n * n; k++) found[k] = vec4(ground(seen[0], Q[0]), 1.0);
   float layer = -1.0, opacity = 1.0;
   for (int area = 0; area <= count; area++) {
     vec4 style = area < count ? texelFetch(areas, area * 3 + 1) : vec4(0.0, 0.0, -2.0, 1.0);

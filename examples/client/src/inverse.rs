@@ -1,10 +1,11 @@
 //! `inverse-projection`: a fragment looks at its plan point and those of its neighbours, and at the areas' edges.
 
 use crate::bundle::paint;
-use crate::frame::{Frame, SCREEN, floats};
+use crate::frame::{Frame, floats};
 use crate::gl;
+use crate::tables::texels;
 
-const FRAGMENT: &str = include_str!("inverse.frag");
+const PARTS: [&str; 2] = [include_str!("glsl/ground.glsl"), include_str!("inverse.frag")];
 
 /// The tables as texels of four numbers: edges; areas (three texels each).
 struct Tables {
@@ -55,29 +56,17 @@ fn tables(frame: &Frame) -> Result<Tables, String> {
     Ok(tables)
 }
 
-fn bind(program: u32, unit: u32, name: &str, buffer: u32, format: gl::Enum) {
-    let mut texture = 0;
-    unsafe {
-        gl::glGenTextures(1, &mut texture);
-        gl::glActiveTexture(gl::TEXTURE0 + unit);
-        gl::glBindTexture(gl::TEXTURE_BUFFER, texture);
-        gl::glTexBuffer(gl::TEXTURE_BUFFER, format, buffer);
-        gl::glUniform1i(gl::uniform(program, name), unit as i32);
-    }
-}
-
 pub fn draw(frame: &Frame) -> Result<(), String> {
     let settings = |name| frame.bundle.word(&["settings", name]);
     if settings("corners") != "centres" {
         return Err("this client draws `corners = \"centres\"` alone".into());
     }
     let tables = tables(frame)?;
-    let program = gl::program(SCREEN, FRAGMENT)?;
+    let program = frame.screen_program(&PARTS.concat())?;
     frame.use_program(program);
-    bind(program, 0, "edges", floats(&tables.edges), gl::RGBA32F);
-    bind(program, 1, "sides", floats(&tables.sides), gl::R32F);
-    bind(program, 2, "areas", floats(&tables.areas), gl::RGBA32F);
-    bind(program, 3, "mesh", frame.mesh, gl::RG32F);
+    texels(program, 0, "edges", floats(&tables.edges), gl::RGBA32F);
+    texels(program, 1, "sides", floats(&tables.sides), gl::R32F);
+    texels(program, 2, "areas", floats(&tables.areas), gl::RGBA32F);
     let n = if frame.bug == "one-sample" {
         1.0
     } else {
@@ -91,16 +80,10 @@ pub fn draw(frame: &Frame) -> Result<(), String> {
     set("additive", i32::from(frame.bundle.word(&["compositing_mode"]) == "additive"));
     set("reach", if frame.bug == "left-quad" { -1 } else { 1 });
     unsafe {
-        gl::glActiveTexture(gl::TEXTURE0 + 4);
-        gl::glBindTexture(gl::TEXTURE_2D, frame.plan_texture);
-        set("plan", 4);
-        gl::glActiveTexture(gl::TEXTURE0 + 5);
-        gl::glBindTexture(gl::TEXTURE_2D, frame.ids_texture);
-        set("ids", 5);
         gl::glUniform2f(gl::uniform(program, "size"), frame.wide() as f32, frame.high() as f32);
         gl::glBindFramebuffer(gl::FRAMEBUFFER, frame.framebuffer);
         gl::glDisable(gl::DEPTH_TEST);
-        gl::glDrawArrays(gl::TRIANGLES, 0, 3);
+        frame.fill();
     }
     gl::check()
 }

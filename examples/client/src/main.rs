@@ -4,10 +4,17 @@
 #![allow(clippy::disallowed_methods, clippy::disallowed_types)]
 
 mod bundle;
+mod clipmap;
+mod decal;
+mod dynamic;
 mod frame;
+mod geometry;
 mod gl;
 mod inverse;
+mod overlay;
+mod statics;
 mod stencil;
+mod tables;
 mod write;
 
 use std::path::Path;
@@ -34,6 +41,26 @@ fn run() -> Result<(), String> {
             let frame = frame::Frame::new(&bundle, bug, 1, 1, float)?;
             frame.terrain()?;
             inverse::draw(&frame)?;
+            frame.save(Path::new(out))
+        }
+        "static-decal" => {
+            let mut frame = frame::Frame::new(&bundle, bug, 1, 0, float)?;
+            decal::draw(&mut frame)?;
+            frame.save(Path::new(out))
+        }
+        "dynamic-line" => {
+            let mut frame = frame::Frame::new(&bundle, bug, 1, 0, float)?;
+            dynamic::draw(&mut frame)?;
+            frame.save(Path::new(out))
+        }
+        "clipmap" => {
+            let mut frame = frame::Frame::new(&bundle, bug, 1, 0, float)?;
+            clipmap::draw(&mut frame)?;
+            frame.save(Path::new(out))
+        }
+        "geometry-overlay" => {
+            let frame = frame::Frame::new(&bundle, bug, 1, 0, float)?;
+            overlay::draw(&frame)?;
             frame.save(Path::new(out))
         }
         other => Err(format!("this client does not draw {other}")),

@@ -207,7 +207,7 @@ fn mask(frame: &Frame, pass: &[Object], volumes: &[Volume], faces: u32, screen: 
     let cut = if frame.bug == "no-cut" { 0..0 } else { object.cut.clone() };
     let over_all = || unsafe {
         gl::glUseProgram(screen);
-        gl::glDrawArrays(gl::TRIANGLES, 0, 3);
+        frame.fill();
     };
     frame.use_program(faces);
     if !cut.is_empty() {
