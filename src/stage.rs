@@ -45,9 +45,14 @@ impl Stage {
     pub fn new(mut scene: Scene, surface: Surface) -> Result<Self> {
         let mesh = Mesh::new(surface, scene.diagonal)?;
         if let Some(globe) = &scene.globe {
-            let deviation = mesh.largest_deviation(|at, plan| globe.distance_on_the_ground(at, plan));
+            let distance = |at, plan| globe.distance_on_the_ground(at, plan);
+            // A level of detail is had without the triangles of all posts.
+            let (which, deviation) = match scene.lod {
+                None => ("its triangles", mesh.largest_deviation(distance)),
+                Some(_) => ("the triangles of all posts", mesh.most_deviation(distance)),
+            };
             scene.notes.push(format!(
-                "globe: inside of its triangles the terrain strays by up to {deviation:.3} m on the ground from where the ellipsoid's normals have it"
+                "globe: inside of {which} the terrain strays by up to {deviation:.3} m on the ground from where the ellipsoid's normals have it"
             ));
         }
         Self::of_mesh(scene, mesh)

@@ -327,6 +327,14 @@ impl Mesh {
         deviations.fold(0.0, |most, deviation| math::max(deviation, most))
     }
 
+    /// The same of all triangles that the posts of a globe have, or a little more, found without making them; of another mesh the [largest](Self::largest_deviation).
+    pub fn most_deviation(&self, distance: impl Fn(World, Plan) -> f64 + Sync) -> f64 {
+        match self {
+            Self::Globe(globe) => globe.most_deviation(distance),
+            Self::Grid(_) | Self::Tin(_) | Self::Lod(_) => self.largest_deviation(distance),
+        }
+    }
+
     /// Calls `visit` with each child of a node above level 0: at most [`MOST_CHILDREN`].
     #[inline]
     pub fn for_each_child(&self, node: Node, visit: impl FnMut(Node)) {
@@ -373,7 +381,7 @@ impl Mesh {
         match self {
             Self::Grid(grid) => grid.bytes(),
             Self::Tin(tin) => tin.bytes(),
-            Self::Globe(globe) => globe.tin().bytes() + size_of_val(globe.posts().posts.heights()),
+            Self::Globe(globe) => globe.bytes(),
             Self::Lod(lod) => lod.bytes(),
         }
     }

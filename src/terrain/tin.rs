@@ -83,11 +83,16 @@ impl Tin {
     }
 
     /// See [`super::Mesh::of_surface`].
-    pub(super) fn of_surface(vertices: Vec<SurfaceVertex>, mut triangles: Vec<[u32; 3]>) -> Result<Self> {
+    pub(super) fn of_surface(vertices: Vec<SurfaceVertex>, triangles: Vec<[u32; 3]>) -> Result<Self> {
         check(&vertices, &triangles)?;
+        Ok(Self::by_place(vertices, triangles))
+    }
+
+    /// Triangles of a surface that is one, numbered along a space-filling curve of the plan.
+    pub(super) fn by_place(vertices: Vec<SurfaceVertex>, mut triangles: Vec<[u32; 3]>) -> Self {
         let plan: Vec<Plan> = vertices.iter().map(|vertex| vertex.plan).collect();
         order_by_place(&plan, &mut triangles);
-        Ok(Self::in_order(vertices, triangles))
+        Self::in_order(vertices, triangles)
     }
 
     /// Triangles that are numbered as they are given: neighbours near one another.

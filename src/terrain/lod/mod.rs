@@ -17,8 +17,10 @@ mod places;
 mod quad;
 mod refinement;
 mod right_triangle;
+mod search;
 mod selection;
 mod sight;
+mod tile;
 mod vertices;
 
 pub use hierarchy::Hierarchy;

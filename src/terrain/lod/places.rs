@@ -1,20 +1,67 @@
-//! Where the posts of a globe stand in space, found fast, and how far a triangle of the hierarchy is from those in it.
+//! What posts are measured by: heights over a plane, and where the posts of a globe stand in space, found fast.
 //!
-//! Input: a globe's posts. Output: [`Places`], [`Deviation`]s. Refuses: nothing; a post without a height has no place.
+//! Input: a grid's or a globe's posts. Output: [`Heights`], [`Places`]. Refuses: nothing; a post without a height has no place.
 //!
 //! Both surfaces, as maps from columns and rows to space, are linear over every smallest triangle, and these nest: the largest distance between the points
 //! that a place among the posts has on both is that at a post. No point of one surface is farther from the other than that, and where columns and rows are
 //! evenly spaced it is the distance between the points of one place of the plan: what is draped is off by no more. What a chord cuts off the ellipsoid is in it.
 
-use super::deviation::{Deviation, Slope, Window, columns};
 use super::right_triangle::{Post, RightTriangle};
+use super::tile::Measure;
 use crate::math;
-use crate::terrain::GlobeMesh;
 use crate::terrain::globe::RowOf;
+use crate::terrain::{GlobeMesh, Grid};
 use glam::DVec3;
+use std::sync::Arc;
+
+/// The heights of a grid's posts.
+#[derive(Debug)]
+pub(super) struct Heights {
+    grid: Arc<Grid>,
+    slack: f64,
+}
+
+impl Heights {
+    pub fn new(grid: &Arc<Grid>) -> Self {
+        let (low, high) = grid.heights();
+        // A plane's coefficients and its heights at posts have a few roundings of numbers up to four times a height.
+        let slack = 32.0 * f64::EPSILON * math::max(low.abs(), high.abs());
+        Self { grid: Arc::clone(grid), slack }
+    }
+}
+
+impl Measure for Heights {
+    type Value = f64;
+
+    #[inline]
+    fn at(&self, [column, row]: Post) -> f64 {
+        let (posts, column, row) = (self.grid.posts(), column as usize, row as usize);
+        let is_there = column < posts.columns() && row < posts.rows();
+        if is_there { posts.heights()[row * posts.columns() + column] } else { f64::NAN }
+    }
+
+    fn append(&self, row: u32, [first, last]: [u32; 2], to: &mut Vec<f64>) {
+        let posts = self.grid.posts();
+        let start = row as usize * posts.columns();
+        to.extend_from_slice(&posts.heights()[start + first as usize..=start + last as usize]);
+    }
+
+    fn least(&self, _: &RightTriangle, _: [f64; 3]) -> f64 {
+        0.0
+    }
+
+    fn has_least(&self, _: [u32; 2]) -> bool {
+        false
+    }
+
+    fn slack(&self) -> f64 {
+        self.slack
+    }
+}
 
 /// What the places of a row's posts have in common: a post as high as h over the ellipsoid is `outward + h * up[0]` from the axis and
 /// `along + h * up[1]` above the equator's plane.
+#[derive(Debug)]
 struct Row {
     outward: f64,
     along: f64,
@@ -25,16 +72,17 @@ struct Row {
 }
 
 /// The places of a globe's posts, geocentric.
-pub(super) struct Places<'g> {
-    globe: &'g GlobeMesh,
+#[derive(Debug)]
+pub(super) struct Places {
+    globe: Arc<GlobeMesh>,
     /// Cosine and sine of each column's longitude.
     columns: Vec<[f64; 2]>,
     rows: Vec<Row>,
-    last: Post,
+    slack: f64,
 }
 
-impl<'g> Places<'g> {
-    pub(super) fn new(globe: &'g GlobeMesh) -> Self {
+impl Places {
+    pub fn new(globe: &Arc<GlobeMesh>) -> Self {
         let posts = globe.posts();
         let (own, count) = (posts.posts.columns(), globe.size());
         let columns = (0..count[0]).map(|i| {
@@ -55,80 +103,76 @@ impl<'g> Places<'g> {
                 }
             }
         };
-        let last = count.map(|count| count as u32 - 1);
-        Self { globe, columns: columns.collect(), rows: (0..count[1]).map(row).collect(), last }
+        let rows = (0..count[1]).map(row).collect();
+        let (low, high) = globe.heights();
+        let ellipsoid = posts.globe.ellipsoid;
+        // Some of the last digits of coordinates.
+        let slack = 64.0 * f64::EPSILON * (ellipsoid.a + ellipsoid.b() + math::max(low.abs(), high.abs()));
+        Self { globe: Arc::clone(globe), columns: columns.collect(), rows, slack }
     }
 
-    /// How far roundings may take a distance: some of the last digits of coordinates.
-    pub(super) fn slack(&self) -> f64 {
-        let (low, high) = self.globe.heights();
-        let ellipsoid = self.globe.posts().globe.ellipsoid;
-        64.0 * f64::EPSILON * (ellipsoid.a + ellipsoid.b() + math::max(low.abs(), high.abs()))
-    }
-
-    /// The place of a post; NaN where it has no height.
-    #[inline]
-    fn at(&self, [column, row]: Post) -> DVec3 {
-        let of = &self.rows[row as usize];
-        let own = self.globe.posts().posts.columns();
-        let height = match of.first {
-            Some(first) => self.globe.posts().posts.heights()[first + column as usize % own],
-            None => of.pole,
-        };
-        let [cos, sin] = self.columns[column as usize];
+    /// The place of a post of a row, by its height there; NaN where it has none.
+    #[inline(always)]
+    fn place(&self, of: &Row, column: usize, height: f64) -> DVec3 {
+        let [cos, sin] = self.columns[column];
         let outward = of.outward + height * of.up[0];
         DVec3::new(outward * cos, outward * sin, of.along + height * of.up[1])
     }
 
-    /// Whether all posts of a row between two columns are there.
-    pub(super) fn is_row_whole(&self, row: u32, [low, high]: [u32; 2]) -> bool {
-        (low..=high).all(|column| !self.at([column, row]).is_nan())
-    }
-
-    /// The deviation of a triangle over the posts of a window; of the smallest that can be split, what their halves' deviations do not tell. A triangle
-    /// with a corner at a pole has its places beside those of the posts, too.
-    pub(super) fn deviation(&self, triangle: &RightTriangle, window: &Window) -> Deviation {
-        let corners = triangle.corners();
-        let range = |k: usize| {
-            let at = corners.map(|post| post[k]);
-            (at[0].min(at[1]).min(at[2]), at[0].max(at[1]).max(at[2]))
-        };
-        let ((west, east), (south, north)) = (range(0), range(1));
-        let is_inside = east <= self.last[0] && north <= self.last[1];
-        let places = if is_inside { corners.map(|post| self.at(post)) } else { [DVec3::NAN; 3] };
-        let aside = if is_inside { self.aside_at_a_pole(&corners, places) } else { 0.0 };
-        if let Some(middle) =
-            triangle.middle().filter(|_| is_inside && window.is_whole && triangle.layer() < 3)
-        {
-            let off = ((places[1] + places[2]) * 0.5 - self.at(middle)).length();
-            return Deviation { most: math::max(off, aside), some_there: true, some_missing: false };
-        }
-        let slope = Slope::of(triangle, places);
-        let most = if is_inside && slope.by.iter().any(|by| by.is_nan()) { f64::INFINITY } else { aside };
-        let mut found = Deviation { most, some_missing: !is_inside, some_there: false };
-        for row in south.max(window.low[1])..north.min(window.high[1]) + 1 {
-            let (first, last) = columns(triangle, row);
-            for column in first.max(window.low[0]).max(west)..=last.min(window.high[0]) {
-                let place = self.at([column, row]);
-                let off = (slope.at(column, row) - place).length();
-                found.most = math::max(off, found.most);
-                found.some_missing |= place.is_nan();
-                found.some_there |= !place.is_nan();
-            }
-        }
-        found
+    /// The height of a post of a row.
+    #[inline(always)]
+    fn height(&self, of: &Row, column: usize) -> f64 {
+        let posts = &self.globe.posts().posts;
+        // The last column of a full circle is the first one.
+        let own = if column < posts.columns() { column } else { column - posts.columns() };
+        of.first.map_or(of.pole, |first| posts.heights()[first + own])
     }
 
     /// How far, on the ground, a triangle with a single corner at a pole has its places beside those of the posts. The corner stands between the columns of the
     /// others and not in its own: with a share w of it a place moves by w of half the columns' distance at most, on a parallel that is no larger than pi/2 (1 - w) of the
     /// others' largest: by pi/16 of the product at most.
     fn aside_at_a_pole(&self, corners: &[Post; 3], places: [DVec3; 3]) -> f64 {
-        let is_at_pole = |k: usize| self.rows[corners[k][1] as usize].first.is_none();
-        let [k] = (0..3).filter(|k| is_at_pole(*k)).collect::<Vec<_>>()[..] else { return 0.0 };
+        let is_at_pole = corners.map(|post| self.rows[post[1] as usize].first.is_none());
+        let Some(k) = is_at_pole.iter().position(|is| *is) else { return 0.0 };
+        if is_at_pole.iter().filter(|is| **is).count() > 1 {
+            return 0.0;
+        }
         let others = [1, 2].map(|next| (k + next) % 3);
         let [west, east] = others.map(|k| self.globe.posts().column(corners[k][0] as usize));
         let [one, other] = others.map(|k| places[k].truncate().length());
         let angle = (east - west).abs() / self.globe.posts().globe.ellipsoid.a;
         0.25 * angle * math::max(one, other)
+    }
+}
+
+impl Measure for Places {
+    type Value = DVec3;
+
+    #[inline]
+    fn at(&self, [column, row]: Post) -> DVec3 {
+        match self.rows.get(row as usize) {
+            Some(of) if (column as usize) < self.columns.len() => {
+                self.place(of, column as usize, self.height(of, column as usize))
+            }
+            _ => DVec3::NAN,
+        }
+    }
+
+    fn append(&self, row: u32, [first, last]: [u32; 2], to: &mut Vec<DVec3>) {
+        let of = &self.rows[row as usize];
+        let columns = first as usize..=last as usize;
+        to.extend(columns.map(|column| self.place(of, column, self.height(of, column))));
+    }
+
+    fn least(&self, triangle: &RightTriangle, corners: [DVec3; 3]) -> f64 {
+        self.aside_at_a_pole(&triangle.corners(), corners)
+    }
+
+    fn has_least(&self, rows: [u32; 2]) -> bool {
+        rows.iter().any(|row| self.rows[*row as usize].first.is_none())
+    }
+
+    fn slack(&self) -> f64 {
+        self.slack
     }
 }

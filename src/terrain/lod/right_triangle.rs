@@ -61,6 +61,18 @@ impl RightTriangle {
         (x % 2 == 0 && y % 2 == 0).then_some([x / 2, y / 2])
     }
 
+    /// Whether another one, no larger and of the same hierarchy, is a part of it.
+    pub fn holds(&self, other: &Self) -> bool {
+        // The smaller one's middle, times three, is strictly on the left of all sides.
+        let corners = self.corners().map(|post| post.map(|at| 3 * i64::from(at)));
+        let [a, b, c] = other.corners().map(|post| post.map(i64::from));
+        let middle = [0, 1].map(|k| a[k] + b[k] + c[k]);
+        (0..3).all(|k| {
+            let (from, to) = (corners[k], corners[(k + 1) % 3]);
+            (to[0] - from[0]) * (middle[1] - from[1]) > (to[1] - from[1]) * (middle[0] - from[0])
+        })
+    }
+
     /// Its halves, that of its left end first; `None` for the smallest.
     #[inline]
     pub fn halves(&self) -> Option<[Self; 2]> {

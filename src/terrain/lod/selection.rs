@@ -7,13 +7,14 @@
 //! smallest, so that holes and the grid's border are where they are. What is not in view is split only where that closes the mesh. On a globe nothing beyond
 //! the horizon is in view, and the border of the posts is always where it is: a seam is none.
 
-use super::errors::{Errors, MIXED, NOTHING};
+use super::errors::ErrorsInView;
 use super::hierarchy::Hierarchy;
 use super::horizon::Horizon;
 use super::mesh::{Collected, Deviation, LodMesh};
 use super::refinement::Refinement;
 use super::right_triangle::RightTriangle;
 use super::sight::Sight;
+use super::tile::{MIXED, NOTHING, TILE};
 use crate::error::{Error, Result};
 use crate::math;
 use crate::scene::{Detail, LevelOfDetail};
@@ -23,7 +24,7 @@ use crate::terrain::Lattice;
 /// What a view is shown of a hierarchy.
 struct Selection<'a> {
     hierarchy: &'a Hierarchy,
-    errors: &'a Errors,
+    errors: ErrorsInView<'a>,
     sight: Sight,
 }
 
@@ -54,25 +55,20 @@ impl Hierarchy {
             _ => None,
         };
         let sight = Sight::of(view, horizon);
-        let selection = Selection { hierarchy: self, errors: self.errors(), sight };
+        let selection = Selection { hierarchy: self, errors: self.errors().in_view(), sight };
         let mut refinement = Refinement::new(self.extent(), wanted.borrow);
         if let Lattice::Globe(_) = self.lattice() {
             for root in self.extent().root().roots() {
                 selection.close_border(root, &mut refinement);
             }
         }
-        let layer = match wanted.detail {
-            Detail::ErrorPx(most) if most > 0.0 => return selection.mesh_within(most, refinement),
-            Detail::ErrorPx(_) => 0,
-            Detail::Level(level) => 2 * level,
+        let mesh = match wanted.detail {
+            Detail::ErrorPx(most) if most > 0.0 => selection.mesh_within(most, refinement),
+            Detail::ErrorPx(_) => selection.mesh_at(0, refinement),
+            Detail::Level(level) => selection.mesh_at(2 * level, refinement),
         };
-        for root in self.extent().root().roots() {
-            selection.split_to(root, layer, &mut refinement);
-        }
-        let mut deviation = Deviation::default();
-        let is_drawn = &mut |triangle: &RightTriangle| selection.is_drawn(triangle, &mut deviation);
-        let collected = Collected::of(self.extent(), refinement.vertices(), is_drawn);
-        LodMesh::new(self.lattice(), refinement, collected, deviation)
+        selection.errors.keep();
+        mesh
     }
 }
 
@@ -95,9 +91,39 @@ impl Selection<'_> {
         }
     }
 
+    /// The mesh of all triangles of a layer.
+    fn mesh_at(&self, layer: u32, mut refinement: Refinement) -> LodMesh {
+        let extent = self.hierarchy.extent();
+        for root in extent.root().roots() {
+            self.split_to(root, layer, &mut refinement);
+        }
+        let mut deviation = Deviation::default();
+        let is_drawn = &mut |triangle: &RightTriangle| self.is_drawn(triangle, &mut deviation);
+        let collected = Collected::of(extent, refinement.vertices(), is_drawn);
+        LodMesh::new(self.hierarchy.lattice(), refinement, collected, deviation)
+    }
+
+    /// The triangles as large as half a tile that are too coarse, of those below one.
+    fn coarse_tiles(&self, triangle: RightTriangle, most: f64, found: &mut Vec<RightTriangle>) {
+        if !self.is_too_coarse(&triangle, most) {
+            return;
+        }
+        if triangle.layer() == 2 * TILE {
+            found.push(triangle);
+        } else if triangle.layer() > 2 * TILE {
+            let halves = triangle.halves().into_iter().flatten();
+            halves.for_each(|half| self.coarse_tiles(half, most, found));
+        }
+    }
+
     /// The mesh of which no triangle in view is more than so many pixels off.
     fn mesh_within(&self, most: f64, mut refinement: Refinement) -> LodMesh {
         let extent = self.hierarchy.extent();
+        let mut coarse = Vec::new();
+        for root in extent.root().roots() {
+            self.coarse_tiles(root, most, &mut coarse);
+        }
+        self.errors.look_into(&coarse);
         for root in extent.root().roots() {
             self.split_seen(root, most, &mut refinement);
         }

@@ -1,8 +1,11 @@
 //! Errors against exact arithmetic: heights are whole multiples of a power of two.
 
-use super::super::errors::{Errors, MIXED, NOTHING};
+use super::super::deviation::{Slope, Window, deviation};
+use super::super::errors::Errors;
 use super::super::extent::Extent;
-use super::{Dice, for_each_below, posts_in};
+use super::super::places::{Heights, Places};
+use super::super::tile::{MIXED, Measure, NOTHING, rounded_up};
+use super::{Dice, for_each_below, globe, grid, hills, posts_in, with_holes};
 use crate::math;
 use crate::scene::{Diagonal, Posts};
 use crate::space::Plan;
@@ -68,6 +71,7 @@ fn check(whole: &Whole, least: u32) -> [usize; 3] {
     let heights = whole.heights.iter().flatten().map(|whole| *whole as f64 * UNIT);
     let largest = heights.map(f64::abs).fold(0.0, math::max);
     let (errors, extent) = (Errors::new(&lattice), Extent::of(&lattice));
+    let errors = errors.in_view();
     let mut exact: BTreeMap<RightTriangle, f64> = BTreeMap::new();
     let mut all = Vec::new();
     for root in extent.root().roots() {
@@ -131,4 +135,76 @@ fn a_triangle_with_a_missing_post_is_mixed_and_one_without_any_is_nothing() {
     };
     let seen = check(&Whole::new(50, 34, &mut height), 1);
     assert!(seen.iter().all(|count| *count > 20), "{seen:?}");
+}
+
+/// The errors of all triangles, each post looked at, and how far roundings may take them.
+fn of_measure(measure: &impl Measure, extent: Extent) -> (BTreeMap<RightTriangle, f32>, f64) {
+    let window =
+        Window::new([[0, 0], extent.last], Vec::new(), |row, ends, to| measure.append(row, ends, to));
+    let mut all = Vec::new();
+    for root in extent.root().roots() {
+        for_each_below(root, &mut |triangle| {
+            if triangle.layer() > 0 && extent.holds(triangle) {
+                all.push(*triangle);
+            }
+        });
+    }
+    all.sort_by_key(RightTriangle::layer);
+    let mut errors = BTreeMap::new();
+    for triangle in all {
+        let corners = triangle.corners();
+        let is_inside = corners.iter().all(|post| window.contains(*post));
+        let at = corners.map(|post| measure.at(post));
+        let slope = is_inside.then(|| Slope::of(&triangle, at));
+        let mut found = deviation(&window, &triangle, slope.as_ref());
+        if is_inside {
+            found.most = math::max(found.most, measure.least(&triangle, at));
+        }
+        let own = rounded_up(found, measure.slack());
+        let below = triangle.halves().into_iter().flatten().filter_map(|half| errors.get(&half).copied());
+        errors.insert(triangle, below.fold(own, math::max_f32));
+    }
+    (errors, measure.slack())
+}
+
+#[test]
+fn what_is_found_by_a_search_and_tile_by_tile_is_what_looking_at_every_post_finds() {
+    let level = |_: u32, _: u32| 7.25;
+    let slope = |i: u32, j: u32| 0.1 * f64::from(i) - 0.7 * f64::from(j);
+    let steps = |i: u32, j: u32| f64::from((i / 30) * (j / 17) % 5);
+    let around =
+        |height: &dyn Fn(u32, u32) -> f64| Lattice::Globe(globe::world([256, 149], 1.0, height, true));
+    let lattices = [
+        grid(257, 257, hills),
+        grid(257, 257, steps),
+        grid(140, 131, level),
+        grid(140, 131, slope),
+        grid(300, 140, with_holes),
+        around(&hills),
+        around(&with_holes),
+    ];
+    for lattice in lattices {
+        let extent = Extent::of(&lattice);
+        let (expected, slack) = match &lattice {
+            Lattice::Plane(grid) => of_measure(&Heights::new(grid), extent),
+            Lattice::Globe(globe) => of_measure(&Places::new(globe), extent),
+        };
+        // But for roundings.
+        let is_as_expected = |found: f32, expected: f32| {
+            found == expected
+                || f64::from((found - expected).abs()) <= 4.0 * slack + 3e-7 * f64::from(expected)
+        };
+        // With all tiles kept, and none but those that were looked into.
+        for most_kept in [100, 0] {
+            let errors = Errors::keeping(&lattice, most_kept);
+            for _ in 0..2 {
+                let errors = errors.in_view();
+                for (triangle, error) in &expected {
+                    let found = errors.of(triangle);
+                    assert!(is_as_expected(found, *error), "{triangle:?}: {found} {error}");
+                }
+                errors.keep();
+            }
+        }
+    }
 }

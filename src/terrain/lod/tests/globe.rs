@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 const ELLIPSOID: Ellipsoid = Ellipsoid { a: 6000.0, f: 0.01 };
 
 /// A globe of so many columns all around, and rows of which the outermost are `at_pole` cells from the poles; heights by column and row.
-fn world(
+pub(super) fn world(
     [columns, rows]: [usize; 2],
     at_pole: f64,
     height: impl Fn(u32, u32) -> f64,
@@ -279,4 +279,19 @@ fn a_chord_is_off_by_what_it_cuts_off_the_ellipsoid() {
     let metres = mesh.deviation().metres;
     // Both sides of a square, and its diagonal is no better.
     assert!(metres >= sagitta && metres < 3.0 * sagitta, "{metres} {sagitta}");
+}
+
+#[test]
+fn a_level_of_detail_needs_no_triangle_of_the_full_surface() {
+    let globe = world([300, 149], 1.0, hills, true);
+    let hierarchy = Hierarchy::new(Lattice::Globe(Arc::clone(&globe))).unwrap();
+    hierarchy.mesh_for(&views()[0], &within(1.0, 0.0));
+    let (full, own) = (Mesh::Globe(globe), |at, plan| {
+        Globe { ellipsoid: ELLIPSOID, plan_origin: DVec2::ZERO, world_origin: DVec3::new(3.0, -2.0, 1.0) }
+            .distance_on_the_ground(at, plan)
+    });
+    let (most, bytes) = (full.most_deviation(own), full.bytes());
+    let largest = full.largest_deviation(own);
+    assert!(full.bytes() > 10 * bytes, "these are the first that asked for all triangles");
+    assert!(largest <= most && most < 2.0 * largest, "{largest} {most}");
 }
