@@ -10,6 +10,7 @@ pub mod device;
 mod facet;
 mod lattice;
 mod outcode;
+mod pictures;
 mod strip;
 #[cfg(test)]
 mod tests;

@@ -5,6 +5,7 @@
 //! that are made for sixteen at a time too). The error of a rounded corner bounds every doubt.
 
 use super::facet::Facet;
+use super::pictures::{Pictures, TOGETHER};
 use super::tile::{PAD, Tile};
 use super::{KEY_ERROR, TileView};
 use crate::math::{max_f32, min_f32};
@@ -199,9 +200,6 @@ pub struct Patch {
     point_error: f32,
 }
 
-/// Points whose pictures are kept while the triangles of a leaf are drawn.
-const KNOWN: usize = 128;
-
 /// How far from a tile's middle a patch may reach, in samples.
 const GUARD: f64 = 256.0;
 /// What projecting in double precision may add to a point's error, in samples.
@@ -230,25 +228,18 @@ impl Patch {
 
     /// Draws numbered triangles of the tile's mesh, sixteen at a time.
     pub fn draw_triangles(&self, tile: &mut Tile, ids: std::ops::Range<u32>) {
-        // Triangles that follow one another share corners: pictures of points by the last digits of their numbers.
-        let mut known = [(SKY, (0.0, 0.0, 0.0)); KNOWN];
+        let arch = tile.arch;
+        let Some((vertices, triangles)) = tile.mesh.numbered() else { return };
+        let mut pictures = Pictures::NONE;
         for start in ids.clone().step_by(LANES) {
-            let mut corners = [Points::NONE; 3];
-            for id in start..ids.end.min(start + LANES as u32) {
-                let Some((numbers, triangle)) = tile.mesh.corners(id).zip(tile.mesh.triangle(id)) else {
-                    continue;
-                };
-                for (points, (number, corner)) in corners.iter_mut().zip(numbers.into_iter().zip(triangle)) {
-                    let place = &mut known[number as usize % KNOWN];
-                    if place.0 != number {
-                        let h = tile.view.map_point(corner);
-                        let key = tile.key_of_depth(tile.view.frame.depth(corner));
-                        *place = (number, ((h.x / h.z) as f32, (h.y / h.z) as f32, key as f32));
-                    }
-                    points.set((id - start) as usize, place.1);
-                }
+            let first = (start - ids.start) as usize % TOGETHER;
+            if first == 0 {
+                let end = ids.end.min(start + TOGETHER as u32);
+                pictures.take(&tile.view, arch, vertices, &triangles[start as usize..end as usize]);
             }
-            tile.arch.dispatch(DrawSixteen { patch: self, tile, corners: &corners, start });
+            let mut corners = [Points::NONE; 3];
+            pictures.each((first, LANES), |lane, corner, picture| corners[corner].set(lane, picture));
+            arch.dispatch(DrawSixteen { patch: self, tile, corners: &corners, start });
         }
     }
 

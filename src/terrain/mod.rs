@@ -191,6 +191,17 @@ impl Mesh {
         }
     }
 
+    /// The vertices of a mesh whose leaves hold [triangles](Leaf::Triangles), and all of these as numbers of three; `None` of a grid.
+    pub fn numbered(&self) -> Option<(&[World], &[[u32; 3]])> {
+        let tin = match self {
+            Self::Grid(_) => return None,
+            Self::Tin(tin) => tin,
+            Self::Globe(globe) => globe.tin(),
+            Self::Lod(lod) => lod.tin(),
+        };
+        Some((tin.vertices(), tin.triangles()))
+    }
+
     /// The layer of triangle `id` of a level-of-detail mesh ([`lod::RightTriangle::layer`]); `None` of other meshes.
     ///
     /// # Panics

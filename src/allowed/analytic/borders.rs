@@ -265,7 +265,8 @@ impl Counter<'_> {
                             straight(side, &mut others.map(|(_, side)| side));
                         }
                     }
-                    Primitive::Near { from, to, reach, growth } => {
+                    // Widths whose scales are not 1, in pixels on globes, the technique refuses.
+                    Primitive::Near { from, to, reach, growth, .. } => {
                         let round = Round { ends: [*from, *to], reach: *reach, growth: *growth };
                         self.add_round(&round, (of, &places, alpha), strips, all);
                     }
