@@ -168,9 +168,7 @@ fn clamped(v: f64) -> f64 {
 
 /// One channel of the straight encoded colour.
 fn straight(compositor: &Compositor, value: f64, alpha: f64, channel: usize) -> f64 {
-    let mut paint = [0.0, 0.0, 0.0, alpha];
-    paint[channel] = value;
-    compositor.encoded(Paint(paint))[channel]
+    if channel == 3 { clamped(value) } else { compositor.encoded_channel(value, alpha) }
 }
 
 #[cfg(test)]

@@ -17,7 +17,7 @@ use crate::index::BoxTree;
 use crate::math::min;
 use crate::parallel;
 use crate::scene::{Line, Width};
-use crate::space::{Globe, Lens, Plan, PlanBox, ViewFrame, World};
+use crate::space::{Globe, Lens, Plan, PlanBox, SmallBox, ViewFrame, World};
 use crate::terrain::Mesh;
 use area::Area;
 use glam::DVec2;
@@ -33,6 +33,13 @@ pub struct BorderPart {
     /// The place of its chain among the item's: first those of its area, then those of its stroke.
     chain: u32,
     vertex: u32,
+}
+
+impl BorderPart {
+    /// A number that hardly any other part near it has.
+    pub fn mixed(self) -> u64 {
+        (u64::from(self.item) << 32 | u64::from(self.vertex)) ^ u64::from(self.chain) << 16
+    }
 }
 
 /// How widths in pixels become metres: what the view says.
@@ -160,11 +167,27 @@ impl<'l> Footprints<'l> {
         self.part_boxes.query(plan, |k| visit(self.parts[k as usize]))
     }
 
+    /// As [`Self::parts_near`] with each part's box as it is kept: of what is near a box those that meet a smaller one in it are near that.
+    #[inline]
+    pub fn part_boxes_near(
+        &self,
+        plan: &PlanBox,
+        mut visit: impl FnMut(BorderPart, &SmallBox) -> bool,
+    ) -> bool {
+        self.part_boxes.query_boxes(plan, |k, small| visit(self.parts[k as usize], small))
+    }
+
     /// Calls `visit` with each item that a polygon bounds whose box meets `plan`.
     #[inline]
     pub fn areas_near(&self, plan: &PlanBox, mut visit: impl FnMut(u32)) {
-        self.area_boxes.query(plan, |k| {
-            visit(self.area_items[k as usize]);
+        self.area_boxes_near(plan, |item, _| visit(item));
+    }
+
+    /// As [`Self::areas_near`] with the boxes as they are kept.
+    #[inline]
+    pub fn area_boxes_near(&self, plan: &PlanBox, mut visit: impl FnMut(u32, &SmallBox)) {
+        self.area_boxes.query_boxes(plan, |k, small| {
+            visit(self.area_items[k as usize], small);
             true
         });
     }

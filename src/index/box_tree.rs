@@ -38,9 +38,15 @@ impl BoxTree {
 
     /// Calls `visit` with the number of each box that meets `plan` until it returns false; returns whether it never did.
     #[inline]
-    pub fn query(&self, plan: &PlanBox, visit: impl FnMut(u32) -> bool) -> bool {
+    pub fn query(&self, plan: &PlanBox, mut visit: impl FnMut(u32) -> bool) -> bool {
+        self.query_boxes(plan, |number, _| visit(number))
+    }
+
+    /// As [`Self::query`], with each box as it is kept: another query of what meets it and `plan` finds nothing else.
+    #[inline]
+    pub fn query_boxes(&self, plan: &PlanBox, visit: impl FnMut(u32, &SmallBox) -> bool) -> bool {
         let wanted = SmallBox::around(plan);
-        self.search(|small| small.meets(&wanted), visit)
+        self.walk(|small| small.meets(&wanted), visit)
     }
 
     /// The numbers of the boxes that meet one, in order.
@@ -59,8 +65,17 @@ impl BoxTree {
     #[inline]
     pub fn search(
         &self,
-        mut is_wanted: impl FnMut(&SmallBox) -> bool,
+        is_wanted: impl FnMut(&SmallBox) -> bool,
         mut visit: impl FnMut(u32) -> bool,
+    ) -> bool {
+        self.walk(is_wanted, |number, _| visit(number))
+    }
+
+    #[inline]
+    fn walk(
+        &self,
+        mut is_wanted: impl FnMut(&SmallBox) -> bool,
+        mut visit: impl FnMut(u32, &SmallBox) -> bool,
     ) -> bool {
         let top = self.levels.len().saturating_sub(1);
         if self.order.is_empty() || !is_wanted(&self.levels[top][0]) {
@@ -73,7 +88,7 @@ impl BoxTree {
             height -= 1;
             let (level, node) = stack[height];
             if level == 0 {
-                if !visit(self.order[node as usize]) {
+                if !visit(self.order[node as usize], &self.levels[0][node as usize]) {
                     return false;
                 }
                 continue;

@@ -87,15 +87,19 @@ impl Compositor {
     /// The straight-alpha encoded colour of a paint, 0..=1.
     pub fn encoded(&self, paint: Paint) -> [f64; 4] {
         let [r, g, b, a] = paint.0;
-        let straight = |v: f64| {
-            let v = if a > 0.0 { v / a } else { 0.0 };
-            let v = match self.rules.space {
-                BlendSpace::Encoded => v,
-                BlendSpace::Linear => encoded_from_linear(v),
-            };
-            math::min(math::max(v, 0.0), 1.0)
+        let [r, g, b] = [r, g, b].map(|v| self.encoded_channel(v, a));
+        [r, g, b, math::min(math::max(a, 0.0), 1.0)]
+    }
+
+    /// The straight encoded value, 0..=1, of a colour channel of a paint of this alpha.
+    #[inline]
+    pub fn encoded_channel(&self, value: f64, alpha: f64) -> f64 {
+        let v = if alpha > 0.0 { value / alpha } else { 0.0 };
+        let v = match self.rules.space {
+            BlendSpace::Encoded => v,
+            BlendSpace::Linear => encoded_from_linear(v),
         };
-        [straight(r), straight(g), straight(b), math::min(math::max(a, 0.0), 1.0)]
+        math::min(math::max(v, 0.0), 1.0)
     }
 }
 

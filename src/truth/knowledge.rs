@@ -50,8 +50,8 @@ pub(super) enum Edges<'a> {
     Across,
     /// None crosses it, but some are near.
     Near,
-    /// None is in this box around it.
-    Beyond(&'a PlanBox),
+    /// None is in this box around it: the polygon holds all of the box or none, as far as that is known.
+    Beyond(&'a PlanBox, Option<bool>),
 }
 
 /// A point in the middle of a piece, at which polygons are asked: once for all of the piece's items.
@@ -80,8 +80,8 @@ impl<'a> Middle<'a> {
             (None, _) => Known::In,
             (Some(_), Edges::Across) => Known::Open,
             (Some(_), Edges::Near) => self.polygon(item),
-            // The polygon holds all of the box, or none.
-            (Some(wanted), Edges::Beyond(plan)) => match self.hit().plan {
+            (Some(wanted), Edges::Beyond(_, Some(holds))) => Known::of(holds == wanted),
+            (Some(wanted), Edges::Beyond(plan, None)) => match self.hit().plan {
                 at if plan.contains(&PlanBox::around([at])) => {
                     Known::of(footprints.polygon_holds(item, at) == wanted)
                 }

@@ -13,6 +13,7 @@
 //!   probe.rs    the same of small squares around samples: what each may see (outcome.rs)
 //!   touched.rs  which items touch each pixel (holding.rs: which hold its centre)
 //!   visible.rs  the pixel cut into convex fragments that see one triangle (polygon.rs), and sky
+//!   near.rs     the parts of borders near a fragment (around.rs remembers them, kept.rs what they are made of)
 //!   refine.rs   fragments cut along footprints' borders (shape.rs) until little is unknown of which items hold them
 //!               (knowledge.rs); colours between bounds (crate::certainty)
 //! ```
@@ -23,9 +24,11 @@
 //! is in or out by bounds of the distance, or open. No decision is shared with a technique but the signs of
 //! `crate::predicate`.
 
+mod around;
 mod draped;
 mod facet;
 mod form;
+mod kept;
 mod knowledge;
 mod look;
 mod near;

@@ -1,9 +1,11 @@
 //! The parts of items' borders that are near a fragment; of a crowd of one item's those are left out that cannot matter.
 
+use super::around::Around;
 use super::knowledge::Middle;
+use super::setting::Setting;
 use super::shape::{Verdict, distance};
 use crate::footprint::{BorderPart, Primitive};
-use crate::space::PlanBox;
+use crate::space::{Plan, PlanBox};
 
 /// A piece near more parts than this is cut before they are looked at one by one.
 pub(super) const MOST_PARTS: usize = 48;
@@ -21,6 +23,7 @@ pub(super) struct Near {
     /// The items that have a part of their stroke over all of the fragment: the stroke's other parts do not matter.
     covering: Vec<u32>,
     primitives: Vec<Primitive>,
+    around: Around,
 }
 
 impl Near {
@@ -43,6 +46,12 @@ impl Near {
     /// what is doubtful.
     pub(super) fn find(&mut self, middle: &Middle, plan: &PlanBox, most: usize, slop: &mut f64) -> bool {
         self.covering.clear();
+        self.parts.clear();
+        if self.around.parts(middle.pixel.setting.footprints, (plan, most), &mut self.parts) {
+            self.parts.sort_unstable();
+            self.parts.dedup();
+            return true;
+        }
         // Boxes of long parts meet much that they are far from.
         let is_all =
             self.collect(middle, plan, (most, false), slop) || self.collect(middle, plan, (most, true), slop);
@@ -51,6 +60,17 @@ impl Near {
             self.parts.dedup();
         }
         is_all
+    }
+
+    /// Calls `visit` with each item that a polygon bounds whose box meets this one; and with whether the polygon holds all of it, if
+    /// that is known: then `at` was asked for a point of it.
+    pub(super) fn areas(
+        &mut self,
+        setting: &Setting,
+        (plan, at): (&PlanBox, &dyn Fn() -> Plan),
+        visit: impl FnMut(u32, Option<bool>),
+    ) {
+        self.around.areas(setting, (plan, at), visit);
     }
 
     /// `is_strict`: parts are asked whether they miss the box.
@@ -109,7 +129,7 @@ impl Near {
             self.primitives.clear();
             footprints.primitives(*part, &mut self.primitives);
             self.primitives.iter().any(|primitive| {
-                let shape = middle.ground.shape(primitive);
+                let shape = middle.ground.shape(&middle.ground.on_facet(primitive));
                 matches!(shape.verdict(middle.ground, middle.points, slop), Verdict::In)
             })
         });

@@ -4,6 +4,7 @@
 //! tell. The piece with the most unknown in it is cut first: along a primitive's line, so that the two halves know more.
 
 use super::form::Line;
+use super::kept::KeptParts;
 use super::knowledge::{Edges, Middle, Pixel, State};
 use super::near::{MOST_PARTS, Near};
 use super::outcome::{Outcome, Sample};
@@ -35,7 +36,7 @@ pub(super) struct Refinery {
     states: Vec<State>,
     heap: BinaryHeap<FragmentPiece>,
     near: Near,
-    primitives: Vec<Primitive>,
+    parts: KeptParts,
     fresh: Vec<State>,
     /// Pieces of which nothing is open, where coverage is asked for.
     closed: Vec<FragmentPiece>,
@@ -48,6 +49,8 @@ pub(super) struct Refinery {
     count: u64,
     /// The share of the pixel's area that is refined: its part of the budget.
     share: f64,
+    /// The pixel's colours, where they have been looked at since its last piece.
+    colors: Option<[[f64; 4]; 3]>,
 }
 
 /// A piece of a pixel.
@@ -135,7 +138,7 @@ impl Refinery {
     /// The colour of a pixel that sees this: lower bounds, upper bounds, estimate.
     pub(super) fn refine(&mut self, pixel: &Pixel, pieces: &mut Pieces, sight: &Sight) -> [[f64; 4]; 3] {
         let mean = self.mean_of(pixel, pieces, sight, 1.0);
-        mean.colors(&pixel.setting.compositor, self.slop)
+        self.colors.unwrap_or_else(|| mean.colors(&pixel.setting.compositor, self.slop))
     }
 
     /// Adds what a part of a pixel that sees this, so much of its area, comes to.
@@ -191,7 +194,8 @@ impl Refinery {
     }
 
     /// Whether what is open of the pixel is within the budget.
-    fn is_enough(&self, setting: &Setting, mean: &PaintMean) -> bool {
+    fn is_enough(&mut self, setting: &Setting, mean: &PaintMean) -> bool {
+        self.colors = None;
         let width = setting.budget.width * self.share;
         let doubt = 2.0 * self.slop;
         // Where the doubt alone is over the budget, the rest is still brought down to it.
@@ -203,7 +207,8 @@ impl Refinery {
             // A part has no colour of its own.
             return true;
         }
-        let [low, high, _] = mean.colors(&setting.compositor, self.slop);
+        let colors @ [low, high, _] = mean.colors(&setting.compositor, self.slop);
+        self.colors = Some(colors);
         doubt >= width || (0..4).all(|c| high[c] - low[c] <= width)
     }
 
@@ -340,7 +345,7 @@ impl Refinery {
         let most = MOST_PARTS << piece.level.min(MOST_LEVEL);
         let mut near = std::mem::take(&mut self.near);
         if near.find(&middle, &plan, most, &mut self.slop) {
-            let states = self.first_states(&middle, &plan, &near);
+            let states = self.first_states(&middle, &plan, &mut near);
             self.settle(pixel, pieces, piece, states, mean);
         } else {
             let paint = pixel.setting.crowd_paint(&ground, points);
@@ -362,7 +367,7 @@ impl Refinery {
     }
 
     /// What a fragment knows of the items near it: those of the parts, and those whose polygon may hold it whole.
-    fn first_states(&mut self, middle: &Middle, plan: &PlanBox, near: &Near) -> (u32, u32) {
+    fn first_states(&mut self, middle: &Middle, plan: &PlanBox, near: &mut Near) -> (u32, u32) {
         let mut fresh = std::mem::take(&mut self.fresh);
         fresh.clear();
         self.shapes.begin_fragment();
@@ -372,16 +377,17 @@ impl Refinery {
         let with_parts = fresh.len();
         for item in near.covering() {
             if fresh[..with_parts].binary_search_by_key(item, |s| s.item).is_err() {
-                let mut state = middle.first_state(*item, Edges::Beyond(plan), (0, 0));
+                let mut state = middle.first_state(*item, Edges::Beyond(plan, None), (0, 0));
                 state.stroke = Known::In;
                 fresh.push(state);
             }
         }
         fresh.sort_unstable_by_key(|state| state.item);
         let count = fresh.len();
-        middle.pixel.setting.footprints.areas_near(plan, |item| {
+        let at = || middle.hit().plan;
+        near.areas(middle.pixel.setting, (plan, &at), |item, holds| {
             if fresh[..count].binary_search_by_key(&item, |s| s.item).is_err() {
-                let mut state = middle.first_state(item, Edges::Beyond(plan), (0, 0));
+                let mut state = middle.first_state(item, Edges::Beyond(plan, holds), (0, 0));
                 state.stroke = if state.stroke == Known::Open { Known::Out } else { state.stroke };
                 fresh.push(state);
             }
@@ -399,21 +405,21 @@ impl Refinery {
     fn shapes_near(&mut self, middle: &Middle, plan: &PlanBox, parts: &[BorderPart], near: &Near) -> State {
         let first = self.lists.len() as u32;
         let item = parts[0].item;
-        let mut edges = Edges::Beyond(plan);
+        let mut edges = Edges::Beyond(plan, None);
         let mut stroke = if near.covering().contains(&item) { Known::In } else { Known::Out };
         self.shapes.begin_item();
         for part in parts {
-            self.primitives.clear();
-            middle.pixel.setting.footprints.primitives(*part, &mut self.primitives);
-            for primitive in &self.primitives {
+            let primitives = self.parts.of(middle.pixel.setting.footprints, *part);
+            for (number, primitive) in primitives.iter().enumerate() {
                 let is_edge = matches!(primitive, Primitive::Edge { .. });
                 if (stroke == Known::In && !is_edge) || primitive.misses(plan) {
                     continue;
                 }
                 let piece = (middle.ground, middle.points);
-                match self.shapes.tell(primitive, near.is_crowd(), piece, &mut self.slop) {
+                let of = (primitive, (*part, number));
+                match self.shapes.tell(of, near.is_crowd(), piece, &mut self.slop) {
                     Told::In => stroke = Known::In,
-                    Told::Out if is_edge && matches!(edges, Edges::Beyond(_)) => edges = Edges::Near,
+                    Told::Out if is_edge && matches!(edges, Edges::Beyond(..)) => edges = Edges::Near,
                     Told::Out => {}
                     Told::Open(index) => {
                         match is_edge {

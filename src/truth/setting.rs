@@ -20,6 +20,9 @@ pub(super) struct Setting<'a> {
     /// Whether items are told below an opaque one too.
     tells_hidden: bool,
     pub(super) footprints: &'a Footprints<'a>,
+    /// Whether the footprints have the edges between any two places that are seen: what is seen of the plan is convex, but for what hides it.
+    /// (A globe's leaves in a view are not.)
+    pub(super) knows_between: bool,
     pub(super) pixel_size: PixelSize,
     pub(super) compositor: Compositor,
     pub(super) mode: BlendMode,
@@ -65,6 +68,7 @@ impl<'a> Setting<'a> {
             budget,
             tells_hidden,
             footprints,
+            knows_between: mesh.heights().is_some(),
             pixel_size,
             compositor,
             mode,

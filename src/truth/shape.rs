@@ -1,7 +1,7 @@
 //! Primitives of footprints as they lie on a pixel: straight ones as lines, round ones by bounds of their distance.
 
 use super::facet::{Facet, Hit};
-use super::form::{Line, Side};
+use super::form::{Form, Line, Side};
 use super::polygon::middle;
 use super::tile_rays::TileRays;
 use crate::footprint::{HalfPlane, MOST_SIDES, PixelSize, Primitive};
@@ -18,6 +18,17 @@ pub(super) enum PixelPrimitive {
     /// A convex part of a stroke; `is_sure` is false for one that may not be there.
     Convex { sides: [Line; MOST_SIDES], count: usize, is_sure: bool },
     /// All within a distance of a segment.
+    Near(Near),
+}
+
+/// A primitive on a triangle: the same for all pixels of a tile that see the triangle.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum FacetPrimitive {
+    /// As [`PixelPrimitive::Edge`]: along it, and at its ends.
+    Edge([Form; 3]),
+    /// As [`PixelPrimitive::Convex`].
+    Convex { sides: [Form; MOST_SIDES], count: usize, is_sure: bool },
+    /// As [`PixelPrimitive::Near`].
     Near(Near),
 }
 
@@ -68,7 +79,17 @@ pub(super) struct PixelGround<'a> {
 impl PixelGround<'_> {
     /// The line on the pixel where the visible points' plan points cross a half plane's border.
     pub(super) fn line(&self, of: &HalfPlane) -> Line {
-        self.facet.half_plane(self.rays, of).plain(self.rays.span).seen_from(self.pixel).line()
+        self.on_pixel(&self.form(of))
+    }
+
+    /// The function whose sign tells on which side of a half plane's border a visible point's plan point lies.
+    fn form(&self, of: &HalfPlane) -> Form {
+        self.facet.half_plane(self.rays, of).plain(self.rays.span)
+    }
+
+    #[inline]
+    fn on_pixel(&self, form: &Form) -> Line {
+        form.seen_from(self.pixel).line()
     }
 
     /// Where a point of the pixel lies in the plan.
@@ -102,30 +123,44 @@ impl PixelGround<'_> {
         if across > down { Line::upright(middle.x) } else { Line::level(middle.y) }
     }
 
-    /// A primitive on the pixel.
-    pub(super) fn shape(&self, of: &Primitive) -> PixelPrimitive {
+    /// A primitive on the triangle.
+    pub(super) fn on_facet(&self, of: &Primitive) -> FacetPrimitive {
+        let convex = |sides: &[HalfPlane], is_sure| {
+            let mut forms = [self.form(&sides[0]); MOST_SIDES];
+            for (form, side) in forms[1..].iter_mut().zip(&sides[1..]) {
+                *form = self.form(side);
+            }
+            FacetPrimitive::Convex { sides: forms, count: sides.len(), is_sure }
+        };
         match of {
-            Primitive::Edge { from, to } => self.edge(*from, *to),
-            Primitive::Convex(shape) => self.convex(shape.sides(), true),
-            Primitive::Perhaps(shape) => self.convex(shape.sides(), false),
+            Primitive::Edge { from, to } => {
+                FacetPrimitive::Edge(Primitive::edge_sides(*from, *to).map(|side| self.form(&side)))
+            }
+            Primitive::Convex(shape) => convex(shape.sides(), true),
+            Primitive::Perhaps(shape) => convex(shape.sides(), false),
             Primitive::Near { from, to, scale, reach, growth } => {
                 let [from, to] = [from, to].map(|p| Plan::from(p.to_vec() * *scale));
-                PixelPrimitive::Near(Near { from, to, scale: *scale, reach: *reach, growth: *growth })
+                FacetPrimitive::Near(Near { from, to, scale: *scale, reach: *reach, growth: *growth })
             }
         }
     }
 
-    fn convex(&self, of: &[HalfPlane], is_sure: bool) -> PixelPrimitive {
-        let mut sides = [self.line(&of[0]); MOST_SIDES];
-        for (line, side) in sides[1..].iter_mut().zip(&of[1..]) {
-            *line = self.line(side);
+    /// A primitive on the pixel.
+    pub(super) fn shape(&self, of: &FacetPrimitive) -> PixelPrimitive {
+        match of {
+            FacetPrimitive::Edge([along, start, end]) => PixelPrimitive::Edge {
+                along: self.on_pixel(along),
+                ends: [self.on_pixel(start), self.on_pixel(end)],
+            },
+            FacetPrimitive::Convex { sides, count, is_sure } => {
+                let mut lines = [self.on_pixel(&sides[0]); MOST_SIDES];
+                for (line, form) in lines[1..*count].iter_mut().zip(&sides[1..]) {
+                    *line = self.on_pixel(form);
+                }
+                PixelPrimitive::Convex { sides: lines, count: *count, is_sure: *is_sure }
+            }
+            FacetPrimitive::Near(near) => PixelPrimitive::Near(*near),
         }
-        PixelPrimitive::Convex { sides, count: of.len(), is_sure }
-    }
-
-    fn edge(&self, from: Plan, to: Plan) -> PixelPrimitive {
-        let [along, start, end] = Primitive::edge_sides(from, to).map(|side| self.line(&side));
-        PixelPrimitive::Edge { along, ends: [start, end] }
     }
 }
 

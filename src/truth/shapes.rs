@@ -1,7 +1,8 @@
 //! The primitives near a pixel's pieces, brought to the pixel: those that consecutive items have alike are brought, and asked, once.
 
+use super::kept::KeptShapes;
 use super::shape::{PixelGround, PixelPrimitive, Verdict};
-use crate::footprint::Primitive;
+use crate::footprint::{BorderPart, Primitive};
 
 /// A pixel's primitives.
 #[derive(Debug, Default)]
@@ -15,6 +16,7 @@ pub(super) struct Shapes {
     before: [Vec<(Primitive, Told)>; 2],
     /// The piece that asks.
     piece: u64,
+    kept: KeptShapes,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -60,10 +62,11 @@ impl Shapes {
         self.piece += 1;
     }
 
-    /// What a fragment is told of an item's next primitive. `asks`: what it surely is in or out of is not kept.
+    /// What a fragment is told of an item's next primitive: of that number among a part's. `asks`: it is one of a crowd, and what the fragment
+    /// surely is in or out of is not kept.
     pub(super) fn tell(
         &mut self,
-        primitive: &Primitive,
+        (primitive, of): (&Primitive, (BorderPart, usize)),
         asks: bool,
         (ground, points): (&PixelGround, &[[f64; 2]]),
         slop: &mut f64,
@@ -78,11 +81,16 @@ impl Shapes {
                 told
             }
             None => {
-                let shape = ground.shape(primitive);
-                match asks.then(|| shape.verdict(ground, points, slop)) {
-                    Some(Verdict::In) => Told::In,
-                    Some(Verdict::Out) => Told::Out,
-                    _ => self.add(shape),
+                if asks {
+                    let shape = ground.shape(&ground.on_facet(primitive));
+                    match shape.verdict(ground, points, slop) {
+                        Verdict::In => Told::In,
+                        Verdict::Out => Told::Out,
+                        _ => self.add(shape),
+                    }
+                } else {
+                    let shape = ground.shape(self.kept.of(ground, of, primitive));
+                    self.add(shape)
                 }
             }
         };
