@@ -499,8 +499,10 @@ fn callers() -> BTreeMap<String, i64> {
     };
     house().files.values().for_each(&mut count);
     for folder in ["benches", "examples"] {
-        for entry in std::fs::read_dir(repository().join(folder)).into_iter().flatten().flatten() {
-            let text = std::fs::read_to_string(entry.path()).unwrap_or_default();
+        let paths =
+            std::fs::read_dir(repository().join(folder)).into_iter().flatten().flatten().map(|e| e.path());
+        for path in paths.filter(|path| path.extension().is_some_and(|end| end == "rs")) {
+            let text = std::fs::read_to_string(path).unwrap();
             count(&Code::of(&["program".into()], &text).unwrap());
         }
     }
