@@ -8,6 +8,9 @@ use glam::DVec2;
 /// Two edges that come nearer than this, in pixels, may be one: rounding says on which side of it the other lies.
 const DOUBT: f64 = 1e-12;
 
+/// Shorter parts, in pixels, have no direction that could be trusted: they touch a corner.
+const SHORT: f64 = 1e-9;
+
 /// A part of an edge from one side of the fragment to another.
 struct Chord<'p> {
     part: &'p Part,
@@ -18,7 +21,8 @@ struct Chord<'p> {
 impl<'p> Chord<'p> {
     fn new(part: &'p Part) -> Option<Self> {
         let (enters, leaves) = (part.enters? as usize, part.leaves? as usize);
-        (enters != leaves).then_some(Self { part, enters, leaves })
+        let is_long = part.from.distance_squared(part.to) > SHORT * SHORT;
+        (enters != leaves && is_long).then_some(Self { part, enters, leaves })
     }
 
     fn has_on_its_left(&self, at: DVec2) -> bool {
