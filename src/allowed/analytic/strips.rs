@@ -98,9 +98,8 @@ impl Strips {
     /// All of a square may be anything that may be seen there.
     pub(super) fn open(&mut self, square: usize) {
         let Contrast { all, area, .. } = self.contrasts[square];
-        for c in 0..4 {
-            self.of_squares[square][c] += all[c] * area;
-            self.sum[c] += all[c] * area;
+        for sum in [&mut self.of_squares[square], &mut self.sum] {
+            sum.iter_mut().zip(all).for_each(|(sum, of)| *sum += of * area);
         }
     }
 
