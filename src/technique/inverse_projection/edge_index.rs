@@ -264,7 +264,7 @@ impl<'l> EdgeIndex<'l> {
                 self.take_near(self.members_of(column, row), bounds, found);
             }
         }
-        found.retain(|&edge| !passes_by(self.edge(edge), bounds));
+        found.retain(|&edge| !self.edge(edge).passes_by(bounds));
         found.sort_unstable();
         found.dedup();
         true
@@ -575,25 +575,6 @@ fn turns_straight(edge: &Edge, from: Plan, to: Plan) -> i32 {
         if side != 0.0 { side > 0.0 } else { moves_off }
     };
     if is_left_of_way(edge.a) == is_left_of_way(edge.b) { 0 } else { turns }
-}
-
-/// Whether a rectangle surely lies on one side of an edge's line.
-#[inline]
-fn passes_by(edge: &Edge, bounds: &PlanBox) -> bool {
-    let along = edge.b - edge.a;
-    // The corners farthest to the line's left and to its right.
-    let (x, y) = (
-        if along.y > 0.0 { (bounds.min.x, bounds.max.x) } else { (bounds.max.x, bounds.min.x) },
-        if along.x > 0.0 { (bounds.max.y, bounds.min.y) } else { (bounds.min.y, bounds.max.y) },
-    );
-    // How far to the left a corner lies, times the edge's length, and what that may be off: three roundings of each product, and one more.
-    let side = |corner: Plan| {
-        let to = corner - edge.a;
-        let (p, q) = (along.x * to.y, along.y * to.x);
-        (p - q, 4.0 * f64::EPSILON * (p.abs() + q.abs()))
-    };
-    let ((left, left_error), (right, right_error)) = (side(Plan::new(x.0, y.0)), side(Plan::new(x.1, y.1)));
-    left < -left_error || right > right_error
 }
 
 /// Where the grid lies and how fine it is.

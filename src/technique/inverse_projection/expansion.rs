@@ -6,7 +6,7 @@
 
 use crate::draw_list::{Chain, DrawList, Item, Role};
 use crate::scene::{Cap, Line, Width};
-use crate::space::{Plan, disc_corners};
+use crate::space::{Plan, PlanBox, disc_corners};
 use glam::DVec2;
 use std::fmt;
 
@@ -59,6 +59,28 @@ pub struct Edge {
     pub area: AreaId,
     /// Whether the edge's normal (pointing out of the area) is on its left.
     pub outside_is_left: bool,
+}
+
+impl Edge {
+    /// Whether a rectangle surely lies on one side of its line.
+    #[inline]
+    pub fn passes_by(&self, bounds: &PlanBox) -> bool {
+        let along = self.b - self.a;
+        // The corners farthest to the line's left and to its right.
+        let (x, y) = (
+            if along.y > 0.0 { (bounds.min.x, bounds.max.x) } else { (bounds.max.x, bounds.min.x) },
+            if along.x > 0.0 { (bounds.max.y, bounds.min.y) } else { (bounds.min.y, bounds.max.y) },
+        );
+        // How far to the left a corner lies, times the edge's length, and what that may be off: three roundings of each product, and one more.
+        let side = |corner: Plan| {
+            let to = corner - self.a;
+            let (p, q) = (along.x * to.y, along.y * to.x);
+            (p - q, 4.0 * f64::EPSILON * (p.abs() + q.abs()))
+        };
+        let ((left, left_error), (right, right_error)) =
+            (side(Plan::new(x.0, y.0)), side(Plan::new(x.1, y.1)));
+        left < -left_error || right > right_error
+    }
 }
 
 /// Where a miter would reach farther than this many half-widths, the corner is cut off (the paper is silent on
@@ -188,7 +210,6 @@ fn side_chain(points: &[Plan], half: f64, is_closed: bool) -> Vec<Plan> {
 mod tests {
     use super::*;
     use crate::scene::{Color, Feature, Join, Layer, Shape, Style};
-    use crate::space::PlanBox;
 
     fn expanded(points: &[(f64, f64)], cap: Cap) -> Vec<Edge> {
         let line = Line { color: Color([1.0; 4]), width: Width::Metres(2.0), join: Join::Bevel, cap };

@@ -289,7 +289,7 @@ impl<'a> PixelPainter<'a> {
         }
         lists.near.retain(|&e| {
             let edge = self.index.edge(e);
-            quad.meets(bounds, edge.a, edge.b)
+            !edge.passes_by(bounds) && quad.meets(bounds, edge.a, edge.b)
         });
     }
 

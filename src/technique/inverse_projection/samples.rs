@@ -121,7 +121,10 @@ impl pulp::WithSimd for Judge<'_> {
     fn with_simd<S: pulp::Simd>(self, _: S) {
         let Self { places, quad, parts, near, words } = self;
         for (u, v) in places.u.iter().zip(&places.v) {
-            let samples: [Plan; LANES] = std::array::from_fn(|lane| quad.sample(u[lane], v[lane]));
+            let mut samples = [Plan::default(); LANES];
+            for ((sample, u), v) in samples.iter_mut().zip(u).zip(v) {
+                *sample = quad.sample(*u, *v);
+            }
             let mut word = [0; LANES];
             for (bit, part) in parts.iter().enumerate() {
                 let flags = flags(&samples, &near[part.near.clone()]);
