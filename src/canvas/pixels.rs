@@ -63,6 +63,12 @@ impl Pixels {
         self.add(code, paint);
     }
 
+    /// Adds neighbours that show the same ground or the sky alone.
+    pub fn push_grounds(&mut self, paint: Paint, count: usize) {
+        let code = self.ground.code_of(&self.compositor, paint);
+        (0..count).for_each(|_| self.add(code, paint));
+    }
+
     #[inline(always)]
     fn add(&mut self, code: [u8; 4], paint: Paint) {
         self.codes.push(code);

@@ -127,16 +127,22 @@ fn pixels<R: Record<Step>>(tile: &mut Tile<R>, wants_colors: bool) -> Pixels {
     let mut pixels = Pixels::new(context.backdrop.compositor, width * height, wants_colors);
     let mut last = context.backdrop.no_ground();
     for y in 0..height {
-        for x in 0..width {
-            if n > 1 {
+        let mut x = 0;
+        while x < width {
+            let (paint, is_painted) = if n > 1 {
                 let paint = mean(n, |c, r| sample(tile, (x * n + c, y * n + r), &mut last).0);
                 tile.record.step(|| Step::Mean(paint));
+                (paint, true)
+            } else {
+                sample(tile, (x, y), &mut last)
+            };
+            if is_painted {
                 pixels.push(paint);
-                continue;
-            }
-            match sample(tile, (x, y), &mut last) {
-                (paint, true) => pixels.push(paint),
-                (paint, false) => pixels.push_ground(paint),
+                x += 1;
+            } else {
+                let bare = tile.bare_samples(x, y).max(1);
+                pixels.push_grounds(paint, bare);
+                x += bare;
             }
         }
     }

@@ -146,6 +146,19 @@ impl<'a, R> Tile<'a, R> {
         self.painted[block].get(at).copied().flatten()
     }
 
+    /// How many samples of a row, from one on, surely show the same triangle's ground and nothing else; 0 where that is not known.
+    pub fn bare_samples(&self, column: usize, row: usize) -> usize {
+        let (block, at) = self.index(column, row);
+        if !self.painted[block].is_empty() || !self.context.backdrop.is_constant_on_triangles() {
+            return 0;
+        }
+        let columns = self.context.sight.lattice().columns;
+        let first = (self.view.row + row) * columns + self.view.column + column;
+        let count = (COLUMNS - at % COLUMNS).min(self.view.width - column);
+        let triangles = &self.context.sight.triangles()[first..first + count];
+        triangles.iter().take_while(|triangle| **triangle == triangles[0]).count()
+    }
+
     /// Block, and sample in it, of the tile's sample (column, row).
     #[inline(always)]
     pub fn index(&self, column: usize, row: usize) -> (usize, usize) {
