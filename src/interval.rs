@@ -48,6 +48,27 @@ impl Ball {
         if radius < f64::INFINITY && mid.is_finite() { Self { mid, radius } } else { Self::ANY }
     }
 
+    /// As the sum that [`Add`] gives, unless it is not known: then what is made of it has to be asked by [`Self::known`].
+    #[inline(always)]
+    fn plus(self, other: Self) -> Self {
+        let mid = self.mid + other.mid;
+        Self { mid, radius: (self.radius + other.radius + U * mid.abs()) * WIDEN }
+    }
+
+    /// As [`Self::plus`], of the product.
+    #[inline(always)]
+    fn by(self, other: Self) -> Self {
+        let mid = self.mid * other.mid;
+        let spread = self.mid.abs() * other.radius + self.radius * (other.mid.abs() + other.radius);
+        Self { mid, radius: (spread + U * mid.abs() + UNDERFLOW) * WIDEN }
+    }
+
+    /// Anything, where a middle or a radius on the way has left the finite numbers: sums and products of it have, too.
+    #[inline(always)]
+    fn known(self) -> Self {
+        if self.radius < f64::INFINITY && self.mid.is_finite() { self } else { Self::ANY }
+    }
+
     /// The smallest number in it, or a little less.
     #[inline(always)]
     pub fn low(self) -> f64 {
@@ -107,8 +128,7 @@ impl Add for Ball {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
-        let mid = self.mid + other.mid;
-        Self::rounded(mid, self.radius + other.radius + U * mid.abs())
+        self.plus(other).known()
     }
 }
 
@@ -132,9 +152,7 @@ impl Mul for Ball {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        let mid = self.mid * other.mid;
-        let spread = self.mid.abs() * other.radius + self.radius * (other.mid.abs() + other.radius);
-        Self::rounded(mid, spread + U * mid.abs() + UNDERFLOW)
+        self.by(other).known()
     }
 }
 
@@ -179,16 +197,17 @@ impl BallVec {
     /// The dot product.
     #[inline(always)]
     pub fn dot(self, other: Self) -> Ball {
-        self.x * other.x + self.y * other.y + self.z * other.z
+        self.x.by(other.x).plus(self.y.by(other.y)).plus(self.z.by(other.z)).known()
     }
 
     /// The cross product.
     #[inline(always)]
     pub fn cross(self, other: Self) -> Self {
+        let minus = |a: Ball, b: Ball, c: Ball, d: Ball| a.by(b).plus(-c.by(d)).known();
         Self {
-            x: self.y * other.z - self.z * other.y,
-            y: self.z * other.x - self.x * other.z,
-            z: self.x * other.y - self.y * other.x,
+            x: minus(self.y, other.z, self.z, other.y),
+            y: minus(self.z, other.x, self.x, other.z),
+            z: minus(self.x, other.y, self.y, other.x),
         }
     }
 
@@ -255,6 +274,36 @@ mod tests {
             let root = Ball::exact(a).squared().sqrt();
             prop_assert!(root.low() <= a && a <= root.high());
             prop_assert!(root.radius <= 1e-15 * a + 1e-150);
+        }
+    }
+
+    #[test]
+    fn products_of_vectors_that_leave_the_finite_numbers_on_the_way_are_anything() {
+        let vector = |x, y, z| BallVec { x: Ball::exact(x), y: Ball::exact(y), z: Ball::exact(z) };
+        let (huge, tiny) = (vector(1e200, 1e200, 2.0), vector(1e200, -1e200, 3.0));
+        assert_eq!(huge.dot(tiny), Ball::ANY, "of the two infinities nothing is left");
+        let BallVec { x, y, z } = huge.cross(tiny);
+        assert_eq!(z, Ball::ANY);
+        assert!(x != Ball::ANY && y != Ball::ANY);
+        let open = BallVec { x: Ball::ANY, ..vector(0.0, 1.0, 2.0) };
+        assert_eq!(open.dot(vector(0.0, 1.0, 1.0)), Ball::ANY);
+        assert_eq!((open.x + Ball::ZERO, Ball::ZERO * open.x), (Ball::ANY, Ball::ANY));
+    }
+
+    proptest! {
+        #[test]
+        fn products_of_vectors_hold_the_exact_ones(
+            a in prop::array::uniform3(double()),
+            b in prop::array::uniform3(double()),
+        ) {
+            let vector = |v: [f64; 3]| BallVec::exact(DVec3::from_array(v));
+            let (p, q) = (a.map(rational), b.map(rational));
+            let exact = |i: usize, j: usize| p[i].clone() * q[j].clone();
+            prop_assert!(holds(vector(a).dot(vector(b)), &(exact(0, 0) + exact(1, 1) + exact(2, 2))));
+            let BallVec { x, y, z } = vector(a).cross(vector(b));
+            prop_assert!(holds(x, &(exact(1, 2) - exact(2, 1))));
+            prop_assert!(holds(y, &(exact(2, 0) - exact(0, 2))));
+            prop_assert!(holds(z, &(exact(0, 1) - exact(1, 0))));
         }
     }
 
