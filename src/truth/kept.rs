@@ -4,7 +4,7 @@ use super::shape::{FacetPrimitive, PixelGround};
 use crate::footprint::{BorderPart, Footprints, Primitive};
 
 /// Places for parts, and for primitives on triangles: powers of two. What comes later to a place takes it.
-const PARTS: usize = 128;
+const PARTS: usize = 512;
 const SHAPES: usize = 512;
 
 /// What parts are made of.

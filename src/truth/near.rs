@@ -1,6 +1,7 @@
 //! The parts of items' borders that are near a fragment; of a crowd of one item's those are left out that cannot matter.
 
 use super::around::Around;
+use super::kept::KeptParts;
 use super::knowledge::Middle;
 use super::setting::Setting;
 use super::shape::{Verdict, distance};
@@ -44,17 +45,18 @@ impl Near {
 
     /// Finds the parts near a fragment that sees this box of the plan. Returns false where there are more than `most`. `slop` grows by
     /// what is doubtful.
-    pub(super) fn find(&mut self, middle: &Middle, plan: &PlanBox, most: usize, slop: &mut f64) -> bool {
+    pub(super) fn find(
+        &mut self,
+        (middle, plan): (&Middle, &PlanBox),
+        most: usize,
+        (kept, slop): (&mut KeptParts, &mut f64),
+    ) -> bool {
         self.covering.clear();
         self.parts.clear();
-        if self.around.parts(middle.pixel.setting.footprints, (plan, most), &mut self.parts) {
-            self.parts.sort_unstable();
-            self.parts.dedup();
-            return true;
-        }
         // Boxes of long parts meet much that they are far from.
-        let is_all =
-            self.collect(middle, plan, (most, false), slop) || self.collect(middle, plan, (most, true), slop);
+        let is_all = self.around.parts(middle.pixel.setting.footprints, (plan, most), &mut self.parts)
+            || self.collect(middle, plan, (most, false), (kept, slop))
+            || self.collect(middle, plan, (most, true), (kept, slop));
         if is_all {
             self.parts.sort_unstable();
             self.parts.dedup();
@@ -79,16 +81,15 @@ impl Near {
         middle: &Middle,
         plan: &PlanBox,
         (most, is_strict): (usize, bool),
-        slop: &mut f64,
+        (kept, slop): (&mut KeptParts, &mut f64),
     ) -> bool {
         let footprints = middle.pixel.setting.footprints;
         let mut limit = most;
         self.parts.clear();
+        let mut misses = |part| kept.of(footprints, part).iter().all(|primitive| primitive.misses(plan));
         footprints.parts_near(plan, |part| {
             let is_stroke = || footprints.edge(part).is_none();
-            if (self.covering.contains(&part.item) && is_stroke())
-                || (is_strict && footprints.misses(part, plan, &mut self.primitives))
-            {
+            if (self.covering.contains(&part.item) && is_stroke()) || (is_strict && misses(part)) {
                 return true;
             }
             self.parts.push(part);

@@ -34,7 +34,10 @@ pub(super) struct Refinery {
     /// Indices into `shapes`, a run for each state.
     lists: Vec<u32>,
     states: Vec<State>,
-    heap: BinaryHeap<FragmentPiece>,
+    /// The pieces of which something is open, and those that have been cut since.
+    open: Vec<FragmentPiece>,
+    /// Which of them is to be cut next.
+    heap: BinaryHeap<Rank>,
     near: Near,
     parts: KeptParts,
     fresh: Vec<State>,
@@ -49,6 +52,8 @@ pub(super) struct Refinery {
     count: u64,
     /// The share of the pixel's area that is refined: its part of the budget.
     share: f64,
+    /// The paint of the triangle that was settled last, where it is the same on all of the triangle.
+    bare: Option<(u32, PaintRange)>,
     /// The pixel's colours, where they have been looked at since its last piece.
     colors: Option<[[f64; 4]; 3]>,
 }
@@ -93,8 +98,6 @@ struct FragmentPiece {
     shape: Polygon,
     facet: u32,
     area: f64,
-    /// What is unknown of it: its area times the widest channel.
-    weight: f64,
     paint: PaintRange,
     /// Its items, in `states`; `None`: too many to have been looked at.
     states: Option<(u32, u32)>,
@@ -104,35 +107,43 @@ struct FragmentPiece {
     level: u32,
     /// Whether it may lie in or out of some item; kept only where coverage is asked for.
     is_open: bool,
-    /// Breaks ties, so that the order is always the same.
-    number: u64,
 }
 
 impl FragmentPiece {
     fn new(fragment: &Fragment, area: f64) -> Self {
         let (shape, facet) = (fragment.shape, fragment.facet);
         let paint = PaintRange::ANY;
-        let (weight, level, number) = (0.0, 0, 0);
-        Self { shape, facet, area, weight, paint, states: None, cut: None, level, is_open: false, number }
+        Self { shape, facet, area, paint, states: None, cut: None, level: 0, is_open: false }
     }
 }
 
-impl Ord for FragmentPiece {
+/// An open piece's place in the order of work.
+#[derive(Debug, Clone, Copy)]
+struct Rank {
+    /// What is unknown of it: its area times the widest channel.
+    weight: f64,
+    /// Breaks ties, so that the order is always the same.
+    number: u64,
+    /// Its place among the open ones.
+    place: u32,
+}
+
+impl Ord for Rank {
     fn cmp(&self, other: &Self) -> Ordering {
         self.weight.total_cmp(&other.weight).then(other.number.cmp(&self.number))
     }
 }
-impl PartialOrd for FragmentPiece {
+impl PartialOrd for Rank {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
-impl PartialEq for FragmentPiece {
+impl PartialEq for Rank {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other) == Ordering::Equal
     }
 }
-impl Eq for FragmentPiece {}
+impl Eq for Rank {}
 
 impl Refinery {
     /// The colour of a pixel that sees this: lower bounds, upper bounds, estimate.
@@ -185,7 +196,8 @@ impl Refinery {
             self.look(pixel, pieces, FragmentPiece::new(fragment, pieces.area(fragment.shape)), &mut mean);
         }
         while !self.is_enough(pixel.setting, &mean) && self.count < most {
-            let Some(piece) = self.heap.pop() else { break };
+            let Some(first) = self.heap.pop() else { break };
+            let piece = self.open[first.place as usize];
             self.open_area -= if piece.is_open { piece.area } else { 0.0 };
             self.halve(pixel, pieces, piece, &mut mean);
         }
@@ -220,7 +232,7 @@ impl Refinery {
     /// The same piece by piece.
     fn counted(&self) -> PixelCoverage {
         let mut all = PixelCoverage { items: Vec::new(), others: self.slop };
-        for piece in self.closed.iter().chain(&self.heap) {
+        for piece in self.all() {
             let Some((first, count)) = piece.states else {
                 all.others += piece.area;
                 continue;
@@ -248,7 +260,7 @@ impl Refinery {
             sample.add(Outcome::of_sky(PaintRange::exact(pixel.setting.sky)));
         }
         let corners = polygon::corners(square);
-        for piece in self.closed.iter().chain(&self.heap) {
+        for piece in self.all() {
             let mut outcome = self.outcome_of(pixel, pieces, piece);
             let on_plane = depths(&pixel.ground(piece.facet), &corners);
             // A plane may pass the eye beside the triangle.
@@ -283,7 +295,7 @@ impl Refinery {
             shape: *sky,
             outcome: Some(Outcome::of_sky(PaintRange::exact(pixel.setting.sky))),
         };
-        let ground = self.closed.iter().chain(&self.heap).map(of_piece);
+        let ground = self.all().map(of_piece);
         ground.chain(sight.sky.iter().map(of_sky)).collect()
     }
 
@@ -294,7 +306,7 @@ impl Refinery {
             Known::Open => (state.item, None),
             known => (state.item, Some(known == Known::In)),
         };
-        let known = self.closed.iter().chain(&self.heap).filter_map(|piece| {
+        let known = self.all().filter_map(|piece| {
             let (first, count) = piece.states?;
             let states = &self.states[first as usize..(first + count) as usize];
             Some((piece.shape, piece.facet, states.iter().map(told).collect()))
@@ -306,9 +318,15 @@ impl Refinery {
         self.shapes.clear();
         self.lists.clear();
         self.states.clear();
+        self.open.clear();
         self.heap.clear();
         self.closed.clear();
         (self.slop, self.count, self.open_area) = (slop, 0, 0.0);
+    }
+
+    /// The pixel's pieces as they are.
+    fn all(&self) -> impl Iterator<Item = &FragmentPiece> {
+        self.closed.iter().chain(self.heap.iter().map(|rank| &self.open[rank.place as usize]))
     }
 
     /// Cuts a piece in two.
@@ -344,7 +362,7 @@ impl Refinery {
         let middle = Middle::new(pixel, &ground, points);
         let most = MOST_PARTS << piece.level.min(MOST_LEVEL);
         let mut near = std::mem::take(&mut self.near);
-        if near.find(&middle, &plan, most, &mut self.slop) {
+        if near.find((&middle, &plan), most, (&mut self.parts, &mut self.slop)) {
             let states = self.first_states(&middle, &plan, &mut near);
             self.settle(pixel, pieces, piece, states, mean);
         } else {
@@ -478,13 +496,31 @@ impl Refinery {
         piece.states = Some((start, self.states.len() as u32 - start));
         let (base, ground_cut) = match is_hidden {
             true => (PaintRange::exact(Paint::CLEAR), None),
-            false => pixel.setting.ground_paint(&ground, points, &mut self.slop),
+            false => self.ground_paint(pixel.setting, &ground, points),
         };
         let settled = &self.states[start as usize..];
         piece.is_open = settled.iter().any(|state| state.known() == Known::Open);
         piece.paint = composed(pixel.setting, base, settled);
         piece.cut = cut.or(ground_cut);
         self.keep(pixel.setting, piece, mean);
+    }
+
+    /// The terrain's own paint on a piece, and where to cut it to know more.
+    fn ground_paint(
+        &mut self,
+        setting: &Setting,
+        ground: &PixelGround,
+        points: &[[f64; 2]],
+    ) -> (PaintRange, Option<Line>) {
+        let triangle = ground.facet.id;
+        match self.bare {
+            Some((before, paint)) if before == triangle => (paint, None),
+            _ => {
+                let (paint, cut) = setting.ground_paint(ground, points, &mut self.slop);
+                self.bare = (!setting.has_texels()).then_some((triangle, paint));
+                (paint, cut)
+            }
+        }
     }
 
     /// Brings what a piece knows of one item up to date; returns where to cut to learn more.
@@ -551,10 +587,11 @@ impl Refinery {
         mean.add(&piece.paint, piece.area);
         piece.is_open &= setting.budget.coverage;
         let width = if piece.is_open { 1.0 } else { piece.paint.width() };
-        (piece.weight, piece.number) = (piece.area * width, self.count);
         if width > 0.0 {
             self.open_area += if piece.is_open { piece.area } else { 0.0 };
-            self.heap.push(piece);
+            let place = self.open.len() as u32;
+            self.heap.push(Rank { weight: piece.area * width, number: self.count, place });
+            self.open.push(piece);
         } else if setting.budget.coverage {
             self.closed.push(piece);
         }

@@ -109,6 +109,11 @@ impl<'a> Setting<'a> {
         self.crowd.map_or(base, |crowd| base.under_any_of(&crowd, self.mode))
     }
 
+    /// Whether the terrain's own paint differs within a triangle.
+    pub(super) fn has_texels(&self) -> bool {
+        self.texels.is_some()
+    }
+
     /// The terrain's own paint on a piece, and where to cut it to know more. `slop` grows by what is doubtful.
     pub(super) fn ground_paint(
         &self,
