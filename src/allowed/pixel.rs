@@ -170,8 +170,8 @@ pub(super) fn widened([low, high]: ColorRange, slack: f64) -> ColorRange {
     range
 }
 
-/// An alpha that no code value tells from that of what is opaque.
-const OPAQUE: f64 = 1.0 - 1e-9;
+/// From here on an alpha rounds to the code value of what is opaque.
+const OPAQUE: f64 = 1.0 - 0.5 / 255.0;
 
 fn items_of(samples: &[Sample]) -> Vec<u32> {
     let outcomes = samples.iter().flat_map(|sample| &sample.outcomes);
