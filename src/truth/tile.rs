@@ -421,11 +421,16 @@ impl<'a> Work<'a> {
 
     /// Appends the facets of a leaf that may cover some of a square.
     fn open_leaf(&mut self, leaf: usize, (corner, side): ([f64; 2], f64)) {
-        let first = self.facets.len();
-        let (mesh, rays, out) = (self.mesh, &self.rays, &mut self.facets);
+        let (mesh, rays, facets, boxes) = (self.mesh, &self.rays, &mut self.facets, &mut self.boxes);
+        let square = Reach::of_square(corner, side);
         let mut offer = |id: u32| {
-            let facet = mesh.surface_triangle(id).and_then(|triangle| Facet::new(rays, id, &triangle));
-            out.extend(facet.filter(|facet| may_cover(facet, corner, side)));
+            // A leaf is seen in several tiles: most of its triangles elsewhere than here.
+            let near = mesh.surface_triangle(id).map(|triangle| (triangle, Reach::of(&triangle.world, rays)));
+            let Some((triangle, reach)) = near.filter(|(_, reach)| reach.meets(&square)) else { return };
+            if let Some(facet) = Facet::new(rays, id, &triangle).filter(|f| may_cover(f, corner, side)) {
+                facets.push(facet);
+                boxes.push(reach);
+            }
         };
         let node = self.leaves[leaf].node;
         match mesh.leaf(node) {
@@ -439,8 +444,6 @@ impl<'a> Work<'a> {
             }
             terrain::Leaf::Triangles(ids) => ids.for_each(offer),
         }
-        let fresh = &self.facets[first..];
-        self.boxes.extend(fresh.iter().map(|facet| Reach::of(&facet.corners, &self.rays)));
     }
 
     /// Does those open pixels of a square of a block that these facets cover.
