@@ -143,6 +143,12 @@ impl Sorted {
     }
 }
 
+/// The bits of the first of sixteen lanes: the others hold no triangle, whatever was computed of them.
+#[inline(always)]
+fn first_lanes(count: usize) -> u32 {
+    (1 << count.min(LANES)) - 1
+}
+
 /// The places of the bits that are set, from the lowest on.
 #[inline(always)]
 fn lanes_of(mut bits: u32) -> impl Iterator<Item = usize> {
@@ -239,24 +245,25 @@ impl Patch {
             }
             let mut corners = [Points::NONE; 3];
             pictures.each((first, LANES), |lane, corner, picture| corners[corner].set(lane, picture));
-            arch.dispatch(DrawSixteen { patch: self, tile, corners: &corners, start });
+            let ids = start..ids.end.min(start + LANES as u32);
+            arch.dispatch(DrawSixteen { patch: self, tile, corners: &corners, ids });
         }
     }
 
-    /// Draws sixteen triangles, whose numbers are `step` apart.
+    /// Draws the first `count` of sixteen triangles, whose numbers are `step` apart.
     #[inline(always)]
     fn draw_sixteen(
         &self,
         tile: &mut Tile,
         corners: &[Sixteen; 3],
-        (first, step): (u32, u32),
+        (first, step, count): (u32, u32, usize),
         sorted: &mut Sorted,
     ) {
         if !self.sort(&tile.view, corners, sorted) {
             return;
         }
         let [one, doubtful, several] =
-            [COVERS_ONE, DOUBTFUL_ONE, SEVERAL].map(|state| sorted.of_state(state));
+            [COVERS_ONE, DOUBTFUL_ONE, SEVERAL].map(|state| sorted.of_state(state) & first_lanes(count));
         tile.counts.triangles += u64::from((one | doubtful | several).count_ones());
         let id = |lane: usize| first + step * lane as u32;
         let sample = |lane: usize| (sorted.column[lane] as usize, sorted.row[lane] as usize);
@@ -529,7 +536,7 @@ impl pulp::WithSimd for DrawGrid<'_, '_, '_, '_> {
                 }
             };
             for (half, corners) in (0..).zip(&halves) {
-                patch.draw_sixteen(tile, corners, (first + half, 2), &mut sorted);
+                patch.draw_sixteen(tile, corners, (first + half, 2, columns.len()), &mut sorted);
             }
         }
     }
@@ -540,7 +547,7 @@ struct DrawSixteen<'p, 'a, 't> {
     patch: &'p Patch,
     tile: &'t mut Tile<'a>,
     corners: &'p [Points; 3],
-    start: u32,
+    ids: std::ops::Range<u32>,
 }
 
 impl pulp::WithSimd for DrawSixteen<'_, '_, '_> {
@@ -548,9 +555,9 @@ impl pulp::WithSimd for DrawSixteen<'_, '_, '_> {
 
     #[inline(always)]
     fn with_simd<S: pulp::Simd>(self, _: S) {
-        let Self { patch, tile, corners, start } = self;
+        let Self { patch, tile, corners, ids } = self;
         let corners = corners.each_ref().map(|points| points.from::<0>());
-        patch.draw_sixteen(tile, &corners, (start, 1), &mut Sorted { ..Sorted::NOTHING });
+        patch.draw_sixteen(tile, &corners, (ids.start, 1, ids.len()), &mut Sorted { ..Sorted::NOTHING });
     }
 }
 
