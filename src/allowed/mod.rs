@@ -20,6 +20,7 @@ mod model;
 mod picture;
 mod pixel;
 mod polygon;
+mod premultiplied;
 mod sampled;
 mod stages;
 mod static_decal;
@@ -64,6 +65,8 @@ pub fn allowed(
         let coarse: Vec<Hypothesis> = hypotheses.iter().map(|of| encoded_by_tables(of, by)).collect();
         hypotheses.extend(coarse);
     }
+    let premultiplied: Vec<Hypothesis> = hypotheses.iter().filter_map(premultiplied::premultiplied).collect();
+    hypotheses.extend(premultiplied);
     let (width, height) = (frame.width(), frame.height());
     Ok(Allowed { width, height, hypotheses, stages, features, alternatives: Vec::new() })
 }

@@ -155,23 +155,9 @@ fn roundings(samples: &[Sample], list: &DrawList, of_a_blend: f64) -> f64 {
     most + f64::from(u8::from(samples.len() > 1))
 }
 
-/// Colours that are off by so much as they stand in a target. Where that is translucent it may hold premultiplied paint: dividing by an alpha, which is off as
-/// well, makes more of both, and is rounded once more.
 pub(super) fn widened([low, high]: ColorRange, slack: f64) -> ColorRange {
-    let of_colors = match low[3] {
-        alpha if alpha > OPAQUE => slack,
-        // Any colour.
-        alpha if alpha <= 2.0 * slack => 1.0,
-        alpha => 2.0 * slack / (alpha - slack) + BLEND,
-    };
-    let mut range = [low.map(|v| v - of_colors), high.map(|v| v + of_colors)];
-    range[0][3] = low[3] - slack;
-    range[1][3] = high[3] + slack;
-    range
+    [low.map(|v| v - slack), high.map(|v| v + slack)]
 }
-
-/// From here on an alpha rounds to the code value of what is opaque.
-const OPAQUE: f64 = 1.0 - 0.5 / 255.0;
 
 fn items_of(samples: &[Sample]) -> Vec<u32> {
     let outcomes = samples.iter().flat_map(|sample| &sample.outcomes);
