@@ -12,7 +12,7 @@ use crate::certainty::Known;
 use crate::footprint::{Footprints, HalfPlane, Primitive};
 use crate::math;
 use crate::scene::Imagery;
-use crate::space::{PlanBox, ViewFrame};
+use crate::space::{Lens, PlanBox, ViewFrame};
 use crate::terrain::{Mesh, SKY, SurfaceTriangle};
 use crate::truth::Sample;
 use glam::DVec2;
@@ -26,6 +26,12 @@ const CROWD: usize = 512;
 
 /// Parts of edges that a round border may have in a square.
 const CHORDS: f64 = 32.0;
+
+/// A width that may bend by so much of a pixel is not surely taken as linear: a quarter of what the technique puts up with.
+const BENT: f64 = 1.0 / 1024.0;
+
+/// Half widths that may grow faster with the distance are not either.
+const STEEP: f64 = 0.25;
 
 /// A part of a pixel: a square of the screen, and what a sample anywhere in it may see.
 #[derive(Clone, Copy)]
@@ -277,6 +283,17 @@ impl Counter<'_> {
         }
     }
 
+    /// Whether a width in pixels, taken as linear in what a pixel has of a triangle, may be off by more than programs put up with.
+    fn bends(&self, round: &Round, of: &Seen, plane: &Plane) -> bool {
+        let Lens::Central { pixel } = self.frame.lens() else { return false };
+        let across = (of.plan.max - of.plan.min).length();
+        let middle = plane.see(of.plan.min + (of.plan.max - of.plan.min) * 0.5);
+        // A distance has second derivatives of at most its reciprocal, and a pixel is at least so wide at it.
+        let nearest = math::max((middle - self.frame.eye()).length() - across, self.frame.near());
+        let bend = round.growth * across * across / (8.0 * nearest);
+        bend > BENT * nearest * pixel || round.growth > STEEP
+    }
+
     /// Counts a round border.
     fn add_round(
         &self,
@@ -291,7 +308,8 @@ impl Counter<'_> {
         };
         let border = |plan: &PlanBox, shape: &[DVec2]| round.border((self.frame, plane), plan, shape, of.off);
         let Some((whole, off)) = border(&of.plan, &of.shape) else { return };
-        all.edges += CHORDS;
+        // Where a width in pixels bends, a program samples the pixel.
+        all.edges += if self.bends(round, of, plane) { f64::INFINITY } else { CHORDS };
         let parts: Vec<(usize, f64)> = (places.iter())
             .filter_map(|(square, plan)| Some((*square, border(plan, &of.shapes[*square])?.0)))
             .collect();
