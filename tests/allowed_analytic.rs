@@ -34,8 +34,8 @@ fn what_right_programs_draw_is_allowed_and_what_bugs_draw_is_not() {
     let all = allowed_of(Kind::Analytic, &stage(&lake(), &SMALL));
     let image = |text: &str| frame_of(Kind::Analytic, &stage(text, &SMALL), &[]).image;
     assert_eq!(best(&all, &image(&lake())), 0);
-    // A centimetre is a thousandth of a pixel here.
-    let moved = changed(CAMERA, "eye = [40.01, -420, 260], target = [0.01, 0, 40]");
+    // A tenth of a millimetre is four roundings of the eye's coordinates, and a hundred-thousandth of a pixel.
+    let moved = changed(CAMERA, "eye = [40.0001, -420, 260], target = [0.0001, 0, 40]");
     assert_eq!(best(&all, &image(&moved)), 0);
     let bugs = [
         ("wider by a twentieth", "width_m = 40", "width_m = 42"),
