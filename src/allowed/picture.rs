@@ -47,7 +47,7 @@ pub(super) fn feature_runs(pixels: &Buffer<PixelRange>, list: &DrawList) -> Vec<
 }
 
 /// The largest code of 16 bits.
-const CODES: f64 = 65535.0;
+pub(super) const CODES: f64 = 65535.0;
 
 /// A hair of a code, for the rounding of what is computed here.
 const HAIR: f64 = 1e-6;

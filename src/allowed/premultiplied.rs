@@ -1,11 +1,9 @@
 //! What a target of premultiplied codes adds to what a picture with translucent pixels may be.
 
+use super::picture::CODES;
 use super::pixel::BLEND;
 use crate::compare::Hypothesis;
 use crate::math;
-
-/// The largest code of 16 bits.
-const CODES: f64 = 65535.0;
 
 /// An alpha that reaches what is opaque, and is no less than this share of it, is that of an opaque pixel, rounded some times.
 const OPAQUE: f64 = 0.96;

@@ -48,6 +48,18 @@ pub(super) fn area(polygon: &[DVec2]) -> f64 {
     0.5 * sides.sum::<f64>()
 }
 
+/// Where a line crosses the way between two points, each with what the line's side says of it.
+#[inline]
+fn crossing((before, was): (DVec2, f64), (p, is): (DVec2, f64)) -> Option<DVec2> {
+    if !((was < 0.0 && is > 0.0) || (was > 0.0 && is < 0.0)) {
+        return None;
+    }
+    // From the same corner whichever side is asked for: neighbours find the same point.
+    let is_first = (before.x, before.y) < (p.x, p.y);
+    let (a, b, of_a, of_b) = if is_first { (before, p, was, is) } else { (p, before, is, was) };
+    Some(a + (b - a) * (of_a / (of_a - of_b)))
+}
+
 /// Adds what of a polygon lies inside of a line.
 #[inline]
 pub(super) fn cut(polygon: &[DVec2], side: &Side, out: &mut Vec<DVec2>) {
@@ -55,12 +67,7 @@ pub(super) fn cut(polygon: &[DVec2], side: &Side, out: &mut Vec<DVec2>) {
     let mut was = side.at(before);
     for &p in polygon {
         let is = side.at(p);
-        if (was < 0.0 && is > 0.0) || (was > 0.0 && is < 0.0) {
-            // From the same corner whichever side is asked for: neighbours find the same point.
-            let is_first = (before.x, before.y) < (p.x, p.y);
-            let (a, b, of_a, of_b) = if is_first { (before, p, was, is) } else { (p, before, is, was) };
-            out.push(a + (b - a) * (of_a / (of_a - of_b)));
-        }
+        out.extend(crossing((before, was), (p, is)));
         if is >= 0.0 {
             out.push(p);
         }
@@ -105,11 +112,7 @@ fn divide(polygon: &[DVec2], side: &Side, [inside, outside]: [&mut Vec<DVec2>; 2
     let mut was = side.at(before);
     for &p in polygon {
         let is = side.at(p);
-        if (was < 0.0 && is > 0.0) || (was > 0.0 && is < 0.0) {
-            // As `cut` finds it.
-            let is_first = (before.x, before.y) < (p.x, p.y);
-            let (a, b, of_a, of_b) = if is_first { (before, p, was, is) } else { (p, before, is, was) };
-            let between = a + (b - a) * (of_a / (of_a - of_b));
+        if let Some(between) = crossing((before, was), (p, is)) {
             inside.push(between);
             outside.push(between);
         }
